@@ -15,7 +15,7 @@ LIMIT = "resource.setrlimit(resource.{}, ({}, {})); os.execv(sys.executable, [sy
 @pytest.mark.full
 @pytest.mark.cases(1)
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such limits")
-@pytest.mark.parametrize("files", [36, pytest.param(44, marks=pytest.mark.full)])
+@pytest.mark.parametrize("files", [16, 36, pytest.param(44, marks=pytest.mark.full)])
 def test_workers_that_may_not_open_enough_files_are_refused_in_one_line(scene, tmp_path, files):
     pytest.importorskip("distributed")
     limit = LIMIT.format("RLIMIT_NOFILE", files, files)

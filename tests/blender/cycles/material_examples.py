@@ -80,6 +80,19 @@ def curve(new, link, item):
     return node.outputs[0]
 
 
+def curve_beyond(extend):
+    def build(new, link, item):
+        node = new("ShaderNodeRGBCurve")
+        node.mapping.curves[1].points.new(0.4, 0.7)
+        node.mapping.curves[3].points.new(0.3, 0.2)
+        node.mapping.extend = extend
+        node.mapping.update()
+        node.inputs["Color"].default_value = 1.4, 1.1, 0.2, 1
+        return node.outputs[0]
+
+    return build
+
+
 def two_shaders(kind, first, second, factor=0.3):
     def make(item):
         new, link, out, _ = material(item)
@@ -218,6 +231,8 @@ LIT = {
     "constant ramp": colored(ramp("CONSTANT")),
     "eased ramp": colored(ramp("EASE")),
     "curve": colored(curve),
+    "curve that goes on beyond 1": colored(curve_beyond("EXTRAPOLATED")),
+    "curve that is constant beyond 1": colored(curve_beyond("HORIZONTAL")),
     "map range": colored(ranged),
     "channels": colored(separated),
     "attribute": colored(attribute),

@@ -132,6 +132,16 @@ def test_regions():
     assert wide.unseen == 0
 
 
+def test_a_search_that_ends_before_all_rays_count_has_not_converged(monkeypatch):
+    """Rays come into view as the lens gets nearer: a minimum of those of the first round is none of the sum that is
+    reported.
+    """
+    cam = crc.camera("UCM", (64, 48), fx=20.0, unified_xi=1.5)
+    assert crc.fit(cam, "DIVISION").converged
+    monkeypatch.setattr("camera_ray_caster.core.camera.fit_search.ROUNDS", 1)
+    assert not crc.fit(cam, "DIVISION").converged
+
+
 @pytest.mark.full
 def test_a_wide_fisheye_is_no_pinhole_but_in_its_middle():
     """The region that is proposed can be fitted; what a pinhole shows beyond it is farther away than the picture."""

@@ -190,3 +190,24 @@ def test_what_is_no_file_is_not_waited_for():
         entries_of(text_of("/dev/zero"), "lens")
     with pytest.raises(InputError, match="cannot be read"):
         entries_of(text_of("a\0b"), "lens")
+
+
+def test_a_gzip_file_is_whole_or_refused(tmp_path):
+    """Several members are one file, as for gunzip, and zeros may follow; a file that is cut off anywhere is refused."""
+    path, first, second = tmp_path / "lens.gz", gzip.compress(b"a: 1\n"), gzip.compress(b"b: 2\n" * 50)
+    for more in (b"", bytes(9)):
+        path.write_bytes(first + second + more)
+        assert text_of(str(path)) == "a: 1\n" + "b: 2\n" * 50
+    for cut in range(3, len(first + second)):
+        if cut != len(first):
+            path.write_bytes((first + second)[:cut])
+            with pytest.raises(InputError, match="damaged or cut off"):
+                text_of(str(path))
+
+
+@pytest.mark.parametrize(
+    "text", ["[" + "1," * 100_000 + "1]", " [[" + "2.5," * 9 + "1], [3]]", "[" + "{}," * 300_000 + "{}]"]
+)
+def test_a_list_without_names_is_refused_at_once(text):
+    with pytest.raises(InputError, match="list of"):
+        entries_of(text, "lens")

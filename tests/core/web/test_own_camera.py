@@ -35,6 +35,8 @@ REFUSED = {
 FISHEYE = "a = (2 x - W) / H\nb = (2 y - H) / H\nr = max(sqrt(a² + b²), 0.000001)\nd = (a, b, -1 / tan(r)) / r"
 MOVED = "a = x / W\no = (3 a, 0, 0)\nd = (0.1, y / H - 0.5, -1) + 0.2 (0, 0, 1) × (1, a, 0)"
 
+VECTORS = "a = (2 x - W) / H\nb = (2 y - H) / H\nd = a (1, 0, 0) + b (0, 1, 0) - (0, 0, 1) + 1 / (9, 9, -9)"
+
 
 def written(driver, text):
     """Write a text into the editor by keys."""
@@ -54,7 +56,7 @@ def test_what_is_no_formula_is_refused_in_a_line(opened, page, text):
     assert len(error) < 160
 
 
-@pytest.mark.parametrize("text", [FISHEYE, MOVED])
+@pytest.mark.parametrize("text", [FISHEYE, MOVED, VECTORS])
 def test_a_camera_is_cast_mapped_and_written_for_python(page, tmp_path, text):
     with browser(downloads=tmp_path) as driver:
         driver.get(page)

@@ -220,14 +220,22 @@ def _combine(nodes: Nodes, node: Node, output) -> Value:
 
 
 def _curve(nodes: Nodes, node: Node, output) -> Value:
-    """RGB Curves: the combined curve, then that of each channel, within 0 .. 1."""
+    """RGB Curves: the combined curve, then that of each channel, as Cycles tabulates them: between the outermost points
+    of the four curves. Beyond these the tables go on as lines, or as constants.
+    """
     mapping = node.mapping
     mapping.initialize()
-    tables = [np.array([mapping.evaluate(curve, k / (TABLE - 1)) for k in range(TABLE)]) for curve in mapping.curves]
+    ends = [(curve.points[0].location[0], curve.points[-1].location[0]) for curve in mapping.curves]
+    low, high = min(first for first, _ in ends), max(last for _, last in ends)
+    *channels, combined = mapping.curves
+    between = [mapping.evaluate(combined, x) for x in np.linspace(low, high, TABLE)]
+    tables = [np.array([[mapping.evaluate(curve, x) for x in between]]) for curve in channels]
+    goes_on = mapping.extend == "EXTRAPOLATED"
 
     def curved(color: np.ndarray) -> np.ndarray:
+        places = (color - low) / (high - low)
         return np.concatenate([
-            do.looked_up(tables[k][None], True, do.looked_up(tables[3][None], True, color[k : k + 1])) for k in range(3)
+            do.looked_up(table, True, places[k : k + 1], goes_on) for k, table in enumerate(tables)
         ])  # fmt: skip
 
     color = node.input("Color")

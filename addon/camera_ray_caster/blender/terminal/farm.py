@@ -18,6 +18,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from importlib import import_module
 from itertools import islice
+from math import inf
 from threading import Lock, current_thread, main_thread
 from typing import Any
 
@@ -36,6 +37,8 @@ START = "60s"
 """Time for a worker of this machine to start."""
 CHECK = 15
 """Seconds between two checks that a worker runs. Two checks must fail, since a killed worker may be restarting."""
+FILES, FILES_PER_WORKER = 24, 6
+"""Open files without which no cluster starts: 4 workers fail with 48 at once, with 24 after a minute, with 16 never."""
 FEWER = "give fewer --workers, or raise the limits of open files, processes and memory (ulimit)"
 POLL = 0.05
 """Seconds between two checks for finished tasks."""
@@ -88,6 +91,9 @@ def _local(workers: int) -> Iterator[str]:
 
     if bpy.app.binary_path:
         raise InputError("--workers starts Python processes and cannot start Blender: run the script with pip's bpy")
+    needed, limit = FILES + FILES_PER_WORKER * workers, _most_files()
+    if limit < needed:  # with too few, Dask's processes wait for each other without end
+        raise InputError(f"{workers} workers cannot start: too many open files for a limit of {limit}; {FEWER}")
     own = {"distributed.nanny.pre-spawn-environ": ENVIRONMENT}
     limits = {
         "threads_per_worker": 1,
@@ -106,6 +112,16 @@ def _local(workers: int) -> Iterator[str]:
             raise InputError(f"{workers} workers cannot start: {_reason(error)}; {FEWER}") from error
         with made:
             yield made.scheduler_address
+
+
+def _most_files() -> float:
+    """Return the number of files that this process may open."""
+    try:
+        import resource
+    except ModuleNotFoundError:  # Windows
+        return inf
+    soft = resource.getrlimit(resource.RLIMIT_NOFILE)[0]
+    return inf if soft == resource.RLIM_INFINITY else soft
 
 
 def _reason(error: BaseException) -> str:

@@ -32,6 +32,9 @@ SETTLED, EXACT = 1e-10, 1e-12
 """A step ends the search if it is expected to change the residual by no more than this part of it, or by this part of
 the largest pixel coordinate."""
 
+FLAT = 1e-3
+"""Largest cosine of the residuals with what changes of the parameters do, at a minimum for rays that come and go."""
+
 KEPT, LEFT = 0.99, 0.5
 """Least part of the rays that a step must keep in view, of those that it had; and of all, or the search gives up."""
 
@@ -131,13 +134,19 @@ class Search:
         seen = seen if seen.mean() >= LEFT else self.seen(values)
         for _ in range(ROUNDS):
             values, converged, counted = self._descended(values, seen)
-            if counted < LEFT:
-                return values, False, counted
-            more = self.seen(values)
-            if not (more & ~seen).any():
-                break
-            seen = more
-        return values, converged, counted
+            if counted.mean() < LEFT:
+                return values, False, counted.mean()
+            seen = self.seen(values)
+            if (seen == counted).all():
+                return values, converged, counted.mean()
+        return values, converged and self._is_least(values, seen), counted.mean()
+
+    def _is_least(self, values: np.ndarray, seen: np.ndarray) -> bool:
+        """Return whether no change of the parameters would lower the sum of squares of these rays by much."""
+        off, slopes = self.residual(values)[seen].ravel(), self.derivatives(values, seen)
+        size = np.linalg.norm(slopes, axis=0)
+        along = np.linalg.qr(slopes[:, size > 0] / size[size > 0])[0].T @ off
+        return bool(np.linalg.norm(along) <= FLAT * np.linalg.norm(off))
 
     def covariance(self, values: np.ndarray) -> np.ndarray:
         """Return the covariance of the parameters if each coordinate errs by itself with the residuals' variance."""
@@ -150,8 +159,8 @@ class Search:
         left = max(slopes.shape[0] - slopes.shape[1], 1)
         return back @ back.T * float((self.residual(values)[seen] ** 2).sum()) / left
 
-    def _descended(self, values: np.ndarray, seen: np.ndarray) -> tuple[np.ndarray, bool, float]:
-        """See ``run``; of the rays that are seen at first, each counts until a step loses it."""
+    def _descended(self, values: np.ndarray, seen: np.ndarray) -> tuple[np.ndarray, bool, np.ndarray]:
+        """See ``run``; of the rays that are seen at first, each counts until a step loses it. Last those that count."""
         damping, largest = DAMPED, np.zeros(len(values))
         off = self.residual(values)[seen].ravel()
         exact = EXACT * max(self.raster.size) * np.sqrt(len(off))
@@ -166,7 +175,7 @@ class Search:
                 step = solve(-off)
                 moved = slopes / size @ step
                 if np.linalg.norm(moved) <= max(SETTLED * np.linalg.norm(off), exact):
-                    return values, bool(damping <= 1), seen.mean()
+                    return values, bool(damping <= 1), seen
                 probe = self.residual(values + PROBE * step / size)[seen].ravel()
                 bend = solve(np.nan_to_num((moved - (probe - off) / PROBE) / PROBE))
                 if np.linalg.norm(bend) <= BENT * np.linalg.norm(step):
@@ -180,8 +189,8 @@ class Search:
                     break
                 damping *= 10
                 if damping > MOST:
-                    return values, False, seen.mean()
-        return values, False, seen.mean()
+                    return values, False, seen
+        return values, False, seen
 
 
 def _damped(slopes: np.ndarray, damping: float) -> Callable[[np.ndarray], np.ndarray]:

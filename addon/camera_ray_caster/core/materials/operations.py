@@ -161,11 +161,15 @@ def checker(place: np.ndarray, scale: np.ndarray) -> np.ndarray:
     return (((cell[0] == cell[1]) == (cell[2] == 1)) * 1.0)[None]
 
 
-def looked_up(table: np.ndarray, is_smooth: bool, position: np.ndarray) -> np.ndarray:
-    """Return the entries of a table (channels, n) at positions 0 .. 1, (1, m), interpolated or the one before."""
-    place = np.clip(np.nan_to_num(position[0]), 0, 1) * (table.shape[1] - 1)
-    before = np.floor(place).astype(np.intp)
-    found = table[:, before]
+def looked_up(table: np.ndarray, is_smooth: bool, position: np.ndarray, goes_on: bool = False) -> np.ndarray:
+    """Return the entries of a table (channels, n) at positions 0 .. 1, (1, m), interpolated or the one before. Beyond
+    its ends the table is constant, or ``goes_on`` as the line through the two last entries.
+    """
+    place = np.nan_to_num(position[0]) * (table.shape[1] - 1)
+    within = np.clip(place, 0, table.shape[1] - 1)
+    before = np.floor(within).astype(np.intp)
     if not is_smooth:
-        return found
-    return found + (place - before) * (table[:, np.minimum(before + 1, table.shape[1] - 1)] - found)
+        return table[:, before]
+    first = np.minimum(before, table.shape[1] - 2)
+    slope = table[:, first + 1] - table[:, first]
+    return table[:, before] + ((place if goes_on else within) - before) * slope

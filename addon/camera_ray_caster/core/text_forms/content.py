@@ -25,7 +25,7 @@ from .yaml_subset import YamlError, parse
 LARGEST = 1 << 28
 """Maximum size in bytes, decompressed: JSON of this size, some 250,000 frames of nerfstudio, takes 5 s to read."""
 
-PER_BYTE = 12
+PER_BYTE = 25
 """Bytes of memory that a byte of a file takes when it is read: lists of short numbers take the most."""
 
 LONGEST = 2.0
@@ -34,6 +34,10 @@ LONGEST = 2.0
 JSON_TOKEN = re.compile(r'"(?:\\.|[^"\\])*"?|//[^\n]*|-?\.(?:Nan|Inf)')
 JSON_WORDS = {"//": "", ".N": "NaN", ".I": "Infinity", "-.": "-Infinity"}
 BEYOND_JSON = "//", ".Nan", ".Inf"
+LIST_OF_NUMBERS = re.compile(r"\s*\[[\s\[]*[-+.\d]")
+"""How a list of numbers begins, or one of lists of numbers."""
+MOST_LISTED = 1 << 18
+"""Largest number of entries of a file that is a list: more take readers longer than LONGEST."""
 HALF = re.compile(r"\\u[dD][89a-fA-F]")
 """How JSON begins the halves of characters beyond 16 bits."""
 
@@ -66,6 +70,8 @@ def entries_of(text: str, path: str, check: Check | None = None) -> dict:
     check = check or deadline(path)
     entries: dict | list
     begin = text.lstrip()[:1]
+    if LIST_OF_NUMBERS.match(text):
+        raise InputError(f"calibration file {path!r} is a list of numbers without names: choose another file")
     if begin in ("{", "["):
         entries = _json(text, path, check)
     elif begin == "<":
@@ -81,6 +87,8 @@ def entries_of(text: str, path: str, check: Check | None = None) -> dict:
             raise InputError(f"calibration file {path!r} is {reason}") from error
     if not entries:
         raise InputError(f"calibration file {path!r} is empty")
+    if isinstance(entries, list) and len(entries) > MOST_LISTED:
+        raise InputError(f"calibration file {path!r} is a list of {len(entries)} entries, too many for cameras")
     return entries if isinstance(entries, dict) else {str(number): one for number, one in enumerate(entries)}
 
 
@@ -152,14 +160,28 @@ def content_of(path: str) -> bytes:
     if not content.startswith(GZIP):
         return content
     try:
-        unpacking = zlib.decompressobj(wbits=31)
-        content = unpacking.decompress(content, LARGEST)
-        if unpacking.unconsumed_tail:
-            raise too_large
-        memory.require(PER_BYTE * len(content), f"the entries of calibration file {path!r}", "give a part of it")
-        return content + unpacking.flush()
+        content = _unpacked(content)
     except zlib.error as error:
-        raise InputError(f"{refusal}: it begins as a file of gzip, but is damaged") from error
+        raise InputError(f"{refusal}: it begins as a file of gzip, but is damaged or cut off") from error
+    if len(content) > LARGEST:
+        raise too_large
+    memory.require(PER_BYTE * len(content), f"the entries of calibration file {path!r}", "give a part of it")
+    return content
+
+
+def _unpacked(content: bytes) -> bytes:
+    """Return the content of all members of a gzip file; if it is more than LARGEST, the first bytes of it. Zeros may
+    follow the last member, as on tapes. Raises zlib.error for a file that is damaged or cut off.
+    """
+    parts, size = [], 0
+    while content and size <= LARGEST:
+        unpacking = zlib.decompressobj(wbits=31)
+        parts.append(unpacking.decompress(content, LARGEST + 1 - size))
+        size += len(parts[-1])
+        if size <= LARGEST and not unpacking.eof:
+            raise zlib.error("the file ends within a member")
+        content = unpacking.unused_data.lstrip(b"\0")
+    return b"".join(parts)
 
 
 def decoded(content: bytes, path: str) -> str:

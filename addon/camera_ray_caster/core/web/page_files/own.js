@@ -111,7 +111,9 @@ import numpy as np
 
 
 class vector(tuple):
-    """Three numbers, each with the operations of one."""
+    """Three numbers, each with the operations of one; numpy's arrays leave these to it."""
+
+    __array_ufunc__ = None
 
     def __new__(cls, *parts):
         return super().__new__(cls, parts)
