@@ -54,6 +54,10 @@ OURS = {
     )},
     "omnimax": {"model": "OMNIMAX", "aperture_blades": 6, "aperture_rotation": 0.2},
     "cylinder of another height": {"model": "CYLINDRICAL", "aperture_ratio": 1.5},
+    "tilted sensor": {
+        "model": "OPENCV_PINHOLE", "calibration_width": 64, "calibration_height": 64, "fx": 89.0, "fy": 89.0,
+        "cx": 31.5, "cy": 30.0, "tau_x": 0.03, "tau_y": -0.02, "aperture_blades": 5,
+    },
     "camera obscura": {"model": "CAMERA_OBSCURA", "obscura_hole": 0.4, "use_dof": False},
 }  # fmt: skip
 """Cameras that are custom ones, with our shader."""
@@ -109,7 +113,8 @@ def test_rays_pass_through_the_focus_and_fill_the_opening(blender, case, custom,
         (vectors[seen] - offset) @ basis
         for vectors, offset in ((chief.origins, eye), (chief.directions, 0), (end, eye), (direction, 0))
     )
-    reach = aperture.focus / -chief[:, 2:] if camera.model.planar else aperture.focus
+    sharp = aperture.sharpness((chief / -chief[:, 2:]).T)[:, None] if aperture.tilt else 1 / aperture.focus
+    reach = 1 / sharp / -chief[:, 2:] if camera.model.planar else aperture.focus
     focus = origins + reach * chief
     miss = np.linalg.norm(np.cross(end - focus, direction), axis=1)
     # float32: the end within 8 roundings of the box, the direction of the chief ray within 1e-5 where it leaves

@@ -20,10 +20,11 @@ from ..conventions import gamma
 from ..maths.panels import on_raster
 from ..maths.recording.scalars import plain
 from ..maths.vector import components
-from ..records import BlenderCamera, Raster
+from ..records import BlenderCamera, Pose, Raster
 from .model import IN_CASTS, NOWHERE, Step, WindowModel
+from .parts.aperture import Aperture
 from .parts.calibration import CALIBRATION, PINHOLE, Calibration
-from .parts.film import OFF_AXIS
+from .parts.film import OFF_AXIS, Film, raster_from
 from .parts.radial import DISTORTED, up_to
 from .parts.radial_tangential import RadialTangential
 from .parts.silhouette import angular_radius, pixel_bounds, radial_intervals
@@ -91,12 +92,17 @@ class OpencvPinhole(WindowModel):
     @cached_property
     def _reach(self) -> float:
         """An upper bound of the undistorted radii in the frame, which are largest at its edge."""
+        radius = np.hypot(*self._undistorted(*self._edge))
+        return self.distortion.limit if np.isnan(radius).any() else EDGE_MARGIN * float(radius.max())
+
+    @property
+    def _edge(self) -> tuple[np.ndarray, np.ndarray]:
+        """Pixel coordinates x and y on the edge of the frame, a pixel outside."""
         width, height = self.frame
         ends = [np.linspace(-1.0, side + 1.0, EDGE_POINTS) for side in (width, height)]
         x = np.concatenate((ends[0], ends[0], *np.full((2, EDGE_POINTS), ((-1.0,), (width + 1.0,)))))
         y = np.concatenate((*np.full((2, EDGE_POINTS), ((-1.0,), (height + 1.0,))), ends[1], ends[1]))
-        radius = np.hypot(*self._undistorted(x, y))
-        return self.distortion.limit if np.isnan(radius).any() else EDGE_MARGIN * float(radius.max())
+        return x, y
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OpencvPinhole:
@@ -110,6 +116,22 @@ class OpencvPinhole(WindowModel):
     def off_axis(cls, raw: BlenderCamera, slope: float) -> BlenderCamera:
         """See Model: exactly for an undistorted lens, which sees the point that far from its center."""
         return replace(raw, settings={**raw.settings, OFF_AXIS: slope})
+
+    def aperture(self, raw: BlenderCamera, pose: Pose) -> Aperture | None:
+        """See Model. A tilted sensor tilts the plane of focus; the focal length is Blender's, and a pixel as large as
+        on Blender's sensor. Distortion does not move the plane.
+        """
+        lens = super().aperture(raw, pose)
+        focal = raw.lens * 1e-3
+        if lens is None or not self.tilt or lens.focus <= focal:
+            return lens
+        film = Film.from_blender(raw, raster_from(raw))
+        size = 1e3 / (1 / focal - 1 / lens.focus) / (self.K[0, 0] * film.size / film.fitted_pixels)
+        across, down = self.tilt.slopes
+        lens = replace(lens, tilt=(focal, across, -down, size))
+        x, y = self._edge
+        sharp = lens.sharpness(self.rays(x, y)[1])
+        return replace(lens, nearest=(float(np.nanmin(sharp)), float(np.nanmax(sharp))))
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, direction_z = -1.

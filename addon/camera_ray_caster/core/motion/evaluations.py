@@ -270,7 +270,7 @@ def _change(state: State, truth: State) -> float:
 def _lens(camera: Camera) -> np.ndarray:
     """Return the numbers of a camera that change what its rays show, but not the rays through pixel centers."""
     opening = camera.aperture
-    numbers = () if opening is None else (opening.radius, opening.focus, opening.rotation, opening.ratio)
+    numbers = () if opening is None else (opening.radius, opening.focus, opening.rotation, opening.ratio, *opening.tilt)
     return np.array((camera.clip_start, camera.clip_end, *numbers))
 
 

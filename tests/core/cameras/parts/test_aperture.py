@@ -11,6 +11,8 @@ from camera_ray_caster.core.cameras.parts.aperture import Aperture
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.records import PLANE, SPHERE, BlenderCamera, InputError, Shapes
 
+from ..model_examples import camera as example
+
 LENS = {
     "use_dof": True, "focus_distance": 4.0, "focus_position": None, "aperture_fstop": 0.5, "aperture_blades": 0,
     "aperture_rotation": 0.0, "aperture_ratio": 1.0,
@@ -49,6 +51,30 @@ def test_planar_cameras_are_sharp_on_the_plane_of_focus(kind):
     assert np.ptp(origins, axis=0)[:2] == pytest.approx(
         [0.1, 0.1] if kind == "PERSP" else [2.0, 2.0], rel=1e-9
     )  # 50 mm at f/0.5 opens 10 cm; an orthographic lens 1 / fstop
+
+
+def test_a_tilted_sensor_tilts_the_plane_of_focus():
+    """By the thin lens: 50 mm, 65 pixels of 0.45 mm; a point (x, y) of the sensor, y down, is farther from the lens by
+    the third row of the transpose of OpenCV's rotation. If K's image plane is at the sensor's distance, all points of
+    focus are on one plane.
+    """
+    far = 1 / (1 / 50 - 1 / 3000)
+    for focal in (111.0, far / 0.45):
+        settings = {"fx": focal, "fy": focal, "cx": 32.0, "cy": 32.0, "calibration_width": 65, "calibration_height": 65,
+                    "tau_x": 0.2, "tau_y": -0.1, "focus_distance": 3.0}  # fmt: skip
+        size = {"resolution_x": 65, "resolution_y": 65, "sensor_width": 29.25}
+        cam = example("OPENCV_PINHOLE", LENS | settings | size)
+        found = []
+        for x, y in ((32.5, 32.5), (32.5, 20.5), (50.5, 14.5), (20.5, 60.5)):
+            across, down = 0.45 * (x - 32.5), 0.45 * (32.5 - y)
+            distance = far + np.sin(0.2) * down - np.sin(-0.1) * np.cos(0.2) * across
+            origins, directions = edges_of_opening(cam, x, y)
+            meet = origins + directions / (1 / 50 - 1 / distance) / 1000
+            assert np.ptp(meet, axis=0).max() < 1e-9
+            found.append(meet[0])
+        assert found[0] == pytest.approx((0, 0, -3), abs=1e-12)
+    corners = np.array(found) - found[0]
+    assert abs(np.linalg.det(corners[1:])) < 1e-9
 
 
 def test_panoramas_are_sharp_on_the_sphere_of_focus():
@@ -139,7 +165,7 @@ def test_samples_of_a_sharp_camera_only_smooth_its_edges():
     assert ((many["combined"][..., 0] > 0) & (many["combined"][..., 0] < 0.2)).any()
 
 
-@pytest.mark.parametrize("kind", ["PERSP", "ORTHO", "PANO"])
+@pytest.mark.parametrize("kind", ["PERSP", "ORTHO", "PANO", "TILTED"])
 def test_culling_loses_nothing_that_a_blurred_camera_sees(kind):
     rng = np.random.default_rng(3)
     n = 30
@@ -149,7 +175,11 @@ def test_culling_loses_nothing_that_a_blurred_camera_sees(kind):
                    rng.uniform(0, 1, (n, 4)).astype(np.float32), ones * 0, ("s",))  # fmt: skip
     settings = LENS | {"panorama_type": "EQUIRECTANGULAR", "longitude_min": -2.0, "longitude_max": 2.0,
                        "latitude_min": -1.0, "latitude_max": 1.0, "aperture_fstop": 0.08}  # fmt: skip
-    blurred = camera(settings, type=kind, clip_start=0.01)
+    if kind == "TILTED":
+        tilted = {"resolution_x": 65, "resolution_y": 65, "fx": 50.0, "fy": 50.0, "tau_x": 0.2, "clip_start": 0.01}
+        blurred = example("OPENCV_PINHOLE", settings | tilted)
+    else:
+        blurred = camera(settings, type=kind, clip_start=0.01)
     pictures = [cast(blurred, scene, ("combined",), samples=4, cull=cull)["combined"] for cull in (True, False)]
     assert np.array_equal(*pictures)
 

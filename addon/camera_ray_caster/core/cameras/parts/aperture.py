@@ -5,6 +5,9 @@ is sharp and everything else is blurred. For a lens the surface lies before the 
 back wall, behind the opening at a negative distance: the ray of a wall's point through l runs away from that point.
 Both are geometric optics, without diffraction.
 
+Behind a tilted sensor the image distance differs from pixel to pixel, and with it the depth that is sharp: the plane of
+focus is tilted, too (Scheimpflug). Where the image distance is no longer than the focal length, rays meet nowhere.
+
 Sources: Blender manual, Cameras > Depth of Field; R. L. Cook, T. Porter, L. Carpenter, Distributed Ray Tracing (1984).
 Cycles does the same: planar cameras are sharp on the plane at depth focus, panoramas on the sphere |p| = focus.
 """
@@ -40,6 +43,13 @@ class Aperture:
     """Rotation of the polygon in radians: at 0 the middle of a side lies on the +x axis."""
     ratio: float = 1.0
     """Divisor of the width, for an anamorphic bokeh."""
+    tilt: tuple[float, ...] = ()
+    """Of a planar camera with a tilted sensor: the focal length; the slopes a, b of the sensor, whose image distance
+    over that on the axis is 1 / (1 + a X + b Y) for the direction (X, Y, -1); and the image distance on the axis over
+    that by which the model's image plane has its size. Empty if the sensor is upright.
+    """
+    nearest: tuple[float, ...] = ()
+    """Of a tilted sensor: the least and the largest of one over the depth of the surface of focus in the frame."""
     axis: tuple[float, float, float] = FORWARD
     """Direction in the camera's frame whose part perpendicular to the chief ray is the x of a panorama's opening."""
 
@@ -82,6 +92,10 @@ class Aperture:
         If ``planar``, direction_z stays -1, the opening lies in z = origin_z and focus is a depth. Otherwise the
         opening is perpendicular to the chief ray, as in Cycles; directions keep unit length and focus is a distance.
         """
+        if planar and self.tilt:
+            sharp = self.sharpness(direction)
+            there = direction[0] - x * sharp, direction[1] - y * sharp, direction[2]
+            return (origin[0] + x, origin[1] + y, origin[2]), there
         if planar:
             return (origin[0] + x, origin[1] + y, origin[2]), (
                 direction[0] - x / self.focus,
@@ -98,14 +112,27 @@ class Aperture:
         focus = tuple(self.focus * component for component in direction)
         return along(origin, opening, 1.0), unit(difference(focus, opening))
 
+    def sharpness(self, direction):
+        """Return one over the depth that is sharp on a chief ray (X, Y, -1); 0 or less where rays meet nowhere.
+
+        A point of the sensor beside the axis is as much farther from the lens as the tilted plane takes it.
+        """
+        focal, across, up, size = self.tilt
+        further = 1 / (1 + across * direction[0] + up * direction[1]) - 1
+        return 1 / focal - (1 / focal - 1 / self.focus) / (1 + further / size)
+
     def blur(self, distance, radius):
         """Return how much bounding spheres must grow so that, seen through the eye alone, they cover their blur.
 
         A point at distance s, seen through the point l of the opening, appears where the eye would see the point moved
         by -l (1 - s / focus). distance, along the axis for planar cameras, and radius of the spheres: (n,) arrays.
         """
-        ends = np.abs(1 - (distance - radius) / self.focus), np.abs(1 - (distance + radius) / self.focus)
-        return self.widest * np.maximum(1.0, np.maximum(*ends))
+        depths = distance - radius, distance + radius
+        if self.nearest:
+            ends = [np.abs(1 - depth * sharp) for depth in depths for sharp in self.nearest]
+        else:
+            ends = [np.abs(1 - depth / self.focus) for depth in depths]
+        return self.widest * np.maximum.reduce([np.ones_like(distance), *ends])
 
 
 SMALLEST = 1e-5
