@@ -13,15 +13,11 @@ import bpy
 from ...core.annotations.coco import Sheet, as_text, document, merged_text
 from ...core.annotations.keypoints import seen_key_points
 from ...core.cast import Images
+from ...core.sets.reading import ANNOTATIONS
+from ...core.sets.reading import COCO as ENDING
 from ..read.frames import frame_of
 from ..read.keypoints import key_points
 from ..read.unique import find_unique
-
-ENDING = "_coco.json"
-"""Ending of the name of a picture's annotation file."""
-
-WHOLE = "annotations.json"
-"""Name of the annotation file of a run."""
 
 CATEGORY = "category"
 """Name of the custom property that holds an object's category."""
@@ -59,7 +55,7 @@ def merged_files(
     The jobs, which have their names, are iterated twice.
     """
     if any(True for _ in jobs):
-        yield WHOLE, merged_text(Documents(folder, jobs, suffixes), folder)
+        yield ANNOTATIONS, merged_text(Documents(folder, jobs, suffixes), folder)
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,7 @@ from ...core.exports.writing import write
 from ...core.file_set import Taken, atomic_folder, clear_up
 from ...core.records import InputError
 from ...core.sets import companions, shares
+from ...core.sets.reading import DATASET
 from ...core.sets.run import Run
 from ..output.annotations import merged_files
 from ..output.points import KITTI, collect_sequences
@@ -33,7 +34,6 @@ from .jobs import Jobs, PictureJob, RayMap, first_jobs
 from .pictures import Pictures, of_job
 from .ray_maps import made_map
 
-NAME = "dataset.json"
 MOST_NAMES = 10
 """Number of missing pictures that are named."""
 
@@ -88,13 +88,13 @@ def completed(options: Namespace) -> tuple[str, bool]:
     """
     folder = options.file
     try:
-        found = json.loads((folder / NAME).read_text(encoding="utf-8"))
+        found = json.loads((folder / DATASET).read_text(encoding="utf-8"))
         stamp, run = {key: value for key, value in found.items() if key != "run"}, Run.of_data(found["run"])
         settings = stamp["settings"]
         asked = Namespace(output=folder, dataset=True, annotations=settings["annotations"],
                           keypoints=settings["keypoints"], points=settings["points"])  # fmt: skip
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise InputError(f"{str(folder)!r} has no {NAME} of this version: give the folder of a data set") from error
+        raise InputError(f"{str(folder)!r} has no {DATASET} of this version: give the folder of a data set") from error
     clear_up(folder)
     jobs = Jobs(lambda: (PictureJob(*one, one.name) for one in run.pictures()))
     maps = {camera: _map_of(folder, name) for camera, name in run.cameras.items()}
@@ -130,8 +130,8 @@ def _claim(folder: Path, stamp: dict[str, Any], run: Run | None = None) -> None:
     content = {**stamp, "run": run.as_data()} if run else stamp
     text = json.dumps(content, indent=2) + "\n"
     with suppress(Taken), atomic_folder(folder, replacing=False) as new:
-        (new / NAME).write_text(text, encoding="utf-8")
-    path = folder / NAME
+        (new / DATASET).write_text(text, encoding="utf-8")
+    path = folder / DATASET
     try:
         found = json.loads(path.read_text(encoding="utf-8"))
         others = differing(stamp, found)
@@ -149,4 +149,4 @@ def _claim(folder: Path, stamp: dict[str, Any], run: Run | None = None) -> None:
             "choose another folder"
         )
     with atomic_folder(folder) as new:
-        (new / NAME).write_text(text, encoding="utf-8")
+        (new / DATASET).write_text(text, encoding="utf-8")

@@ -7,9 +7,11 @@ have row 0 at the bottom, as in NPZ files; files of pictures begin at the top.
 from __future__ import annotations
 
 import json
+import os
+import sys
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from operator import attrgetter
 from pathlib import Path
 from typing import Any
@@ -25,6 +27,8 @@ from ..records import InputError
 from . import channels
 
 COCO = "_coco.json"
+DATASET, ANNOTATIONS = "dataset.json", "annotations.json"
+NO_REPORTS = COCO, DATASET, ANNOTATIONS
 
 TRAIN, VALIDATION = "train", "val"
 
@@ -36,11 +40,24 @@ class View:
     folder: Path
     name: str
     """Name of its files without an ending."""
-    report: Mapping[str, Any]
+    of: str
+    """Name of its report without the ending."""
+    camera_name: str
+    """Name of its camera, or of the eye, in names of files."""
+    frame: float
+    title: str
+    """Name of its camera in Blender."""
+    is_recorded: bool
+    """Whether the report has the record of its camera."""
     eye: str = ""
     """Name of its view in a stereo scene; "" otherwise."""
     split: str = ""
     """TRAIN or VALIDATION; "" in a set that is not split."""
+
+    @property
+    def report(self) -> Mapping[str, Any]:
+        """Return its report."""
+        return _report(self)
 
     @property
     def _own(self) -> Mapping[str, Any]:
@@ -53,30 +70,15 @@ class View:
         return self._own["camera"]
 
     @property
-    def camera_name(self) -> str:
-        """Return the name of its camera, or of the eye, in names of files."""
-        return file_name(str(self.report["camera"]["name"])) + self._own.get("suffix", "")
-
-    @property
-    def is_recorded(self) -> bool:
-        """Whether the report has the record of its camera."""
-        return self._own.get("record") is not None
-
-    @property
     def file(self) -> Path:
         """Return the path of its file of passes, NPZ or EXR."""
         exr = f"{self.name}.exr"
         return self.folder / (exr if exr in self.report["made"]["files"] else f"{self.name}.npz")
 
-    @cached_property
+    @property
     def camera(self) -> Camera:
         """Return its camera, with the rays that were cast."""
-        return camera_from_json(json.dumps(self.report), camera=self.eye or None)
-
-    @property
-    def frame(self) -> float:
-        """Return its frame."""
-        return float(self.report["frame"])
+        return _camera(self)
 
     @property
     def basis(self) -> np.ndarray:
@@ -103,20 +105,16 @@ class View:
         name = self.camera_name.removesuffix(suffix)
         return Shot(name, self.frame, self.camera, self.meters, suffix=suffix, rate=self.frame_rate)
 
-    @cached_property
+    @property
     def picture(self) -> bytes | None:
         """Return the PNG of the picture; None if the combined pass was not cast."""
         path = self.folder / f"{self.name}.png"
         return path.read_bytes() if path.is_file() else None
 
-    @cached_property
+    @property
     def annotations(self) -> dict[str, Any]:
         """Return the annotations of the picture. Raises InputError if it has none."""
-        path = self.folder / f"{self.name}{COCO}"
-        try:
-            return json.loads(path.read_text(encoding="utf-8"))
-        except (OSError, ValueError) as error:
-            raise InputError(f"{str(path)!r} cannot be read: make the set with --annotations") from error
+        return _annotations(self)
 
     def has(self, key: str) -> bool:
         """Whether a pass is in the file of passes."""
@@ -171,6 +169,31 @@ class View:
         return self.framed(np.where(hit, depth, 0.0))
 
 
+HELD = 8
+"""Number of views whose reports and cameras are held: those of one frame are compared in pairs. What a view has is read
+when it is asked for, so that a set of any size takes the memory of a few pictures.
+"""
+
+
+@lru_cache(maxsize=HELD)
+def _report(view: View) -> Mapping[str, Any]:
+    return json.loads((view.folder / f"{view.of}.json").read_text(encoding="utf-8"))
+
+
+@lru_cache(maxsize=HELD)
+def _camera(view: View) -> Camera:
+    return camera_from_json(json.dumps(view.report), camera=view.eye or None)
+
+
+@lru_cache(maxsize=1)
+def _annotations(view: View) -> dict[str, Any]:
+    path = view.folder / f"{view.name}{COCO}"
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise InputError(f"{str(path)!r} cannot be read: make the set with --annotations") from error
+
+
 @lru_cache(maxsize=2)
 def _opened(view: View) -> Mapping[str, np.ndarray]:
     """Return the passes of a view. Two are held, for pairs: an EXR is read whole, and an NPZ stays open."""
@@ -183,7 +206,7 @@ def _opened(view: View) -> Mapping[str, np.ndarray]:
         raise InputError(f"{str(path)!r} cannot be read: make the set with --format NPZ or EXR") from error
 
 
-def views_of(path: Path) -> list[View]:
+def views_of(path: Path, folder: Path | None = None) -> list[View]:
     """Return the views of a report, two of a stereo scene; none if it is no report, that of a ray map, or lists no file
     of passes. Their cameras may be unrecorded.
     """
@@ -192,30 +215,50 @@ def views_of(path: Path) -> list[View]:
         of = report["made"].get("of", {})
         is_map = of.get("rays") is not None and of.get("frame") is None
         names = list(report["made"]["files"]) if "record" in report and not is_map else []
-        eyes = {eye: str(one["suffix"]) for eye, one in report.get("views", {}).items()} or {"": ""}
+        eyes = {eye: one for eye, one in report.get("views", {}).items()} or {"": report}
+        suffixes = {eye: str(one.get("suffix", "")) for eye, one in eyes.items()}
+        title, frame = sys.intern(str(report["camera"]["name"])), float(report["frame"])
+        camera = file_name(title)
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return []
     stems = [one.rsplit(".", 1)[0] for one in names if one.endswith((".npz", ".exr"))]
     own = [one for one in (*stems, *names) if one.startswith(path.stem)]
-    if own and eyes == {"": ""}:
-        return [View(path.parent, path.stem, report)]
-    found = ((eye, next((one for one in own or stems if one.endswith(suffix)), None)) for eye, suffix in eyes.items())
-    return [View(path.parent, name, report, eye) for eye, name in found if name is not None]
+    found = {eye: next((one for one in own or stems if one.endswith(end)), None) for eye, end in suffixes.items()}
+    if own and not report.get("views"):
+        found = {"": path.stem}
+    return [
+        View(folder or path.parent, name, path.stem, camera + suffixes[eye], frame, title,
+             eyes[eye].get("record") is not None, eye)
+        for eye, name in found.items() if name is not None
+    ]  # fmt: skip
 
 
 def read_set(folder: Path) -> list[View]:
     """Return the views of a set, by camera and frame. Raises InputError, in one line, for a folder without any."""
-    views = [view for path in sorted(folder.glob("*.json")) for view in views_of(path) if view.is_recorded]
+    views = []
+    for place in (folder, *_folders(folder)):
+        names = sorted(os.listdir(place)) if place.is_dir() else []
+        reports = (name for name in names if name.endswith(".json") and not name.endswith(NO_REPORTS))
+        views += [view for name in reports for view in views_of(place / name, place) if view.is_recorded]
     if not views:
         raise InputError(f"{str(folder)!r} has no pictures with reports: make a set with cast.py or dataset.py")
     return sorted(views, key=lambda view: (view.camera_name, view.frame))
+
+
+def _folders(folder: Path) -> list[Path]:
+    """Return the folders that hold the pictures of a set, if it was made with any."""
+    try:
+        several = json.loads((folder / DATASET).read_text(encoding="utf-8"))["run"]["folders"]
+    except (OSError, ValueError, KeyError, TypeError):
+        return []
+    return sorted(path for path in folder.iterdir() if path.is_dir() and path.name[0] != ".") if several else []
 
 
 def chosen(views: Sequence[View], cameras: Sequence[str] = (), frames: Collection[float] = ()) -> list[View]:
     """Return the views of some cameras, by their names or those of their eyes, and of some frames; by default of all.
     Raises InputError for a camera or frames that the set does not have.
     """
-    names = {view: (str(view.report["camera"]["name"]), view.camera_name) for view in views}
+    names = {view: (view.title, view.camera_name) for view in views}
     for name in cameras:
         if not any(name in own for own in names.values()):
             raise InputError(

@@ -22,11 +22,13 @@ def passes_in(path):
 
 def views(folder=Path(__file__).parent):
     """Yield the name, the report and the passes by name of each picture; ``report["camera"]`` has K and the pose."""
-    for path in sorted((*folder.glob("*.npz"), *folder.glob("*.exr"))):
+    dataset = folder / "dataset.json"
+    common = json.loads(dataset.read_text(encoding="utf-8")).get("common", {}) if dataset.is_file() else {}
+    for path in sorted((*folder.rglob("*.npz"), *folder.rglob("*.exr"))):
         stems = path.stem, path.stem.rpartition("_")[0]  # without the suffix of a stereo view
-        reports = [folder / f"{one}.json" for stem in stems for one in (stem, f"report_{stem.rpartition('_')[2]}")]
+        reports = [path.parent / f"{one}.json" for stem in stems for one in (stem, f"report_{stem.rpartition('_')[2]}")]
         for report in [one for one in reports if one.is_file()][:1]:
-            yield path.stem, json.loads(report.read_text(encoding="utf-8")), passes_in(path)
+            yield path.stem, {**common, **json.loads(report.read_text(encoding="utf-8"))}, passes_in(path)
 
 
 if __name__ == "__main__":
