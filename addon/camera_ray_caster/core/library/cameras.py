@@ -19,6 +19,7 @@ from ..cameras.parts.calibration import FILE, SIZE
 from ..cameras.parts.pose import pose_matrix
 from ..cameras.parts.settings import RECORD_FIELDS, Line
 from ..records import BlenderCamera, InputError
+from .file_poses import pose_in_file
 from .left_out import completed
 from .models import models
 from .values import a_number, line_in_words, plain
@@ -112,7 +113,8 @@ def load_calibration(
 
     camera: name of the camera in the file; default the only one.
     size: (width, height) of the picture; default that of the calibrated picture, which is scaled to another size.
-    pose: as in ``camera``.
+    pose: as in ``camera``; default that of the file, if it has one pose of the camera. Poses in meters become Blender
+        units of 1 m. If it has several, a ``UserWarning`` says that they are left out.
     model: key of the model of a file that does not name its own, such as "OPENCV_FISHEYE" for one of OpenCV.
 
     Raises InputError, in one line, for a file that cannot be read, has no such camera, or does not state its size.
@@ -133,6 +135,7 @@ def load_calibration(
             raise InputError(f"calibration file {file!r} does not tell the size of its pictures: give size=")
     linked = {"calibration_file": file, "calibration_camera": chosen}
     settings = linked if FILE in models()[lens.model].SETTINGS else lens.settings
+    pose = pose_in_file(file, lens, model, tuple(size)) if pose is None else pose
     return _of_model(lens.model, size, pose, name=lens.name or "Camera", **settings)
 
 

@@ -57,6 +57,11 @@ def read(document: Document, key: str) -> list[Lens] | None:
     return [table(document, directions, origins, area, arrays.get("pose"))]
 
 
+def pose_in(document: Document) -> np.ndarray | None:
+    """Return the pose, (4, 4) to the world, of a document that ``read`` has read; None if it has none."""
+    return _arrays(document).get("pose") if document.data.startswith(ZIP) else None
+
+
 def table(document: Document, directions: np.ndarray, origins: np.ndarray | None, area, pose=None) -> Lens:
     """Return the lens of rays in the camera's frame, or with its pose, (4, 4), in the world; area: see ``ray_area``."""
     settings: dict[str, Any] = {"ray_area": tuple(area.tolist())}

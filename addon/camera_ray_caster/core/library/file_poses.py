@@ -1,0 +1,57 @@
+"""The pose of a camera that a calibration file has beside its lens."""
+
+from __future__ import annotations
+
+import re
+import warnings
+
+import numpy as np
+
+from ..maths.rotations import polar
+from ..programs import ray_arrays
+from ..programs.parts.document import Document
+from ..programs.parts.lens import Lens
+from ..programs.reading.mounted import mounted
+from ..records import InputError
+
+ENTRY = re.compile(
+    r"\b((?:\w+_)?(?:[Rr]otation|[Tt]ranslation|[Ee]xtrinsic|[Pp]ose|[Qq]uaternion|[rt]vec)s?|T|T_\w+)[\"']?\s*[:>]"
+)
+"""Names of entries in which files have poses."""
+
+RATE = 24.0
+"""Frames in a second, by which the times of a file become frames; only their number counts here."""
+
+CALLER = 3
+"""Levels of functions from the warning up to the user's line."""
+
+
+def pose_in_file(path: str, lens: Lens, model: str, frame: tuple[int, int]) -> np.ndarray | None:
+    """Return the pose of a lens in a file, (4, 4) from Blender's camera frame to the file's, as the nearest rotation;
+    None if the file has none. The world is the file's: of Kalibr's cameras OpenCV's axes of the first one. Warns, and
+    returns None, if the file has several poses of the lens, or bad ones.
+    """
+    document = Document(path)
+    if document.is_binary:  # tables of rays, and COLMAP's cameras, whose images are another file
+        return ray_arrays.pose_in(document)
+    try:
+        cameras = mounted(path, model, frame, RATE)
+    except InputError as error:
+        entry = ENTRY.search(document.text)
+        if "it has no" not in str(error):
+            warnings.warn(f"the poses in {path!r} are left out: {error}", stacklevel=CALLER)
+        elif entry:
+            warnings.warn(
+                f"the poses that {path!r} may have in {entry[1]!r} are not read: give pose=", stacklevel=CALLER
+            )
+        return None
+    poses = [pose for camera in cameras for own, pose in zip(camera.lenses, camera.poses, strict=False) if own == lens]
+    if len(poses) > 1:
+        warnings.warn(
+            f"the {len(poses)} poses of camera {lens.name!r} in {path!r} are left out: give pose=", stacklevel=CALLER
+        )
+    if len(poses) != 1:
+        return None
+    pose = poses[0].copy()
+    pose[:3, :3] = polar(pose[None, :3, :3])[0][0]
+    return pose
