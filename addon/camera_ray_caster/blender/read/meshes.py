@@ -7,6 +7,7 @@ import numpy as np
 from ...core.mesh import Mesh
 from ...core.shapes.mesh.displaced import MeshNormals
 from ...core.shapes.recognize import MeshArrays
+from .corner_normals import SPLITS, smooth_across
 
 
 def vertices(mesh) -> np.ndarray:
@@ -95,6 +96,8 @@ def _normals(mesh, arrays: MeshArrays, by_vertex: bool) -> np.ndarray | None:
     corners = mesh.vertex_normals if domain == "POINT" else mesh.corner_normals
     if free is None:
         normals = copied(corners, "vector", np.float32, 3).reshape(-1, 3)
+        if SPLITS and domain == "CORNER":
+            smooth_across(normals, arrays, _sharp(mesh, arrays))
     else:  # of any length; as corner normals, Blender 4.5 and 5.0 return freed memory
         normals = fetched(free.data, "vector", np.float32, 3).reshape(-1, 3)
         lengths = np.sqrt((normals * normals).sum(axis=1, keepdims=True))
@@ -103,13 +106,28 @@ def _normals(mesh, arrays: MeshArrays, by_vertex: bool) -> np.ndarray | None:
         return normals
     normals = normals[arrays.loop_vertices]
     if free is not None and not is_smooth(mesh):  # they count for nothing on flat faces
-        face = np.repeat(np.arange(len(mesh.polygons)), np.diff(arrays.loop_starts, append=len(normals)))
+        face = _faces(arrays)
         flat = _flat(mesh)[face]
         if flat.all():
             return None
         # not polygon_normals, which Blender 5.0 returns wrong beside such normals
         normals[flat] = fetched(mesh.polygons, "normal", np.float32, 3).reshape(-1, 3)[face[flat]]
     return normals
+
+
+def _sharp(mesh, arrays: MeshArrays) -> np.ndarray:
+    """Return which edges are sharp, or next to a flat face, (e,) bool."""
+    sharp = mesh.attributes.get("sharp_edge")
+    edges = np.zeros(len(mesh.edges), bool) if sharp is None else fetched(sharp.data, "value", bool)
+    if not is_smooth(mesh):
+        edges[arrays.loop_edges[_flat(mesh)[_faces(arrays)]]] = True
+    return edges
+
+
+def _faces(arrays: MeshArrays) -> np.ndarray:
+    """Return the face of each corner, (l,)."""
+    counts = np.diff(arrays.loop_starts, append=len(arrays.loop_vertices))
+    return np.repeat(np.arange(len(arrays.loop_starts)), counts)
 
 
 def _free(mesh):
