@@ -1,10 +1,16 @@
 """Unit Scale: what is written in meters is read in meters, by every writer and reader."""
 
+import struct
 from dataclasses import replace
+from io import BytesIO
 
 import numpy as np
 import pytest
 
+import camera_ray_caster as crc
+from camera_ray_caster.core.clouds.formats import FORMATS as CLOUDS
+from camera_ray_caster.core.clouds.formats import files_of
+from camera_ray_caster.core.clouds.sequences import sequence
 from camera_ray_caster.core.exports import FORMATS, export
 from camera_ray_caster.core.exports.format import Shot
 from camera_ray_caster.core.exports.writing import write
@@ -13,6 +19,7 @@ from camera_ray_caster.core.programs.parts.document import Document
 from camera_ray_caster.core.programs.parts.placed import Placed
 from camera_ray_caster.core.programs.reading import poses
 from camera_ray_caster.core.programs.reading.mounted import mounted
+from camera_ray_caster.core.units import UNIT_SCALE
 
 from .cameras.model_examples import camera
 from .exports.shots import pose
@@ -61,6 +68,54 @@ def test_cameras_come_back_at_any_unit_scale(tmp_path, chosen):
             first[:3, :3] = np.eye(3)
         for place, shot in zip(found.poses, given, strict=False):
             assert np.allclose(place[:3, 3] + first[:3, 3], shot.camera.pose.eye, rtol=0, atol=1e-6)
+
+
+def heights(key, files):
+    """The heights of points in the sensor's axes, and in the file's unit."""
+    if key == "las":
+        (content,) = files.values()
+        start, count = struct.unpack_from("<I", content, 96)[0], struct.unpack_from("<Q", content, 247)[0]
+        length, scale, offset = (struct.unpack_from(*one)[0] for one in (
+            ("<H", content, 105), ("<d", content, 147), ("<d", content, 171)))  # fmt: skip
+        return (
+            np.array([struct.unpack_from("<i", content, start + k * length + 8)[0] for k in range(count)]) * scale
+            + offset
+        )
+    if key == "npz":
+        return np.load(BytesIO(next(iter(files.values()))))["points"][:, 2]
+    kind = {"kitti": 4, "nuscenes": 5}.get(key, 0)
+    return np.frombuffer(next(iter(files.values())), "<f4").reshape(-1, kind)[:, 2] if kind else None
+
+
+@pytest.mark.one_for_each("key")
+@pytest.mark.parametrize("key", CLOUDS)
+def test_points_are_in_the_unit_of_their_format(key):
+    floor = crc.planes((0.0, 0.0, -1.2), infinite=True)
+    level = crc.look_at((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
+    cam = crc.camera("SCANNER", (36, 16), level, scanner_device="VLP_16")
+    for meters in SCALES:
+        record = replace(cam.record, settings={**cam.record.settings, UNIT_SCALE: meters})
+        cloud = crc.scan(replace(cam, record=record), floor)
+        files = dict(files_of(cloud, key))
+        found = heights(key, files)
+        if key in ("kitti", "nuscenes", "las"):
+            assert np.allclose(found, -1.2 * meters, rtol=1e-6, atol=1e-4 if key == "las" else 0)  # steps of 0.1 mm
+        elif found is not None:
+            assert np.allclose(found, -1.2)
+            assert np.load(BytesIO(files["_points.npz"]))["meters"] == meters
+        else:
+            assert f"lengths are in Blender units of {meters:g} m\n".encode() in next(iter(files.values()))[:200]
+
+
+def test_poses_of_a_sequence_are_in_meters():
+    cameras = [
+        crc.camera("SCANNER", (36, 16), crc.look_at((x, 0, 0), (9, 0, 0)), scanner_device="VLP_16") for x in (0, 1)
+    ]
+    for meters in SCALES:
+        for one in cameras:
+            one.record.settings[UNIT_SCALE] = meters
+        poses = dict(sequence(cameras, (0.0, 1.0)))["poses.txt"].split()
+        assert np.array(poses[12:], float).reshape(3, 4)[:, 3] == pytest.approx((0, 0, meters))
 
 
 UNITS = {

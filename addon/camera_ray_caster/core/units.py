@@ -9,6 +9,9 @@ from __future__ import annotations
 METERS, MILLIMETERS = 1.0, 1e-3
 BLENDER_UNITS = None
 
+UNIT_SCALE = "unit_scale"
+"""Name of the Unit Scale among the settings of a camera's record; cameras made in Python have none, which is 1."""
+
 Unit = float | None
 """Length of a format's unit in meters; None: Blender units, or those of the file."""
 

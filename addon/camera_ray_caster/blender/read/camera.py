@@ -16,9 +16,11 @@ from ...core.cameras.parts.calibration import FILE
 from ...core.cameras.parts.settings import OWN, RECORD_FIELDS, Setting
 from ...core.records import BlenderCamera, InputError
 from ...core.shaders.camera_shader import Mark, read_mark
+from ...core.units import UNIT_SCALE
 from ..properties.declared import BLENDERS_OWN, MODEL
 from ..properties.owners import owner_of
 from .frames import frame_of
+from .lengths import meters_of
 from .lines import line_record
 from .stored import own_value
 from .unique import by_name, named, unique_name
@@ -43,9 +45,9 @@ def camera_record(camera_object, depsgraph) -> BlenderCamera:
     """Return the record of a camera object as the depsgraph evaluated it, with its scene's render settings.
 
     ``settings`` holds, by name, the settings that the camera's model and the mode of its pixel times declare, and for
-    every camera ``time_mode``, ``panorama_type``, DEPTH_OF_FIELD, STEREO, MULTIVIEW, ``frame`` and ``focus_position``,
-    the focus object's place in the world (3,) or None. Raises InputError if there is no camera, if the object is not a
-    camera, and if there is no model for it.
+    every camera ``time_mode``, ``panorama_type``, DEPTH_OF_FIELD, STEREO, MULTIVIEW, ``frame``, UNIT_SCALE and
+    ``focus_position``, the focus object's place in the world (3,) or None. Raises InputError if there is no camera, if
+    the object is not a camera, and if there is no model for it.
     """
     scene = depsgraph.scene_eval
     check_camera(scene, camera_object)
@@ -62,6 +64,7 @@ def camera_record(camera_object, depsgraph) -> BlenderCamera:
             **copied(data.stereo, STEREO),
             **copied(scene.render, MULTIVIEW),
             "frame": frame_of(scene),
+            UNIT_SCALE: meters_of(scene),
             "focus_position": _focus_position(data.dof, depsgraph),
         },
         **copied(data, CAMERA),

@@ -25,6 +25,7 @@ from ..casting.hits import NOTHING
 from ..motion.moments import check_rows
 from ..records import InputError, Shapes
 from ..scene import Scene
+from ..units import UNIT_SCALE
 
 PASSES = ("distance", "position", "normal", "albedo", "shape_index", "object_index")
 """What points are made of."""
@@ -82,6 +83,8 @@ class PointCloud:
     """Cosine of the angle between beam and normal."""
     reflectance: np.ndarray
     """incidence × albedo, the mean of its three channels; not the intensity that a device measures."""
+    meters: float = 1.0
+    """Length of a Blender unit, in which the lengths are, in meters."""
 
     def __len__(self) -> int:
         return len(self.range)
@@ -166,6 +169,7 @@ def scan(
         category=_categories(shapes, images["shape_index"][at], images["object_index"][at], categories),
         incidence=incidence[at],
         reflectance=incidence[at] * images["albedo"][at].mean(axis=-1),
+        meters=camera.record.settings.get(UNIT_SCALE, 1.0),
     )
 
 

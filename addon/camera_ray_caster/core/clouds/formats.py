@@ -1,8 +1,8 @@
 """Point clouds as files: each format yields the endings of its files and their contents, little endian.
 
 PLY, PCD, LAS and NPZ have all fields of a cloud; KITTI and nuScenes have those of their own files. Their intensity is
-the reflectance. PCD keeps the grid of rows, from the top, and columns, with NaN for misses; other files have the points
-in the order of their times.
+the reflectance. KITTI, nuScenes and LAS have meters, the others Blender units, with the length of one. PCD keeps the
+grid of rows, from the top, and columns, with NaN for misses; other files have the points in the order of their times.
 References: G. Turk, The PLY Polygon File Format; Point Cloud Library, The PCD File Format; SemanticKITTI and nuScenes
 development kits.
 """
@@ -10,6 +10,7 @@ development kits.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from io import BytesIO
 from typing import Any
 
@@ -17,6 +18,7 @@ import numpy as np
 
 from ..arguments import unknown
 from ..records import InputError
+from ..units import BLENDER_UNITS, METERS, Unit, factor, unit_name
 from .cloud import SENSOR, PointCloud
 from .las import las
 
@@ -55,7 +57,8 @@ def _ply(cloud: PointCloud, axes: str) -> Files:
     table = _table(cloud, axes, ring="<i4")
     kinds = [(name, PLY_TYPES[table.dtype[name].str]) for name in table.dtype.names or ()]
     head = "".join(f"property {kind} {name}\n" for name, kind in kinds)
-    text = f"ply\nformat binary_little_endian 1.0\nelement vertex {len(table)}\n{head}end_header\n"
+    text = f"ply\nformat binary_little_endian 1.0\ncomment {_units(cloud)}\n"
+    text += f"element vertex {len(table)}\n{head}end_header\n"
     yield ".ply", text.encode() + table.tobytes()
 
 
@@ -68,7 +71,8 @@ def _pcd(cloud: PointCloud, axes: str) -> Files:
     grid[height - 1 - cloud.row, cloud.column] = table
     kinds = [table.dtype[name] for name in table.dtype.names or ()]
     lines = (
-        "# .PCD v0.7 - Point Cloud Data file format", "VERSION 0.7", f"FIELDS {' '.join(table.dtype.names or ())}",
+        "# .PCD v0.7 - Point Cloud Data file format", f"# {_units(cloud)}", "VERSION 0.7",
+        f"FIELDS {' '.join(table.dtype.names or ())}",
         f"SIZE {' '.join(str(kind.itemsize) for kind in kinds)}",
         f"TYPE {' '.join(kind.kind.upper() for kind in kinds)}", f"COUNT {' '.join('1' for _ in kinds)}",
         f"WIDTH {width}", f"HEIGHT {height}", "VIEWPOINT 0 0 0 1 0 0 0", f"POINTS {width * height}", "DATA binary\n",
@@ -114,7 +118,8 @@ def _npz(cloud: PointCloud, axes: str) -> Files:
     points, normals = _placed(cloud, axes)
     names = "range", "true_range", "row", "column", "ring", "time", "instance", "category", "incidence", "reflectance"
     own = {name: getattr(cloud, name) for name in names}
-    yield "_points.npz", _npz_bytes(points=points, normals=normals, pose=cloud.pose, size=np.array(cloud.size), **own)
+    yield "_points.npz", _npz_bytes(points=points, normals=normals, pose=cloud.pose, size=np.array(cloud.size),
+                                     meters=cloud.meters, **own)  # fmt: skip
 
 
 def _npz_bytes(**arrays: Any) -> bytes:
@@ -123,10 +128,27 @@ def _npz_bytes(**arrays: Any) -> bytes:
     return content.getvalue()
 
 
-FORMATS: dict[str, Callable[[PointCloud, str], Files]] = {
-    "ply": _ply, "pcd": _pcd, "kitti": _kitti, "nuscenes": _nuscenes, "las": _las, "npz": _npz,
+FORMATS: dict[str, tuple[Callable[[PointCloud, str], Files], Unit]] = {
+    "ply": (_ply, BLENDER_UNITS), "pcd": (_pcd, BLENDER_UNITS), "kitti": (_kitti, METERS),
+    "nuscenes": (_nuscenes, METERS), "las": (_las, METERS), "npz": (_npz, BLENDER_UNITS),
 }  # fmt: skip
-"""Functions of a cloud and one of AXES by the keys of their formats."""
+"""Functions of a cloud and one of AXES, and units of lengths, by the keys of their formats."""
+
+
+def _units(cloud: PointCloud) -> str:
+    """Return a comment on the unit of lengths."""
+    return f"lengths are in {unit_name(BLENDER_UNITS)} of {cloud.meters:.6g} m"
+
+
+def _in_unit(cloud: PointCloud, unit: Unit) -> PointCloud:
+    """Return a cloud with its lengths in a unit."""
+    size = factor(unit, cloud.meters)
+    if size == 1:
+        return cloud
+    pose = cloud.pose.copy()
+    pose[:3, 3] *= size
+    lengths = {name: size * getattr(cloud, name) for name in ("sensor", "world", "range", "true_range")}
+    return replace(cloud, pose=pose, meters=cloud.meters / size, **lengths)
 
 
 def files_of(cloud: PointCloud, key: str, axes: str = SENSOR) -> Files:
@@ -135,4 +157,5 @@ def files_of(cloud: PointCloud, key: str, axes: str = SENSOR) -> Files:
     """
     if not isinstance(key, str) or key not in FORMATS:
         raise unknown("format of points", key, FORMATS)
-    return FORMATS[key](cloud, axes)
+    files, unit = FORMATS[key]
+    return files(_in_unit(cloud, unit), axes)

@@ -1,6 +1,7 @@
 """The frames of a scanner as a sequence of KITTI's odometry: poses.txt, calib.txt and times.txt beside the points.
 
-poses.txt has the poses of a camera at the scanner, x right, y down, z ahead, relative to that of the first frame.
+poses.txt has the poses of a camera at the scanner, x right, y down, z ahead, relative to that of the first frame, in
+meters.
 calib.txt has Tr, the transformation from the scanner to that camera, and no lenses.
 Reference: A. Geiger et al., Are we ready for Autonomous Driving? The KITTI Vision Benchmark Suite, CVPR 2012.
 """
@@ -12,6 +13,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ..camera.camera import Camera
+from ..units import METERS, UNIT_SCALE, factor
 from .cloud import FROM_CAMERA
 
 TO_CAMERA = np.diag((1.0, -1.0, -1.0, 1.0))
@@ -26,6 +28,7 @@ def sequence(cameras: Sequence[Camera], seconds: Sequence[float]) -> Iterator[tu
     for camera in cameras:
         pose = np.eye(4)
         pose[:3, :3], pose[:3, 3] = camera.pose.basis, camera.pose.eye
+        pose[:3, 3] *= factor(METERS, camera.record.settings.get(UNIT_SCALE, 1.0))
         poses.append(pose @ TO_CAMERA)
     first = np.linalg.inv(poses[0])
     yield "poses.txt", "".join(f"{_row(first @ pose)}\n" for pose in poses)

@@ -1,6 +1,7 @@
 """Scanners by name, and the tables of their beams.
 
-They are nominal, by the manuals: the file of a unit is more exact. VLP-16 has the vertical offsets of its manual.
+They are nominal, by the manuals: the file of a unit is more exact. VLP-16 has the vertical offsets of its manual. Their
+lengths are in meters, and count as Blender units at any Unit Scale, as those of calibration files do.
 References: Velodyne, VLP-16, HDL-32E and VLP-32C User Manuals; Ouster, OS1 data sheet and Software User Manual.
 """
 
