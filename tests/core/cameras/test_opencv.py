@@ -6,6 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
+import camera_ray_caster as crc
 from camera_ray_caster.core.cameras.parts.radial_tangential import RadialTangential
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.maths.panels import FEWEST
@@ -272,3 +273,24 @@ def test_one_pixel_alone_beyond_the_fold_has_no_ray(key):
     cam = camera(key, SIZE | {"fx": 200.0, "fy": 200.0, "k1": -0.3, "p1": 1e-3})
     assert not cam.rays_at(0.5, 0.5).valid
     assert cam.rays_at(320.5, 240.5).valid
+
+
+def test_a_lens_whose_corners_lie_near_a_pole_is_a_camera():
+    """A calibration of OpenCV's regression tests, whose denominator has a root just beyond the corners: each pixel's
+    ray leads back to it, and by OpenCV's own projection, too.
+    """
+    K = np.array([[1570.8956, 0, 744.87338], [0, 1570.3494, 575.55087], [0, 0, 1]])
+    terms = (-2.82477176, -0.80078071, -0.01459536, 0.0018821, 1.98277956, -2.73067738, -1.21772582, 2.40522435,
+             -0.00206704, 3.466e-5, 0.01410035, -3.0935e-5)  # fmt: skip
+    names = "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4"
+    camera = crc.camera(
+        "OPENCV_PINHOLE", (1500, 1150), fx=K[0, 0], fy=K[1, 1], cx=K[0, 2], cy=K[1, 2],
+        **dict(zip(names, terms, strict=True)),
+    )  # fmt: skip
+    x, y = np.meshgrid(np.linspace(0.5, 1499.5, 31), np.linspace(0.5, 1149.5, 24))
+    rays = camera.rays_at(x, y)
+    assert rays.valid.all()
+    assert np.abs(camera.project(rays.directions) - np.stack((x, y), axis=-1)).max() < 1e-6
+    points = rays.directions.reshape(-1, 3) * (1, -1, -1)
+    theirs = cv2.projectPoints(points, np.zeros(3), np.zeros(3), K, np.array(terms))[0][:, 0]
+    np.testing.assert_allclose(theirs, np.stack((x - 0.5, 1149.5 - y), axis=-1).reshape(-1, 2), rtol=0, atol=1e-6)

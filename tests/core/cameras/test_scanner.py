@@ -159,3 +159,15 @@ def test_the_range_is_limited_by_the_device_and_the_clip_range():
     assert np.isfinite(crc.cast(scanner("VLP_32C"), shapes, passes=("distance",))["distance"]).all()
     with pytest.raises(crc.InputError, match="range"):
         scanner("VLP_16", clip_start=200.0, clip_end=300.0)
+
+
+def test_angles_of_beams_are_radians_in_python():
+    """The same three beams by the range of elevations, by a table of radians, and by Blender's text in degrees."""
+    even = crc.camera("SCANNER", (8, 3), scanner_low=-0.2, scanner_high=0.2).rays().directions
+    table = crc.camera("SCANNER", (8, 3), scanner_elevations=[-0.2, 0.0, 0.2], scanner_azimuths=np.zeros(3))
+    np.testing.assert_allclose(table.rays().directions, even, atol=1e-15)
+    with pytest.warns(FutureWarning, match="scanner_elevations is taken as degrees: give radians"):
+        old = crc.camera("SCANNER", (8, 3), scanner_elevations=np.degrees([-0.2, 0.0, 0.2]), scanner_azimuths=[1, 0, 0])
+    text = crc.camera("SCANNER", (8, 3), scanner_elevations=" ".join(map(repr, np.degrees([-0.2, 0.0, 0.2]).tolist())),
+                      scanner_azimuths="1 0 0")  # fmt: skip
+    np.testing.assert_array_equal(old.rays().directions, text.rays().directions)

@@ -22,7 +22,7 @@ from ..records import BlenderCamera, InputError
 from .file_poses import pose_in_file
 from .left_out import completed
 from .models import models
-from .values import a_number, line_in_words, plain
+from .values import a_number, line_in_words, plain, with_angles
 
 ANY_MODEL: dict[str, Callable[[Any, str], Any]] = {
     "clip_start": lambda value, name: number(value, name, np.inf),
@@ -52,9 +52,10 @@ def camera(model: str, size, pose=None, **settings: Any) -> Camera:
         is normalized, as in Blender. Default: the identity. See ``look_at`` and ``pose_from_opencv``. A matrix that is
         transposed, mirrored or sheared is refused.
     settings: the model's settings, such as ``lens=35.0`` (mm) or ``fx=510.0`` (pixels), in the units of Blender's
-        properties, angles in radians. What is not given has its declared default. Of a calibration the size is that of
-        the picture, fy is fx, and the center is in the middle, unless they are given; a lens of which nothing is given
-        has the declared field of view on the longer side. A setting that has no effect beside the others is refused.
+        properties, angles in radians, also those of a scanner's tables (as text these are in degrees). What is not
+        given has its declared default. Of a calibration the size is that of the picture, fy is fx, and the center is in
+        the middle, unless they are given; a lens of which nothing is given has the declared field of view on the longer
+        side. A setting that has no effect beside the others is refused.
         Nothing is clipped unless ``clip_start`` or ``clip_end`` is given. A slit is a point and a direction, (2, 3); a
         path is (n, 3) points; a time image is (rows, columns), a table of rays (rows, columns, 3), both from the bottom
         left. Every model also takes ``clip_start``, ``clip_end``, ``pixel_aspect_x``, ``use_border``,
@@ -81,6 +82,7 @@ def camera(model: str, size, pose=None, **settings: Any) -> Camera:
     for one in declared.values():
         if isinstance(one, Line) and one.name not in settings:
             raise InputError(f"{model} needs {one.name}: {line_in_words(one)}")
+    settings = with_angles(declared, settings)
     given = {
         key: plain(declared[key], value) if key in declared else ANY_MODEL[key](value, key)
         for key, value in settings.items()

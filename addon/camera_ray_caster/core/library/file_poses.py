@@ -14,6 +14,9 @@ from ..programs.parts.lens import Lens
 from ..programs.reading.mounted import mounted
 from ..records import InputError
 
+WITHOUT = "it has no", "neither YAML nor JSON", "is not XML"
+"""Words of the refusals of files of lenses alone."""
+
 ENTRY = re.compile(
     r"\b((?:\w+_)?(?:[Rr]otation|[Tt]ranslation|[Ee]xtrinsic|[Pp]ose|[Qq]uaternion|[rt]vec)s?|T|T_\w+)[\"']?\s*[:>]"
 )
@@ -32,13 +35,13 @@ def pose_in_file(path: str, lens: Lens, model: str, frame: tuple[int, int]) -> n
     returns None, if the file has several poses of the lens, or bad ones.
     """
     document = Document(path)
-    if document.is_binary:  # tables of rays, and COLMAP's cameras, whose images are another file
+    if document.is_binary or lens.model == ray_arrays.KEY:
         return ray_arrays.pose_in(document)
     try:
         cameras = mounted(path, model, frame, RATE)
     except InputError as error:
         entry = ENTRY.search(document.text)
-        if "it has no" not in str(error):
+        if not any(words in str(error) for words in WITHOUT):
             warnings.warn(f"the poses in {path!r} are left out: {error}", stacklevel=CALLER)
         elif entry:
             warnings.warn(

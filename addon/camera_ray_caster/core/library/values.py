@@ -3,16 +3,36 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+import warnings
+from collections.abc import Callable, Mapping
 from sys import float_info
 from typing import Any
 
 import numpy as np
 
 from ..arguments import flag, numbers, shape_of, shown, word
+from ..cameras.parts.scanners import Angles
 from ..cameras.parts.settings import Coefficients, Line, Setting, Whole
 from ..memory import require
 from ..records import InputError
+
+
+def with_angles(declared: Mapping[str, Setting], given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return settings with tables of angles, which are given as numbers in radians, in degrees, as records have them.
+
+    If a number is too large for radians, all are degrees, as in earlier versions, and a FutureWarning says so.
+    """
+    tables = {
+        name: numbers(given[name], name)
+        for name, setting in declared.items()
+        if isinstance(setting, Angles) and not isinstance(given.get(name, ""), str)
+    }
+    widest = {name: setting.widest for name, setting in declared.items() if isinstance(setting, Angles)}
+    too_large = [name for name, table in tables.items() if np.abs(table).max(initial=0) > widest[name]]
+    if too_large:
+        warnings.warn(f"{too_large[0]} is taken as degrees: give radians, as all angles in Python", FutureWarning, 3)
+        return dict(given)
+    return {**given, **{name: np.degrees(table) for name, table in tables.items()}}
 
 
 def plain(setting: Setting, value: Any) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import pi, radians
 from typing import Any
 
@@ -20,6 +21,14 @@ class Table(Coefficients):
         return super().read(raw) if str(self.given(raw)).strip() else ()
 
 
+@dataclass(frozen=True)
+class Angles(Table):
+    """A table of angles: text has degrees; numbers of Python are radians, as all angles there."""
+
+    widest: float = FULL_TURN
+    """Largest magnitude in radians: numbers beyond it are degrees."""
+
+
 BY_SETTINGS: tuple[tuple[str, Any], ...] = (("scanner_device", "CUSTOM"),)
 """With which what a device determines is set by hand."""
 
@@ -28,10 +37,10 @@ START = Number(
     "scanner_start", "Start Angle", "Angle by which the first column is turned clockwise, seen from above",
     0.0, unit="angle",
 )  # fmt: skip
-ELEVATIONS = Table(
+ELEVATIONS = Angles(
     "scanner_elevations", "Elevations", "Elevation of each beam, degrees. If empty, the rows of the frame are beams "
                                         "from the lowest to the highest elevation", "",
-    used_with=BY_SETTINGS,
+    used_with=BY_SETTINGS, widest=pi / 2,
 )  # fmt: skip
 LOW, HIGH = (
     Number(
@@ -40,7 +49,7 @@ LOW, HIGH = (
     )
     for name, other, default in (("low", "high", radians(-15)), ("high", "low", radians(15)))
 )  # fmt: skip
-AZIMUTHS = Table("scanner_azimuths", "Azimuths", "Azimuth of each beam from the head's, degrees clockwise", "0",
+AZIMUTHS = Angles("scanner_azimuths", "Azimuths", "Azimuth of each beam from the head's, degrees clockwise", "0",
                  used_with=BY_SETTINGS)  # fmt: skip
 AHEAD, RIGHT, UP = (
     Table(f"scanner_{name}", name.title(), f"Origin of each beam, Blender units {where}", "0", used_with=BY_SETTINGS)
