@@ -13,8 +13,8 @@ import bpy
 from ...core.annotations.coco import Sheet, as_text, document, merged_text
 from ...core.annotations.keypoints import seen_key_points
 from ...core.cast import Images
-from ...core.sets.reading import ANNOTATIONS
-from ...core.sets.reading import COCO as ENDING
+from ...core.sets.common import ANNOTATIONS, dataset_of, with_objects, without_objects
+from ...core.sets.common import COCO as ENDING
 from ..read.frames import frame_of
 from ..read.keypoints import key_points
 from ..read.unique import find_unique
@@ -23,18 +23,21 @@ CATEGORY = "category"
 """Name of the custom property that holds an object's category."""
 
 
-def annotated(scene, images: Images, file_name: str, suffix: str = "", keypoints: Sequence[str] = ()) -> str:
+def annotated(
+    scene, images: Images, file_name: str, suffix: str = "", keypoints: Sequence[str] = (), objects: list | None = None
+) -> str:
     """Return the annotations of a picture that was just rendered from the scene, as JSON in COCO's format.
 
     ``file_name`` is the PNG or, if combined is not cast, the file of passes; ``suffix`` is that of the view in a stereo
-    scene; for ``keypoints``, see ``read.keypoints``.
+    scene; for ``keypoints``, see ``read.keypoints``. ``objects``: those of the data set; see ``core.sets.common``.
     """
     camera = images.camera
     image = {"file_name": file_name, "camera": camera.name + suffix, "frame": frame_of(scene)}
     points = key_points(scene, bpy.context.evaluated_depsgraph_get(), keypoints) if keypoints else []
     seen = seen_key_points(camera, images.shapes, points)
     sheet = Sheet.of(camera.raster)
-    return as_text(document(image, sheet, camera, images.shapes, category_of, seen, images))
+    found = document(image, sheet, camera, images.shapes, category_of, seen, images)
+    return as_text(found if objects is None else without_objects(found, objects))
 
 
 def category_of(name: str) -> str:
@@ -67,8 +70,10 @@ class Documents:
     suffixes: Sequence[str]
 
     def __iter__(self) -> Iterator[dict[str, Any]]:
+        objects = dataset_of(self.folder).get("objects", [])
         for job, suffix in ((job, suffix) for job in self.jobs for suffix in self.suffixes):
             document = json.loads((self.folder / f"{job.name}{suffix}{ENDING}").read_text(encoding="utf-8"))
+            document = with_objects(document, objects)
             image, (place, *_) = document["images"][0], job.name.rpartition("/")
             image["file_name"] = f"{place}/{image['file_name']}" if place else image["file_name"]
             yield document

@@ -68,12 +68,24 @@ def made(
     return {"of": stamp, "files": files | {os.path.relpath(path, folder): path.stat().st_size for path in beside}}
 
 
+OWN = "camera", "frame", "rays"
+"""What the stamps of the pictures of a data set differ in."""
+
+
+def short(stamp: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the stamp of a picture of a data set: what is the same for all pictures as a hash."""
+    same = {key: value for key, value in stamp.items() if key not in OWN}
+    text = json.dumps(same, sort_keys=True)
+    return {"set": hashlib.sha256(text.encode()).hexdigest()[:16], **{key: stamp[key] for key in OWN if key in stamp}}
+
+
 def finished(report: Path, stamp: Mapping[str, Any]) -> dict[str, Any] | None:
     """Return a report's content if it has this stamp and all its files are complete; otherwise return None."""
     try:
         found = json.loads(report.read_text(encoding="utf-8"))
         made = found["made"]
         whole = all((report.parent / name).stat().st_size == size for name, size in made["files"].items())
-        return found if whole and made["of"].items() >= stamp.items() else None
+        is_ours = any(made["of"].items() >= one.items() for one in (stamp, short(stamp)))
+        return found if whole and is_ours else None
     except (OSError, ValueError, KeyError, TypeError, AttributeError):  # no report, or not ours
         return None

@@ -15,25 +15,30 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from itertools import chain
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import bpy
 
+from ...core.exports.plain import as_text
 from ...core.exports.writing import write
 from ...core.file_set import Taken, atomic_folder, clear_up
 from ...core.records import InputError
 from ...core.sets import companions, shares
-from ...core.sets.reading import DATASET
+from ...core.sets.common import DATASET
 from ...core.sets.run import Run
 from ..output.annotations import merged_files
 from ..output.points import KITTI, collect_sequences
 from ..output.stamps import differing, finished
 from ..read.camera import check_camera, check_markers
 from ..read.unique import unique_name
+from .common import common_of
 from .jobs import Jobs, PictureJob, RayMap, first_jobs
 from .pictures import Pictures, of_job
 from .ray_maps import made_map
 
+ABOUT = "run", "common", "objects"
+"""What dataset.json has beside the stamp: see ``core.sets.run`` and ``core.sets.common``."""
 MOST_NAMES = 10
 """Number of missing pictures that are named."""
 
@@ -58,10 +63,13 @@ def begun(
     Inside the context a share counts as running.
     """
     folder, shard, run = pictures.options.output, pictures.options.shard, pictures.run()
-    _claim(folder, stamp, run)
+    about = {"run": run.as_data()}
+    if not (folder / DATASET).is_file():
+        about |= common_of(pictures, next(iter(first.values())))
+    _claim(folder, stamp, about)
     with shares.running(folder, shard):
         if shard:
-            _claim(folder, stamp, run)  # another run may have begun meanwhile
+            _claim(folder, stamp, about)  # another run may have begun meanwhile
         yield {camera: made_map(pictures, job, stamp) for camera, job in first.items()}
 
 
@@ -89,7 +97,7 @@ def completed(options: Namespace) -> tuple[str, bool]:
     folder = options.file
     try:
         found = json.loads((folder / DATASET).read_text(encoding="utf-8"))
-        stamp, run = {key: value for key, value in found.items() if key != "run"}, Run.of_data(found["run"])
+        stamp, run = {key: value for key, value in found.items() if key not in ABOUT}, Run.of_data(found["run"])
         settings = stamp["settings"]
         asked = Namespace(output=folder, dataset=True, annotations=settings["annotations"],
                           keypoints=settings["keypoints"], points=settings["points"])  # fmt: skip
@@ -123,12 +131,11 @@ def _map_of(folder: Path, name: str) -> RayMap | None:
         return None
 
 
-def _claim(folder: Path, stamp: dict[str, Any], run: Run | None = None) -> None:
-    """Mark a folder as that of a data set, with the pictures of a run. Raises InputError if it belongs to another data
-    set, and if there are shares of another run, which are not complete.
+def _claim(folder: Path, stamp: dict[str, Any], about: Mapping[str, Any] = MappingProxyType({})) -> None:
+    """Mark a folder as that of a data set, with entries of ABOUT on its pictures. Raises InputError if it belongs to
+    another data set, and if there are shares of another run, which are not complete.
     """
-    content = {**stamp, "run": run.as_data()} if run else stamp
-    text = json.dumps(content, indent=2) + "\n"
+    text = as_text({**stamp, **about})
     with suppress(Taken), atomic_folder(folder, replacing=False) as new:
         (new / DATASET).write_text(text, encoding="utf-8")
     path = folder / DATASET
@@ -141,12 +148,13 @@ def _claim(folder: Path, stamp: dict[str, Any], run: Run | None = None) -> None:
         ) from error
     if others:
         raise InputError(f"{str(folder)!r} has a data set that differs in {', '.join(others)}: choose another folder")
-    if found == json.loads(text):
+    if found.get("run") == about.get("run"):
         return
     if shares.found(folder):
         raise InputError(
             f"{str(folder)!r} has shares of a run of other cameras or frames: complete these first (--complete), or "
             "choose another folder"
         )
+    text = as_text({**found, "run": about["run"]})  # reports of before lack what is common
     with atomic_folder(folder) as new:
         (new / DATASET).write_text(text, encoding="utf-8")

@@ -26,7 +26,7 @@ from ..output import arrays, file_outputs
 from ..output.annotations import ENDING, annotated
 from ..output.points import PointFiles
 from ..output.saving import LAYERS, PICTURE, blender_writes, check_whole
-from ..output.stamps import made
+from ..output.stamps import made, short
 from ..process import signals
 from ..process.opening import not_run, reported
 from ..properties.passes import ticked
@@ -80,6 +80,7 @@ def rendering(
     points: PointFiles | None = None,
     beside: Iterable[Path] = (),
     spare: dict[tuple[str, str], Images] | None = None,
+    dataset: Mapping[str, Any] | None = None,
 ) -> Making[tuple[Report, list[Path]]]:
     """Make files of the scene's current frame in ``folder``; return the report and the paths of the files.
 
@@ -92,8 +93,8 @@ def rendering(
     files in ``beside``; see ``stamps``. If ``keypoints`` is not None, NAME_coco.json is written for each view of the
     first view layer; see ``annotations``. With ``points``, the points of that layer are written in their format. The
     passes take the memory of ``spare``, an earlier picture's images by layer and view, and are left there for the next
-    one. Raises InputError if Blender cannot render or the folder cannot be written, and Cancelled if stopped; then no
-    files are left behind.
+    one. What ``dataset``, the content of dataset.json, has is left out of report and annotations. Raises InputError if
+    Blender cannot render or the folder cannot be written, and Cancelled if stopped; then no files are left behind.
     """
     check(scene)
     if layers == NPZ:
@@ -119,7 +120,8 @@ def rendering(
             if layer == next(iter(call.images))[0]:
                 suffix = suffixes.get(view, "")
                 stem = name + suffix
-                text = annotated(scene, images, f"{stem}.{'png' if shown else layers.lower()}", suffix, keypoints)
+                shows, objects = f"{stem}.{'png' if shown else layers.lower()}", dataset and dataset.get("objects")
+                text = annotated(scene, images, shows, suffix, keypoints, objects)
                 (temporary / f"{stem}{ENDING}").write_text(text, encoding="utf-8")
         if points is not None:
             points.write(temporary / name, next(iter(call.images.values())))
@@ -127,8 +129,11 @@ def rendering(
             spare.update(call.images)
         report = report.with_seconds(files=perf_counter() - started)
         if stamp is not None:
+            stamp = stamp if dataset is None else short(stamp)
             report = replace(report, made=made(stamp, sorted(temporary.iterdir()), folder, beside))
-        (temporary / f"{report_name}.json").write_text(as_json(report), encoding="utf-8")
+        (temporary / f"{report_name}.json").write_text(
+            as_json(report, dataset and dataset.get("common", {})), encoding="utf-8"
+        )
         names = sorted(os.listdir(temporary))
         signals.raise_if_stopping()
     return report, [folder / name for name in names]

@@ -20,6 +20,7 @@ from ...core.memory import exhausted
 from ...core.names import file_names, frame_digits
 from ...core.records import InputError
 from ...core.report.report import Report
+from ...core.sets.common import dataset_of
 from ...core.sets.run import Run
 from ..cycles.device import device_notes, use_device
 from ..cycles.picture import CyclesPicture, picture_of
@@ -232,7 +233,7 @@ class Pictures:
         return files.rendering(
             self.scene, place.parent, place.name, Path(job.report).name,
             layers=asked.format, half=asked.half, file_output=asked.file_output, stamp=of, spare=self.spare,
-            **more,
+            dataset=dataset_of(asked.output) if asked.dataset else None, **more,
         )  # fmt: skip
 
     def taken(self, job: PictureJob, stamp: dict[str, Any], ray_map: RayMap | None = None) -> Outcome | None:

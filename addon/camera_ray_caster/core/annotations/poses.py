@@ -9,6 +9,14 @@ import numpy as np
 
 from ..records import INFINITE_PLANE, MESH, PLANE, Shapes
 
+DIGITS = 9
+"""Decimal digits of a float32, as which Blender has places: they are read back as the same float32."""
+
+
+def shortened(numbers: np.ndarray) -> list[float]:
+    """Return numbers (n,) with the digits that Blender's have."""
+    return [float(f"{number:.{DIGITS}g}") for number in numbers.tolist()]
+
 
 def object_poses(shapes: Shapes, category_of: Callable[[str], str]) -> list[dict[str, Any]]:
     """Return an entry for each shape, in the order of the index pass, but for infinite planes.
@@ -38,6 +46,6 @@ def object_poses(shapes: Shapes, category_of: Callable[[str], str]) -> list[dict
         half = half * (1, 1, 0) if shapes.kind[row] == PLANE else half
         found.append({
             "object": name, "instance": number, "shape_index": row, "category": category_of(name),
-            "matrix": matrix.tolist(), "size": (2 * half * lengths).tolist(),
+            "matrix": [shortened(side) for side in matrix], "size": shortened(2 * half * lengths),
         })  # fmt: skip
     return found

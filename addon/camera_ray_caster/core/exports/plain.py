@@ -69,6 +69,11 @@ def without(mapping: Mapping[str, Any], base: Mapping[str, Any]) -> dict[str, An
     return {key: value for key, value in found.items() if value != {} or key not in base}
 
 
+def differing(mapping: Mapping[str, Any], base: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the entries of a plain mapping that are not the same in ``base``, each as a whole."""
+    return {key: value for key, value in mapping.items() if key not in base or not _same(value, base[key])}
+
+
 def merged(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
     """Return ``base`` with the entries of ``own`` in place of its own, also in nested mappings: undoes ``without``."""
     found = dict(base)

@@ -17,7 +17,7 @@ from ..cast import STEPS, Images
 from ..casting.needs import has_colors
 from ..conventions import EPS32
 from ..exports.camera_json import recorded
-from ..exports.plain import plain
+from ..exports.plain import differing, plain
 from ..records import Finding, Shapes
 from ..version import VERSION
 from .accuracy import QUANTITIES, Accuracy
@@ -146,7 +146,7 @@ def report_cast(
         seconds=seconds,
         findings=tuple(findings),
         not_done=tuple(f"{layer}: {line}" if several else line for line in images.plan.left_out()),
-        left_out=(*shapes.left_out, *_uncolored(shapes, images.plan.request.passes)),
+        left_out=(*shapes.left_out, *uncolored(shapes, images.plan.request.passes)),
         notes=shapes.notes,
         exact=_union(shapes.exact, ()),
         motion=tuple(motion.in_words()) if motion is not None else (),
@@ -162,7 +162,7 @@ def _has_record(camera: Camera) -> bool:
     return not isinstance(camera.pixel_time, ImageTime) and all(table.size <= MOST_NUMBERS for table in tables)
 
 
-def _uncolored(shapes: Shapes, passes: Collection[str]) -> Iterator[tuple[str, str]]:
+def uncolored(shapes: Shapes, passes: Collection[str]) -> Iterator[tuple[str, str]]:
     """Yield what is left out of the colors of passes: materials and lights, each with the reason."""
     if has_colors(passes):
         yield from shapes.unread
@@ -183,9 +183,11 @@ def as_data(report: Report) -> dict:
     return plain(data, lambda number: None)
 
 
-def as_json(report: Report) -> str:
-    """Return the report as strict JSON, without NaN and Infinity; bytes of names that are not UTF-8 are escaped."""
-    text = json.dumps(as_data(report), indent=2, allow_nan=False, ensure_ascii=False) + "\n"
+def as_json(report: Report, common: Mapping[str, Any] | None = None) -> str:
+    """Return the report as strict JSON, bytes that are not UTF-8 escaped; compact, and without what ``common`` has."""
+    data = differing(as_data(report), common or {})
+    how: dict[str, Any] = {"indent": 2} if common is None else {"separators": (",", ":")}
+    text = json.dumps(data, allow_nan=False, ensure_ascii=False, **how) + "\n"
     return text.encode(errors="backslashreplace").decode()
 
 

@@ -25,9 +25,8 @@ from ..exports.format import Shot
 from ..names import file_name
 from ..records import InputError
 from . import channels
+from .common import ANNOTATIONS, COCO, DATASET, dataset_of, with_objects
 
-COCO = "_coco.json"
-DATASET, ANNOTATIONS = "dataset.json", "annotations.json"
 NO_REPORTS = COCO, DATASET, ANNOTATIONS
 
 TRAIN, VALIDATION = "train", "val"
@@ -177,7 +176,8 @@ when it is asked for, so that a set of any size takes the memory of a few pictur
 
 @lru_cache(maxsize=HELD)
 def _report(view: View) -> Mapping[str, Any]:
-    return json.loads((view.folder / f"{view.of}.json").read_text(encoding="utf-8"))
+    own = json.loads((view.folder / f"{view.of}.json").read_text(encoding="utf-8"))
+    return {**dataset_of(view.folder).get("common", {}), **own}
 
 
 @lru_cache(maxsize=HELD)
@@ -189,7 +189,8 @@ def _camera(view: View) -> Camera:
 def _annotations(view: View) -> dict[str, Any]:
     path = view.folder / f"{view.name}{COCO}"
     try:
-        return json.loads(path.read_text(encoding="utf-8"))
+        found = json.loads(path.read_text(encoding="utf-8"))
+        return with_objects(found, dataset_of(view.folder).get("objects", []))
     except (OSError, ValueError) as error:
         raise InputError(f"{str(path)!r} cannot be read: make the set with --annotations") from error
 
@@ -247,10 +248,7 @@ def read_set(folder: Path) -> list[View]:
 
 def _folders(folder: Path) -> list[Path]:
     """Return the folders that hold the pictures of a set, if it was made with any."""
-    try:
-        several = json.loads((folder / DATASET).read_text(encoding="utf-8"))["run"]["folders"]
-    except (OSError, ValueError, KeyError, TypeError):
-        return []
+    several = dataset_of(folder).get("run", {}).get("folders")
     return sorted(path for path in folder.iterdir() if path.is_dir() and path.name[0] != ".") if several else []
 
 

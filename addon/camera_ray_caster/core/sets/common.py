@@ -1,0 +1,53 @@
+"""What is the same for all pictures of a data set: dataset.json has it once, and reports and annotations leave it out.
+
+``common`` in dataset.json has entries of reports, and ``objects`` the poses of objects, as annotations have them. A
+report lacks the entries that are equal there. The annotations of a picture have ``moved``, the poses that differ, in
+place of ``objects``, if they are of the same objects.
+"""
+
+from __future__ import annotations
+
+import json
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+DATASET, ANNOTATIONS, COCO = "dataset.json", "annotations.json", "_coco.json"
+
+Entries = dict[str, Any]
+
+
+def without_objects(document: Entries, objects: list[Entries]) -> Entries:
+    """Return annotations of one picture with ``moved`` in place of ``objects``."""
+    own = document["objects"]
+    if [one["shape_index"] for one in own] != [one["shape_index"] for one in objects]:
+        return document
+    moved = [one for one, other in zip(own, objects, strict=True) if one != other]
+    return {key: value for key, value in document.items() if key != "objects"} | {"moved": moved}
+
+
+def with_objects(document: Entries, objects: list[Entries]) -> Entries:
+    """Undo ``without_objects``; other annotations are returned as they are."""
+    if "moved" not in document:
+        return document
+    moved = {one["shape_index"]: one for one in document["moved"]}
+    whole = [moved.get(one["shape_index"], one) for one in objects]
+    return {key: value for key, value in document.items() if key != "moved"} | {"objects": whole}
+
+
+def dataset_of(folder: Path) -> Entries:
+    """Return the content of dataset.json of a folder of pictures, or of the folder around it; {} if there is none."""
+    for place in (folder, folder.parent):
+        path = place / DATASET
+        try:
+            state = path.stat()
+            return _read(path, state.st_mtime_ns, state.st_size)
+        except (OSError, ValueError):
+            continue
+    return {}
+
+
+@lru_cache(maxsize=2)
+def _read(path: Path, changed: int, size: int) -> Entries:
+    found = json.loads(path.read_text(encoding="utf-8"))
+    return found if isinstance(found, dict) else {}
