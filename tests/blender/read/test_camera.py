@@ -198,7 +198,7 @@ def test_the_focus_bone_is_read_where_it_is_in_the_world(scene):
 
 def test_no_camera_is_one_clear_line(scene):
     scene.camera = None
-    with pytest.raises(InputError, match="has no active camera: add a camera"):
+    with pytest.raises(InputError, match=r"has no active camera: add a camera, .*--camera NAME"):
         read_camera(scene)
 
 

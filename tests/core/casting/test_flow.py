@@ -292,5 +292,5 @@ def test_shapes_are_known_by_their_names():
 
 
 def test_a_frame_that_was_not_read_is_named():
-    with pytest.raises(InputError, match=r"flow_forward.* next frame, which was not read: .*read_scene"):
+    with pytest.raises(InputError, match=r"flow_forward.* next frame, which was not read: .*with_timeline.next="):
         cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0)), ("depth", "flow_forward"))

@@ -99,3 +99,16 @@ def test_nothing_is_clipped_unless_it_is_asked_for():
     assert (crc.cast(crc.camera("PERSP", (33, 33), clip_end=1.0), balls, "shape_index")["shape_index"] != 0).all()
     again = crc.camera_from_json(crc.camera_to_json(free))
     assert (again.clip_start, again.clip_end) == (0.0, np.inf)
+
+
+def test_the_report_names_shapes_beyond_the_clip_range():
+    """Three balls in view: nearer than the clip start, within the range and crossing its end, and beyond it."""
+    centers, radii = [(0.0, 0.0, -0.5), (0.0, 0.0, -10.0), (0.0, 0.0, -20.0)], [0.1, 1.0, 2.0]
+    named = zip(centers, radii, "ABC", strict=True)
+    balls = crc.join(*(crc.spheres([at], size, name=name) for at, size, name in named))
+    for settings, words in (
+        ({"clip_start": 1.0, "clip_end": 10.0}, ["'A', 'C': beyond the clip range, 1 to 10"]),
+        ({}, []),
+    ):
+        plan = crc.cast(crc.camera("PERSP", (9, 9), **settings), balls, "depth").plan
+        assert [line for line in plan.left_out() if "clip range" in line] == words

@@ -40,7 +40,8 @@ def pictures(scene: Scene, passes: Collection[str]) -> dict[str, Picture]:
         if there is None:
             raise InputError(
                 f"passes {', '.join(looking)} look into the {frame} frame, which was not read: read camera and shapes "
-                "with read_scene(scene, passes=...)"
+                "with read_scene(scene, passes=...), or without Blender give it: "
+                f"crc.Scene(camera, shapes).with_timeline({frame}=...)"
             )
         found[frame] = Picture(there.camera, there.shapes)
         if any(PASSES[name].casts for name in looking):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -19,6 +19,9 @@ from ..shapes.normals import NormalTable, normal_table
 from ..shapes.windows import pixels_in
 from .pixel_bounds import CameraPixelBounds
 from .request import Request
+
+MOST_NAMED = 8
+"""Number of shapes that a line of a report names."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +44,8 @@ class Plan:
     """(m,): a lower bound of the t of each shape, -inf where none is known."""
     clips: bool
     """Whether anything that may be seen reaches beyond the clip end."""
+    beyond: np.ndarray = field(default_factory=lambda: np.zeros(0, np.intp))
+    """Indices into ``Shapes``: those in view that lie as a whole outside the clip range."""
     whole: Plan | None = None
     """The plan of all pixels, if this plan has only some columns and rows."""
 
@@ -145,6 +150,11 @@ class Plan:
         lines = []
         if self.unseen:
             lines.append(f"{self.unseen} of {len(self.shapes)} shapes: no pixel can see them")
+        if len(self.beyond):
+            names = [*dict.fromkeys(self.shapes.names[self.shapes.name_index[row]] for row in self.beyond)]
+            more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
+            ends = f"{self.camera.clip_start:g} to {self.camera.clip_end:g}"
+            lines.append(f"{', '.join(map(repr, names[:MOST_NAMED]))}{more}: beyond the clip range, {ends}")
         there = {kind.number for kind, _ in kinds.by_kind(self.shapes.kind[self.seen])}
         missing = [kind.name for kind in kinds.KINDS if kind.number not in there]
         if missing:
@@ -164,8 +174,10 @@ def make_plan(camera: Camera, shapes: Shapes, request: Request) -> Plan:
     near, far = _reach(camera, placed, request.sampled)
     pixels = CameraPixelBounds(camera, request.sampled, request.cull)
     bounds, seen = pixels.of_balls(placed.center, placed.radius)
+    within = (near <= camera.clip_end) & (far >= camera.clip_start)
+    beyond = np.flatnonzero(seen & ~within)
     if request.cull:
-        seen &= (near <= camera.clip_end) & (far >= camera.clip_start)
+        seen &= within
     plan = Plan(
         camera=camera,
         shapes=shapes,
@@ -175,6 +187,7 @@ def make_plan(camera: Camera, shapes: Shapes, request: Request) -> Plan:
         seen=np.flatnonzero(seen),
         bounds=bounds[seen],
         near=near[seen],
+        beyond=beyond,
         clips=bool((far[seen] > camera.clip_end).any()),
     )
     _ = plan.set_of  # computed now, before threads share the plan
