@@ -72,7 +72,7 @@ def frame_number(text: str) -> float:
     return frame
 
 
-@of_form("a range of frames: give A:B, or A:B:S for every S-th frame")
+@of_form("a range of frames: give A:B, or A:B:S for every S-th frame, in whole numbers")
 def frame_range(text: str) -> range:
     """Return the frames of "A:B" or "A:B:S": every S-th frame from A to B."""
     first, last, step = (int(part) for part in (text if text.count(":") > 1 else f"{text}:1").split(":"))
