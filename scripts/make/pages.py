@@ -95,7 +95,9 @@ sizes and frames: its cameras in each of the formats above, or the whole set in 
 * `--models FILE.blend`, the file of the set, adds the models of `bop-scenes`: a PLY in millimeters for each category,
   as the viewport evaluates its last object at its last frame, with normals and the colors of materials. Diameters are
   then those of the models, not of the boxes. Symmetries are the rotations about the axes of a model, and those of a
-  cube, that map its vertices, normals and colors onto themselves.
+  cube, that map its vertices, normals and colors onto themselves. Objects that were cast as exact spheres or planes are
+  cast anew as the meshes that their models are: depths, masks, boxes and poses agree with the models, pictures are as
+  they were. With Exact Shapes off, a set has meshes from the beginning.
 * `--cameras NAME ...` and `--frames A:B` choose pictures of the set: cameras of other lenses than a format has are left
   out so. The views of a stereo scene are two cameras, such as Cam_L and Cam_R.
 * `--validation 0.2` splits a set: of the frames, that part, evenly spaced, is for validation, with all its cameras.

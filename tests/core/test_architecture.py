@@ -60,7 +60,7 @@ MAY_IMPORT = {
     "core.report": HITS | {"core.cast", "core.exports", "core.report", "core.version"},
     "core.lesson": HITS | {"core.cast", "core.lesson"},
     "core.exports": RAYS | {"core.exports", "core.file_set", "core.motion", "core.names", "core.version"},
-    "core.sets": HITS | {"core.file_set", "core.annotations", "core.exports", "core.names", "core.sets"},
+    "core.sets": HITS | {"core.cast", "core.file_set", "core.annotations", "core.exports", "core.names", "core.sets"},
     "core.library": HITS | {"core.cast", "core.clouds", "core.exports", "core.lesson", "core.library", "core.names"},
     "core.web": RAYS | {"core.library", "core.shaders", "core.web"},
     "core": {"core"},

@@ -13,6 +13,7 @@ from ...core.exports import FORMATS, export
 from ...core.exports.writing import write
 from ...core.records import InputError, Shapes
 from ...core.sets import SET_FORMATS, chosen, read_set, sparse, with_splits
+from ...core.sets.recast import MeshView, with_meshes
 from ..output import exports
 from ..process.opening import not_run, open_file
 from ..read.camera import ALL, check_camera, check_markers, find_camera, find_cameras
@@ -23,6 +24,9 @@ from .words import add_cameras, add_frames, check_cameras, count, degrees
 
 OF_SCENES = "calibration", "rig", "resolution", "to"
 """Options that change what a .blend has."""
+
+RECAST = "depths, masks, boxes and poses are cast anew, with meshes as meshes; pictures still show the exact shapes"
+"""Remark on sets with models."""
 
 FEW = 8
 """Files whose names are printed."""
@@ -116,9 +120,13 @@ def _of_set(options) -> int:
         if options.fit:
             raise InputError(f"--fit does not apply to --format {options.format}: choose a format of cameras")
         given: dict[str, Any] = {"count": options.points} if options.points else {}
+        said = []
         if options.models:
             given["shapes_at"] = _shapes_of(options, max(view.frame for view in views))
-        files, said = SET_FORMATS[options.format].files(views, **given), []
+            views = with_meshes(views, given["shapes_at"])
+            if any(isinstance(view, MeshView) for view in views):
+                said = [RECAST]
+        files = SET_FORMATS[options.format].files(views, **given)
     else:
         files, said = export(options.format, [view.shot for view in views], options.fit)
     paths = write(files, options.output)
@@ -127,9 +135,12 @@ def _of_set(options) -> int:
 
 
 def _shapes_of(options, last: float) -> Callable[[float], Shapes]:
-    """Open the file of the models; return a function that reads the shapes of its scene at a frame, up to ``last``."""
+    """Open the file of the models; return a function that reads the shapes of its scene at a frame, up to ``last``:
+    meshes as meshes.
+    """
     open_file(options.models, options.enable_autoexec)
     scene = bpy.context.scene
+    scene.camera_ray_caster.exact_shapes = False
 
     @lru_cache(maxsize=1)
     def shapes_at(frame: float) -> Shapes:

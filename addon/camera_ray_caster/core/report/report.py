@@ -174,11 +174,11 @@ def as_data(report: Report) -> dict:
     """Return the report as plain lists, dicts, strings and numbers; a number that is not finite becomes None."""
     data = {"version": VERSION, "conventions": CONVENTIONS, **asdict(report)}
     data["accuracy"] = report.accuracy.as_data()
-    data["rays_per_second"] = report.rays_per_second
-    data["passed"] = report.passed
+    data |= {"rays_per_second": report.rays_per_second, "passed": report.passed}
     data["findings"] = [{**asdict(finding), "passed": finding.passed} for finding in report.findings]
     data["left_out"] = [{"name": name, "reason": reason} for name, reason in report.left_out]
     data["notes"] = [{"name": name, "note": note} for name, note in report.notes]
+    data["noted"] = sentences(report.notes, report.exact)
     data["exact"] = [{"name": name, "apart": apart} for name, apart in report.exact]
     return plain(data, lambda number: None)
 

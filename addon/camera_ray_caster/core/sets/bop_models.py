@@ -1,6 +1,7 @@
 """The models of BOP's objects: triangles in millimeters in the frame of each object, as PLY.
 
-Spheres, which are cast exactly, have vertices on the surface, and triangles inside of it by up to 0.12 % of the radius.
+Meshes are those that were cast. Objects that are cast as exact spheres by their own setting have vertices on the
+surface, and triangles inside of it by up to 0.12 % of the radius.
 Normals of vertices are those of the faces about them, weighted by their angles. A vertex has the color of its material,
 or the mean of those of its triangles; a model whose color changes over a surface has none, and no symmetries.
 References: BOP toolkit documentation, BOP dataset format; G. Thürmer and C. Wüthrich, Computing Vertex Normals from
@@ -9,6 +10,7 @@ Polygonal Facets (1998).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -24,6 +26,9 @@ DIRECTIONS = 3000
 """Directions of a half sphere in which the farthest vertices are looked for: the nearest one to any is within 2.3
 degrees, so that a diameter is up to 0.1 % below the largest distance of two vertices.
 """
+
+ON_SURFACE, ROUND = 1e-3, 0.95
+"""Of a mesh that counts as a sphere: how far vertices may be from it, and how far faces must be from its center."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,11 +60,24 @@ class ObjectModel:
                 np.add.at(total, corner[:, 0], np.nan_to_num(face * angle[:, None]))
             return np.nan_to_num(total / np.linalg.norm(total, axis=1)[:, None])
 
+    @property
+    def _is_round(self) -> bool:
+        """Whether this is a fine mesh of an ellipsoid: its vertices on the surface, its faces near to it."""
+        half = np.ptp(self.vertices, axis=0) / 2
+        if self.kind != MESH or not half.all():
+            return False
+        a, b, c = (self.vertices / half)[self.triangles.T]
+        across = np.cross(b - a, c - a)
+        with np.errstate(invalid="ignore"):  # of a triangle without an area
+            depth = np.einsum("ij,ij->i", across, a) / np.linalg.norm(across, axis=1)
+        off = np.abs(np.linalg.norm(self.vertices / half, axis=1) - 1)
+        return bool(off.max() < ON_SURFACE and np.nanmin(depth) > ROUND)
+
     def symmetries(self, scale: float) -> dict[str, list[Any]]:
         """Return the entries of models_info.json for lengths times ``scale``; see ``symmetries``."""
         if self.colors is None:
             return {}
-        if self.kind == SPHERE:
+        if self.kind == SPHERE or self._is_round:
             return of_ellipsoid(np.ptp(self.vertices, axis=0))
         normals = np.zeros_like(self.normals) if self.kind == PLANE else self.normals  # a plane is seen from both sides
         return symmetries(scale * self.vertices, normals, self.colors)
@@ -71,7 +89,7 @@ def model_of(shapes: Shapes, one: dict[str, Any]) -> ObjectModel:
     """
     rows = [row for row in range(len(shapes)) if shapes.names[shapes.name_index[row]] == one["object"]]
     if len(rows) <= one["instance"]:
-        raise InputError(f"the file of --models has no shape of {one['object']!r}: give the file that the set is of")
+        raise no_shape(one["object"])
     row = rows[one["instance"]]
     slot = None
     if shapes.kind[row] == MESH:
@@ -81,12 +99,24 @@ def model_of(shapes: Shapes, one: dict[str, Any]) -> ObjectModel:
     else:
         vertices, triangles = _square() if shapes.kind[row] == PLANE else _sphere()
     vertices = vertices * np.linalg.norm(shapes.axes[row], axis=0)
-    if not np.allclose(np.ptp(vertices, axis=0), one["size"], rtol=0.05, atol=1e-6):
+    check_size(one, np.ptp(vertices, axis=0))
+    colors = _colors(shapes, row, slot, triangles, len(vertices))
+    return ObjectModel(vertices, triangles, colors, int(shapes.kind[row]))
+
+
+def no_shape(name: str) -> InputError:
+    """Return the refusal of a file without an object of the set."""
+    return InputError(
+        f"the file of --models has no shape of {name!r}: give the file that the set is of, and show it in the viewport"
+    )
+
+
+def check_size(one: dict[str, Any], size: Sequence[float] | np.ndarray) -> None:
+    """Raise InputError if an object, an entry of ``object_poses``, is of another size; exact shapes may be a little."""
+    if not np.allclose(size, one["size"], rtol=0.05, atol=1e-6):
         raise InputError(
             f"{one['object']!r} is of another size in the file of --models: give the file that the set is of"
         )
-    colors = _colors(shapes, row, slot, triangles, len(vertices))
-    return ObjectModel(vertices, triangles, colors, int(shapes.kind[row]))
 
 
 def _colors(
