@@ -7,8 +7,6 @@ from camera_ray_caster.core.cameras import MODELS
 
 from .model_examples import EXAMPLES, IDENTITY, camera
 
-TURNED = [[0.36, 0.48, -0.8, 1], [-0.8, 0.6, 0, 2], [0.48, 0.64, 0.6, -3], [0, 0, 0, 1]]
-
 
 @pytest.mark.parametrize("size", [(1, 3000), (3000, 1), (7, 900), (101, 53)])
 @pytest.mark.parametrize("key", [model.key for model in MODELS])
@@ -16,12 +14,11 @@ def test_a_point_on_any_ray_of_a_picture_has_a_pixel(key, size):
     """Pictures of one column or row put pixels on the very rim."""
     frame = {"resolution_x": size[0], "resolution_y": size[1], "resolution_percentage": 100, "use_border": False}
     for settings in EXAMPLES.get(key, [{}]):
-        for pose in (IDENTITY, TURNED):
-            cam = camera(key, settings | frame | {"matrix_world": pose})
-            rays = cam.rays()
-            for distance in (0.1, 1.0, 50.0):
-                points = (rays.origins + distance * rays.directions)[rays.valid]
-                assert not np.isnan(cam.project(points)).any()
+        cam = camera(key, settings | frame)
+        rays = cam.rays()
+        for distance in (0.1, 50.0):
+            points = (rays.origins + distance * rays.directions)[rays.valid]
+            assert not np.isnan(cam.project(points)).any()
 
 
 @pytest.mark.parametrize("fov", [0.5, 2.0, np.pi])

@@ -107,7 +107,7 @@ def test_of_exact_shapes_the_nearest_opaque_crossing_is_the_hit(key):
 def test_of_meshes_the_nearest_opaque_crossing_is_the_hit(key):
     """Nested balls and a soup of triangles, each with stripes in its own space."""
     rng = np.random.default_rng(3)
-    parts = [meshes.ball(12, 16), meshes.ball(10, 12), meshes.soup(rng, 60)]
+    parts = [meshes.ball(8, 10), meshes.ball(6, 8), meshes.soup(rng, 30)]
     shapes = meshes.shapes_of(
         (parts[0], (0.3, 0.1, -5), 2 * np.eye(3)), (parts[1], (0, 0, -5), np.diag([1.0, 1.5, 1.0])),
         (parts[2], (0, 0, 0), 3 * np.eye(3)), (parts[0], (0, 0, 0), 20 * np.eye(3)),

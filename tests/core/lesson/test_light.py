@@ -62,7 +62,7 @@ def test_the_terms_make_the_color_of_the_picture(shading, count):
     shapes = replace(random_shapes(rng, 60), lights=lights, world_color=(0.1, 0.2, 0.3, 1.0))
     images = cast(camera_at(**MIDDLE), shapes, ("combined", "shape_index"), np.float64, shading=shading)
     factors = set()
-    for row, column in np.argwhere(images["shape_index"] >= 0)[::7]:
+    for row, column in np.argwhere(images["shape_index"] >= 0)[::17]:
         said = color_of(shapes, column, row, shading=shading)
         material, world, light, color = (
             numbers(next(line for line in said if line.startswith(begin)))

@@ -70,7 +70,7 @@ class Inverse:
         with np.errstate(divide="ignore", invalid="ignore"):
             step = (self.function(x) - target) / self.derivative(x)
         x -= step
-        slow = within & ~(np.abs(step) <= NEAR * x)
+        slow = within & np.logical_not(np.abs(step) <= NEAR * x)
         x = np.where(within, np.clip(x, self.low, self.high), np.nan)
         if slow.any():
             goal = np.clip(target[slow], values[0], values[-1])
