@@ -11,6 +11,7 @@ from ..camera.camera import Camera
 from ..maths.speed import Scratch
 from ..records import Shapes
 from ..scene import Scene
+from ..shapes.search_rays import Crossings
 from .hits import Hits
 from .needs import pictures
 from .passes import PASSES
@@ -22,15 +23,16 @@ from .store import store
 from .tiles import shares
 
 
-def hits_at(plan: Plan, columns: np.ndarray, rows: np.ndarray) -> Hits:
+def hits_at(plan: Plan, columns: np.ndarray, rows: np.ndarray, met: list[Crossings] | None = None) -> Hits:
     """Return the hits of chief rays at the pixels of columns (k,) and rows (l,), ascending, numbered in the full frame,
-    within the render window of the plan. One plan serves any number of lattices, and the whole picture.
+    within the render window of the plan. One plan serves any number of lattices, and the whole picture. ``met``: see
+    ``SearchRays``.
     """
     raster, camera = plan.camera.raster, plan.camera
     own = plan.at_pixels(columns - raster.x0, rows - raster.y0)
     with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
         rays = chief_rays(camera, columns[None, :] + 0.5, rows[:, None] + 0.5, (0, 0), Scratch())
-        return nearest_hits(own, rays)
+        return nearest_hits(own, rays, met=met)
 
 
 def is_hit(plan: Plan, scratch: Scratch) -> np.ndarray:

@@ -13,28 +13,29 @@ import numpy as np
 from .. import tuning
 from ..maths.speed import whole_rows, widened
 from ..shapes.kind import Candidates, Large
-from ..shapes.search_rays import SearchRays
+from ..shapes.search_rays import Crossings, SearchRays
 from .hits import NOTHING, Hits
 from .plan import Plan
 from .rays import TileRays
 
 
 def nearest_hits(
-    plan: Plan, rays: TileRays, listen: Callable[[], object] = bool, before: np.ndarray | None = None
-) -> Hits:
+    plan: Plan, rays: TileRays, listen: Callable[[], object] = bool, before: np.ndarray | None = None,
+    met: list[Crossings] | None = None,
+) -> Hits:  # fmt: skip
     """Return the nearest hits within the clip range, in the scratch of the rays.
 
     ``before``: (rows, columns), t beyond which hits do not count; without a hit up to this t the result keeps it.
 
     Of shapes hit at exactly the same t the shape with the lowest index counts, in whatever order they are tested.
-    ``listen()`` is called between the tests, and may raise; the default does nothing.
+    ``listen()`` is called between the tests, and may raise; the default does nothing. ``met``: see ``SearchRays``.
     """
     shape, scratch = rays.shape, rays.scratch
     t, has_cutouts = scratch("t", shape), any(one.has_cutouts for one in plan.sets)
     own = SearchRays(
         None if rays.from_eye else rays.origin,
         rays.direction,
-        rays.corner, shape, scratch.part("kinds"), t if has_cutouts else None,
+        rays.corner, shape, scratch.part("kinds"), t if has_cutouts else None, met=met,
     )  # fmt: skip
     nearest = NearestHits(own, t, scratch("index", shape, plan.index_type))
     if before is not None or has_cutouts:
@@ -87,6 +88,8 @@ class NearestHits:
 
     def _keep_one(self, window: tuple[slice, slice], found: Any, where: Any, at: int) -> None:
         t, index = self.t[window], self.index[window]
+        if self.rays.met is not None:
+            self.rays.note((window[0].start, window[1].start), at, np.broadcast_to(found, t.shape)[None], where)
         if where is True and window[0].start == self.written and t.shape[1] == self.t.shape[1]:
             np.copyto(t, found)
             index.fill(at)
@@ -103,6 +106,7 @@ class NearestHits:
 
     def keep(self, found: Candidates) -> None:
         """Keep the crossings that are the nearest so far, in any order of shapes."""
+        self.rays.note(found.corner, found.at, found.t, found.where)
         if len(found.t) == 1:
             self._keep_window(found)
             return

@@ -9,17 +9,28 @@ import numpy as np
 
 from ..camera.camera import Camera
 from ..camera.pixel_time import groups
+from ..casting.coincident import coincident
 from ..casting.hit_values import HitValues
+from ..casting.hits import Hits
 from ..casting.pixels import hits_at
 from ..casting.plan import Plan, make_plan
 from ..conventions import EPS32
 from ..records import Raster, Shapes
+from ..shapes.search_rays import Crossings
 
 PIXELS = 4096
 """Maximum number of pixels in the sample."""
 
 MOMENTS = 64
 """Maximum number of sampled moments if pixels have their own times: the shapes are placed anew at each moment."""
+
+FEW = 1e-3
+"""Share of the pixels up to which coincident surfaces are not noted."""
+
+COINCIDENT = (
+    "another surface is in the same place at {count:,} of the {pixels:,} pixels{sampled}: it is arbitrary which one is "
+    "seen there, also in uv, indices and colors"
+)
 
 QUANTITIES = {
     "distance": "world units",
@@ -43,6 +54,10 @@ class Accuracy:
     """Bounds (hits, 4), one column for each of QUANTITIES; inf where no bound is known."""
     stored: float = EPS32
     """The unit roundoff of the numbers that are stored: Blender's are float32."""
+    coincident: int = 0
+    """Number of sampled pixels in which another surface is in the same place as the nearest one."""
+    names: tuple[str, ...] = ()
+    """The names of the objects with these surfaces."""
 
     @property
     def hits(self) -> int:
@@ -63,14 +78,38 @@ class Accuracy:
             name: {"unit": unit, "median_bound": self.median(name), "worst_bound": self.worst(name)}
             for name, unit in QUANTITIES.items()
         }
-        return {"sampled_pixels": self.pixels, "hits": self.hits, **bounds, "rounding_when_stored": self.stored}
+        return {
+            "sampled_pixels": self.pixels,
+            "hits": self.hits,
+            **bounds,
+            "rounding_when_stored": self.stored,
+            "coincident_pixels": self.coincident,
+        }
+
+    def notes(self, pixels: int) -> tuple[tuple[str, str], ...]:
+        """Return the notes on surfaces in the same place, each with its object's name, given the pixels of the picture.
+        There are none below FEW: where two surfaces only touch, single pixels may see both.
+        """
+        if self.coincident <= FEW * self.pixels:
+            return ()
+        whole = pixels <= self.pixels
+        count = self.coincident if whole else round(self.coincident * pixels / self.pixels)
+        sampled = "" if whole else f", estimated from {self.pixels:,}"
+        note = COINCIDENT.format(count=count, pixels=pixels, sampled=sampled)
+        return tuple((name, note) for name in self.names)
 
     def _column(self, quantity: str) -> np.ndarray:
         return self.bounds[:, list(QUANTITIES).index(quantity)]
 
     def __add__(self, other: Accuracy) -> Accuracy:
         """Return both samples as one."""
-        return replace(self, pixels=self.pixels + other.pixels, bounds=np.concatenate((self.bounds, other.bounds)))
+        return replace(
+            self,
+            pixels=self.pixels + other.pixels,
+            bounds=np.concatenate((self.bounds, other.bounds)),
+            coincident=self.coincident + other.coincident,
+            names=tuple(dict.fromkeys((*self.names, *other.names))),
+        )
 
 
 def accuracy(camera: Camera, shapes: Shapes, plan: Plan) -> Accuracy:
@@ -83,12 +122,12 @@ def accuracy(camera: Camera, shapes: Shapes, plan: Plan) -> Accuracy:
     """
     x, y = sample(camera.raster)
     if camera.pixel_time is None:
-        return Accuracy(x.size * y.size, _bounds(plan, x, y))
+        return _at(plan, x, y)
     found = Accuracy()
     moments = list(groups(camera.pixel_time, x, y))
     for frame, rows, columns, where in moments[:: -(-len(moments) // MOMENTS)]:
         own = make_plan(camera.at(frame), shapes.at(frame), plan.request)
-        found += Accuracy(int(np.count_nonzero(where)), _bounds(own, x[:, columns], y[rows], where))
+        found += _at(own, x[:, columns], y[rows], where)
     return found
 
 
@@ -106,10 +145,21 @@ def sample(raster: Raster) -> tuple[np.ndarray, np.ndarray]:
     return raster.columns()[:, columns], raster.rows()[rows]
 
 
-def _bounds(plan: Plan, x: np.ndarray, y: np.ndarray, where: np.ndarray | bool = True) -> np.ndarray:
-    """Return the bounds, (hits, 4), at the pixels of x (1, columns) and y (rows, 1) at which ``where`` is true."""
-    hits = hits_at(plan, np.floor(x[0]).astype(int), np.floor(y[:, 0]).astype(int))
+def _at(plan: Plan, x: np.ndarray, y: np.ndarray, where: np.ndarray | bool = True) -> Accuracy:
+    """Return the accuracy at the pixels of x (1, columns) and y (rows, 1) at which ``where`` is true."""
+    met: list[Crossings] = []
+    hits = hits_at(plan, np.floor(x[0]).astype(int), np.floor(y[:, 0]).astype(int), met)
     meant = np.broadcast_to(where, hits.t.shape)
+    pixel, others = coincident(hits, met)
+    here = meant.reshape(-1)[pixel]
+    pixel, others, shapes = pixel[here], others[here], plan.shapes
+    rows = np.unique(np.concatenate((hits.index.reshape(-1)[pixel], others)).astype(np.intp))
+    names = tuple(shapes.names[name] for name in np.unique(shapes.name_index[rows]).tolist())
+    return Accuracy(int(np.count_nonzero(meant)), _bounds(hits, meant), coincident=len(np.unique(pixel)), names=names)
+
+
+def _bounds(hits: Hits, meant: np.ndarray) -> np.ndarray:
+    """Return the bounds, (hits, 4), at the pixels that are meant."""
     found = [np.zeros((0, len(QUANTITIES)))]
     with np.errstate(all="ignore"):
         for seen, errors in HitValues(hits).errors:

@@ -147,7 +147,7 @@ def report_cast(
         findings=tuple(findings),
         not_done=tuple(f"{layer}: {line}" if several else line for line in images.plan.left_out()),
         left_out=(*shapes.left_out, *uncolored(shapes, images.plan.request.passes)),
-        notes=shapes.notes,
+        notes=(*shapes.notes, *accuracy.notes(camera.raster.shape[0] * camera.raster.shape[1])),
         exact=_union(shapes.exact, ()),
         motion=tuple(motion.in_words()) if motion is not None else (),
         accuracy=accuracy,

@@ -11,6 +11,9 @@ from ..maths.speed import Scratch, lazy, taken
 from ..maths.vector import cross, cut
 from .ray_cells import RayCells
 
+Crossings = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+"""Of m crossings: the pixel of the tile, t, the index into ``Shapes`` and the triangle of its mesh or -1, (m,) each."""
+
 
 @dataclass(frozen=True, eq=False)
 class SearchRays:
@@ -29,6 +32,10 @@ class SearchRays:
     """t of the nearest hits so far, (rows, columns), if shapes with transparent points need it."""
     known: dict[int, Any] = field(default_factory=dict)
     """What kinds know of the hits of the tile besides t and shape, by number of the kind; it travels with the hits."""
+    met: list[Crossings] | None = None
+    """The crossings that the search meets, of which some may be behind the nearest hits; None if they are not asked
+    for.
+    """
 
     def within(self, window: tuple[slice, slice]) -> SearchRays:
         """Return the rays of some rows and columns of the tile."""
@@ -40,6 +47,18 @@ class SearchRays:
         corner = first_column + columns.start, first_row + rows.start
         shape = rows.stop - rows.start, columns.stop - columns.start
         return SearchRays(origin, direction, corner, shape, self.scratch)
+
+    def note(self, corner: tuple[Any, Any], at: Any, t: Any, where: Any) -> None:
+        """Note the crossings, if they are asked for, in k windows: see ``Candidates``, of which ``t`` has the shape."""
+        if self.met is None:
+            return
+        rows, columns = (
+            np.reshape(first, (-1, 1, 1)) + np.arange(count).reshape(shape)
+            for first, count, shape in zip(corner, t.shape[1:], ((-1, 1), (1, -1)), strict=True)
+        )
+        is_met = (t < np.inf) if where is None else (t < np.inf) & where
+        pixel, at = (np.broadcast_to(one, t.shape)[is_met] for one in (rows * self.shape[1] + columns, at))
+        self.met.append((pixel, t[is_met], at, np.full(len(at), -1)))
 
     @lazy
     def moment(self) -> Any:

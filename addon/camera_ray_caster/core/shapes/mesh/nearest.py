@@ -40,6 +40,8 @@ class Nearest:
     """int32 numbers of the triangles, see ``enter``; NONE where none is hit."""
     entered: list[np.ndarray] = field(default_factory=list)
     """The indices of the triangles that have numbers."""
+    met: list[tuple[np.ndarray, np.ndarray, np.ndarray]] | None = None
+    """Pixels, t and numbers of all hits; None if they are not asked for."""
     _farthest: list[np.ndarray] = field(default_factory=list)
     """The largest t in the square of 1, 2, 4 ... cells a side that begins at each cell, to the right and upwards, as
     far as it was asked for since the last hit.
@@ -74,6 +76,8 @@ class Nearest:
     def keep(self, pixel: np.ndarray, t: np.ndarray, number: np.ndarray) -> None:
         """Note the hits that are the nearest so far; a pixel may have several."""
         self._farthest.clear()
+        if self.met is not None:
+            self.met.append((pixel, t, number))
         nearest, first = self.t.reshape(-1), self.number.reshape(-1)
         while pixel.size:
             before = taken(nearest, pixel)

@@ -84,6 +84,7 @@ class MeshSet(ShapeSet):
         first_row, first_column = (own.start for own in window)
         bounds -= np.array([first_column, first_column, first_row, first_row], bounds.dtype)
         found = Nearest.of(nearest[window], rays)
+        found.met = None if whole.met is None else []
         lattice = RayLattice.of(rays)
         reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
         near = blocks.near.take(here)
@@ -102,6 +103,11 @@ class MeshSet(ShapeSet):
                 for _ in cast(rays, reach, replace(tested, which=found.enter(tested.which)), found):
                     yield None
             yield None
+        if whole.met is not None:
+            for pixel, t, number in found.met or ():
+                row, column = np.divmod(pixel, rays.shape[1])
+                place = (row + first_row) * whole.shape[1] + column + first_column
+                whole.met.append((place, t, *blocks.numbers(found.entry(number))))
         seen, of_pixel = found.seen()
         if not seen.size:
             return
