@@ -75,7 +75,7 @@ frame, they become cameras NAME-1, NAME-2, ... If each frame has one of several 
 
 ## Programs
 
-Exports are written by `scripts/export.py --format`, File > Writer and `crc.export`. The last column says what the
+Exports are written by `scripts/export.py --format`, File > Export and `crc.export`. The last column says what the
 files do not contain, and what is refused in one line.
 
 | program | files | reads | writes | not contained, or refused |

@@ -119,9 +119,9 @@ def test_poses_of_a_sequence_are_in_meters():
 
 
 UNITS = {
-    "KITTI": "m", "COLMAP": "", "trajectory": "m", "metashape_poses": "", "arkit": "m", "_of_record": "",
-    "_of_aria": "m", "_of_transforms": "", "meshroom": "", "_of_basalt": "m", "maplab": "m", "OKVIS": "m",
-    "Kalibr": "m", "EuRoC": "m", "_of_bop": "mm", "hot3d": "m", "kitti": "m",
+    "COLMAP": "", "nerfstudio": "", "Kalibr": "m", "EuRoC": "m", "OKVIS": "m", "Basalt": "m", "BOP": "mm",
+    "Project Aria": "m", "maplab": "m", "HOT3D": "m", "Metashape": "", "Meshroom": "", "Polycam": "m",
+    "ARKitScenes": "m", "KITTI": "m", "this add-on": "", "TUM": "m", "EuRoC trajectories": "m",
 }  # fmt: skip
 """Units of lengths by the formats' documentation; "" for those that have none, of reconstructions."""
 

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.programs import ray_exr
+from camera_ray_caster.core.programs.parts import ray_exr
 from camera_ray_caster.core.records import InputError
 from camera_ray_caster.core.sets import read_set
 

@@ -19,8 +19,8 @@ from ..core.cameras.parts.calibration import FILE, FILE_CAMERA
 from ..core.maths.rotations import polar, quaternion
 from ..core.programs.parts.lens import Lens
 from ..core.programs.parts.placed import FROM_BLENDER
+from ..core.programs.reading.folders import beside
 from ..core.programs.reading.mounted import Mounted, mounted
-from ..core.programs.reading.poses import beside
 from ..core.records import InputError
 from .properties.calibration import READING, set_lens, settings_in
 from .properties.declared import GROUP, MODEL

@@ -8,7 +8,7 @@ import pytest
 import camera_ray_caster as crc
 from camera_ray_caster.blender.read.openexr import openimageio
 from camera_ray_caster.core.exports.exr import exr
-from camera_ray_caster.core.programs import ray_exr
+from camera_ray_caster.core.programs.parts import ray_exr
 
 from ...core.cameras.table_examples import fisheye, pinhole, without_eye
 

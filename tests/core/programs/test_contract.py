@@ -133,6 +133,7 @@ def changed(tree, place, change):
 WRITERS = [one for one in READERS if one.export is not None and one.export.files and one.export.models]
 
 
+@pytest.mark.one_for_each("program")
 @pytest.mark.parametrize("program", WRITERS, ids=lambda one: MODULES[one.name])
 def test_what_is_read_and_written_and_read_is_the_same_to_the_bit(program, tmp_path):
     """Samples have numbers that stay as they are: halves, and turns by right angles."""

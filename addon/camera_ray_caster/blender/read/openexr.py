@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ...core import memory
-from ...core.programs import ray_exr
+from ...core.programs.parts import ray_exr
 from ...core.records import InputError
 
 

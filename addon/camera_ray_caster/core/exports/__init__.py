@@ -1,6 +1,6 @@
-"""Exports: cameras by frame as files of other programs, one module per format.
+"""Exports: cameras by frame as files of other programs.
 
-A new format needs its own module and an entry in FORMATS.
+Files that are written from plain records are those of ``core.programs``; formats that need whole cameras are here.
 """
 
 from __future__ import annotations
@@ -10,27 +10,21 @@ from dataclasses import replace
 
 from ..arguments import unknown
 from ..programs import PROGRAMS
+from ..programs.parts.program import CameraRecord
 from ..records import InputError, Pose
 from ..units import factor, unit_name
 from . import rigid
-from .bop import Bop
 from .camera_json import CameraJson
 from .fitted import FIT, can_fit, with_fits, with_heads
 from .format import Content, Format, Shot
-from .nerf import Nerf
-from .nerfstudio import Nerfstudio
 from .npz import Npz
 from .of_program import ProgramFormat
-from .opencv import Opencv
-from .ros import Ros
 from .stmap import Stmap
-from .trajectory import EUROC, KITTI, TUM
 
 _OF_PROGRAMS = [ProgramFormat(one) for one in PROGRAMS if one.export is not None and one.export.files]
 FORMATS: tuple[Format, ...] = (
-    *sorted(_OF_PROGRAMS, key=lambda one: not one.table), Nerfstudio(), Nerf(), Opencv(), Ros(), Bop(), TUM, KITTI,
-    EUROC, Stmap(), Npz(), CameraJson(),
-)  # fmt: skip
+    *sorted(_OF_PROGRAMS, key=lambda one: not one.table), Stmap(), Npz(), CameraJson(),
+)
 """All formats, in the order of menus: those of lenses first, those that need whole cameras last."""
 
 
@@ -52,6 +46,19 @@ def export(
     The iterator makes each content when it is reached. Raises InputError, in one line, for an unknown format, and for a
     camera that the format cannot represent; the message then lists the formats that can.
     """
+    chosen, able, heads, said = _prepared(key, shots, fit)
+    return with_heads(chosen.files(able), heads), said
+
+
+def records(key: str, shots: Sequence[Shot]) -> list[CameraRecord]:
+    """Return the plain records of which the files of a program are written. Raises InputError as ``export`` does."""
+    chosen, able, _, _ = _prepared(key, shots, None)
+    assert isinstance(chosen, ProgramFormat)
+    return chosen.records(able)
+
+
+def _prepared(key: str, shots: Sequence[Shot], fit: float | None):
+    """Return the format, the shots as it represents them, remarks for heads of files, and remarks for the user."""
     chosen, fits = find_format(key), list[str]()
     if fit is not None:
         shots, fits = with_fits(chosen, shots, fit, _refusal)
@@ -69,14 +76,14 @@ def export(
             )
     said = [*dict.fromkeys(line for shot in shots for line in chosen.omissions(shot)), *fits]
     if not chosen.rigid:
-        return with_heads(chosen.files(shots), fits), said
+        return chosen, shots, fits, said
     if chosen.unit is None and shots[0].meters != 1:
         fits.append(f"lengths are in {unit_name(None)} of {shots[0].meters:.6g} m")
         said.append(fits[-1])
     cameras, moves = zip(*(rigid.with_rotation(shot.camera) for shot in shots), strict=True)
     rotated = [_in_unit(chosen, replace(shot, camera=camera)) for shot, camera in zip(shots, cameras, strict=True)]
     moved = f"poses are the nearest rotations to Blender's matrices, which moves pixels by up to {max(moves):.1e}"
-    return with_heads(chosen.files(rotated), fits), [moved, *said]
+    return chosen, rotated, fits, [moved, *said]
 
 
 def _in_unit(chosen: Format, shot: Shot) -> Shot:

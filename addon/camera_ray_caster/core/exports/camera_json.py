@@ -24,10 +24,11 @@ from ..cameras.parts.calibration import FILE
 from ..motion.evaluations import Motion
 from ..motion.interpolation import TimeInterval
 from ..records import BlenderCamera, InputError, no_shapes
+from ..text_forms.json_text import as_text
 from ..timeline import Timeline
 from ..version import VERSION
 from .format import Format, Shot
-from .plain import as_text, merged, plain, restored, shared, without
+from .plain import merged, plain, restored, shared, without
 
 FORMAT = "camera_ray_caster camera"
 NUMBER = 1

@@ -14,9 +14,9 @@ from ..camera.camera import Camera
 from ..camera.fit import HELD, HELD_OF, Fit, fit_model, within
 from ..cameras import MODELS
 from ..cameras.parts.calibration import CALIBRATION
+from ..programs.parts.lens import MATRIX
 from ..records import InputError
 from .format import Content, Format, Shot
-from .lenses import MATRIX
 
 FAR = 0.05
 """Part of the frame: a lens that errs by more is no likeness."""

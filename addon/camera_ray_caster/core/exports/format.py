@@ -24,10 +24,6 @@ OWN_TIMES = "each pixel of which has its own time"
 """Reason for refusal by a format whose pictures are taken at one time."""
 
 
-SEPARATELY = "export them separately, each by its name (--cameras NAME)"
-"""What to do if lenses do not fit into one file."""
-
-
 @dataclass(frozen=True)
 class Shot:
     """A camera at a frame."""

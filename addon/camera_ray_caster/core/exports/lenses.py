@@ -1,14 +1,10 @@
-"""A camera's lens as a calibration: the same record that is read from calibration files.
-
-Each format has a table of its models, with the settings of our models that each of them can store (``core.programs``).
-A lens is written as the first model in the table that can store all of its nonzero settings.
-"""
+"""A camera's lens as calibrations: the plain record that the files of programs store."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from math import pi
-from typing import Any, ClassVar
+from typing import Any
 
 from ..camera.camera import Camera
 from ..cameras.equirectangular import Equirectangular
@@ -20,12 +16,6 @@ from ..cameras.parts.calibrated import Calibrated
 from ..cameras.parts.calibration import CALIBRATION
 from ..cameras.perspective import Perspective
 from ..programs.parts.lens import ANGLES, FRAME_SIZE, Lens, matrix_of
-from .format import OWN_TIMES, Format, Shot
-
-MATRIX = "fx", "fy", "cx", "cy"
-
-Table = Mapping[str, tuple[str, Sequence[str]]]
-"""Models of a format by name: the key of our model, and the settings that are stored in addition to the matrix."""
 
 
 def calibrations(camera: Camera) -> list[Lens]:
@@ -86,66 +76,3 @@ def _sphere(lens: Lens) -> Lens:
     edges = -cx / fx, (width - cx) / fx, (cy - height) / fy, cy / fy
     size = {name: lens.settings[name] for name in FRAME_SIZE}
     return lens._replace(settings=size | dict(zip(ANGLES, edges, strict=True)))
-
-
-def find_lens(table: Table, camera: Camera) -> tuple[str, Lens] | None:
-    """Return the first model of a format that can store a camera's lens, and the lens; None if no model can."""
-    return next(
-        (
-            (kind, lens)
-            for lens in calibrations(camera)
-            for kind, (key, terms) in table.items()
-            if key == lens.model and not _beyond(lens, terms)
-        ),
-        None,
-    )
-
-
-def lens_of(table: Table, camera: Camera) -> tuple[str, Lens]:
-    """Return the result of ``find_lens`` for a camera that the format does not refuse."""
-    found = find_lens(table, camera)
-    assert found is not None
-    return found
-
-
-def values(lens: Lens, names: Iterable[str]) -> list[float]:
-    """Return the values of settings of a lens; 0 for settings that the lens does not have."""
-    return [float(lens.settings.get(name, 0.0)) for name in names]
-
-
-def by_lens(shots: Sequence[Shot], told: Callable[[Shot], str]) -> Iterator[tuple[str, str, list[Shot]]]:
-    """Yield for each lens the name of its file without ending, the lens as text (``told(shot)``), and its shots.
-
-    The name is the camera's, or if the lens changes from frame to frame the name of each shot.
-    """
-    for name in dict.fromkeys(shot.name for shot in shots):
-        own = [(shot, told(shot)) for shot in shots if shot.name == name]
-        if len({text for _, text in own}) == 1:
-            yield name, own[0][1], [shot for shot, _ in own]
-        else:
-            yield from ((shot.stem, text, [shot]) for shot, text in own)
-
-
-class LensFormat(Format):
-    """A format of calibrated lenses, most with poses."""
-
-    table: ClassVar[Table]
-    rigid = True
-
-    def refusal(self, shot):
-        """See Format."""
-        if shot.camera.pixel_time is not None:
-            return OWN_TIMES
-        if find_lens(self.table, shot.camera) is not None:
-            return None
-        known = {key for key, _ in self.table.values()}
-        for lens in calibrations(shot.camera):
-            if lens.model in known:
-                names = min((_beyond(lens, terms) for key, terms in self.table.values() if key == lens.model), key=len)
-                return f"whose {', '.join(names)} {'is' if len(names) == 1 else 'are'} not 0"
-        return ""
-
-
-def _beyond(lens: Lens, terms: Collection[str]) -> list[str]:
-    """Return the settings of a lens that are not 0 and that neither the matrix nor ``terms`` contain."""
-    return [name for name, value in lens.settings.items() if value and name not in (*MATRIX, *FRAME_SIZE, *terms)]

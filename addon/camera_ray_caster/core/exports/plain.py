@@ -6,9 +6,7 @@ read back as the same float64.
 
 from __future__ import annotations
 
-import json
 import math
-import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -27,12 +25,6 @@ def plain(value, of_infinite: Callable[[float], Any] = lambda number: {"float": 
     if isinstance(value, list | tuple):
         return [plain(entry, of_infinite) for entry in value]
     return of_infinite(value) if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def as_text(value) -> str:
-    """Return plain values as strict JSON: one line per entry, and one line per list of numbers."""
-    text = json.dumps(value, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
-    return re.sub(r"\[\n[-+.,\deE\s]+\]", lambda found: f"[{' '.join(found[0][1:-1].split())}]", text)
 
 
 def restored(value) -> Any:

@@ -8,7 +8,7 @@ import warnings
 import numpy as np
 
 from ..maths.rotations import polar
-from ..programs import ray_arrays
+from ..programs.parts import ray_arrays
 from ..programs.parts.document import Document
 from ..programs.parts.lens import Lens
 from ..programs.reading.mounted import mounted

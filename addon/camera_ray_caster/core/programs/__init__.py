@@ -2,20 +2,67 @@
 
 from __future__ import annotations
 
-from . import colmap, euroc, kalibr, maplab, mrcal, okvis, opensfm
+from . import (
+    aria,
+    arkitscenes,
+    basalt,
+    bop,
+    colmap,
+    euroc,
+    euroc_trajectory,
+    gyroflow,
+    hesai,
+    hot3d,
+    kalibr,
+    kitti,
+    maplab,
+    meshroom,
+    metashape,
+    mrcal,
+    nerf,
+    nerfstudio,
+    nvidia,
+    ocam,
+    okvis,
+    opencv,
+    opensfm,
+    orbslam,
+    ouster,
+    polycam,
+    ray_table,
+    realsense,
+    recorded,
+    ros,
+    schops,
+    stmap,
+    tum,
+    velodyne,
+    vins,
+    woodscape,
+)
 from .parts.document import Document
 from .parts.program import ProgramFiles, in_words
-from .table import ROWS
 
-_MOVED = {one.PROGRAM.name: one.PROGRAM for one in (colmap, euroc, kalibr, maplab, mrcal, okvis, opensfm)}
-PROGRAMS: tuple[ProgramFiles, ...] = tuple(_MOVED.get(name, row) for name, row in ROWS.items())
+MODULES = (
+    opencv, ros, colmap, nerfstudio, kalibr, euroc, okvis, vins, orbslam, basalt, bop, realsense, mrcal, aria, nvidia,
+    woodscape, opensfm, maplab, hot3d, metashape, meshroom, polycam, arkitscenes, tum,
+    kitti, gyroflow, ocam, velodyne,
+    ouster, hesai, recorded, schops, ray_table, nerf, euroc_trajectory, stmap,
+)  # fmt: skip
+PROGRAMS: tuple[ProgramFiles, ...] = tuple(module.PROGRAM for module in MODULES)
 """All programs, in the order in which messages name them."""
 
+
 READ = in_words(program.name for program in PROGRAMS if program.reads)
-"""The programs whose calibration files are read, in words."""
+"""The programs whose lenses are read, in words."""
+PLACED = in_words(program.name for program in PROGRAMS if program.poses is not None)
+"""The programs whose poses are read, in words."""
 
 
 def program_of(document: Document) -> ProgramFiles | None:
     """Return the program that recognizes a document; a general one if no other does; None if none does."""
-    by_rank = sorted(PROGRAMS, key=lambda program: program.general)
-    return next((program for program in by_rank if program.recognizes(document)), None)
+    for is_general in (False, True):
+        for program in PROGRAMS:
+            if program.general == is_general and program.recognizes(document):
+                return program
+    return None

@@ -1,14 +1,19 @@
 """Basalt's calibration, as JSON: value0 with a list of intrinsics and a list of resolutions, by the cameras' numbers.
 
-The center of the first pixel is (0, 0). Basalt's unified camera, ucm, is the enhanced one with beta = 1.
+The center of the first pixel is (0, 0). Basalt's unified camera, ucm, is the enhanced one with beta = 1. T_imu_cam
+leads from the camera to the IMU.
 References: V. Usenko, N. Demmel and D. Cremers, The Double Sphere Camera Model (2018); Basalt documentation,
 Calibration.
 """
 
 from __future__ import annotations
 
+from ..units import METERS
 from .parts.document import Document
-from .parts.lens import Lens, mapping, matrix, one_of_several
+from .parts.fields import Fields
+from .parts.lens import Lens, matrix, one_of_several
+from .parts.placed import Placed, of_quaternion
+from .parts.program import ProgramFiles
 
 MODELS = {
     "ds": ("DOUBLE_SPHERE", {"xi": "unified_xi", "alpha": "unified_alpha"}),
@@ -24,26 +29,44 @@ MODELS = {
 """Our model for a camera type, and our settings for its parameters beside the focal lengths and the center."""
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lenses of a document; see the package."""
-    calibration = mapping(document.raw.get("value0"))
-    cameras = calibration.get("intrinsics")
-    if not isinstance(cameras, list):
-        return None
-    sizes = calibration.get("resolution")
-    if sizes is not None and (not isinstance(sizes, list) or len(sizes) != len(cameras)):
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    return bool(document.entries.part("value0").parts("intrinsics"))
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    calibration = document.entries.part("value0")
+    cameras, sizes = calibration.parts("intrinsics"), calibration.each("resolution")
+    if calibration.has("resolution") and len(sizes) != len(cameras):
         raise document.refusal(f"it has {len(cameras)} intrinsics and not as many resolutions")
-    named = [(f"cam{number}", mapping(camera), sizes and sizes[number]) for number, camera in enumerate(cameras)]
-    return [one_of_several(name, _lens, document, name, *rest) for name, *rest in named]
+    pairs = zip(cameras, sizes or cameras, strict=True)
+    named = [(f"cam{number}", camera.merged(size)) for number, (camera, size) in enumerate(pairs)]
+    return [one_of_several(name, _lens, camera.labeled(name)) for name, camera in named]
 
 
-def _lens(document: Document, name: str, camera: dict, size) -> Lens:
-    model, terms = MODELS[document.one_of(camera.get("camera_type"), f"camera_type of {name}", MODELS)]
-    given = mapping(camera.get("intrinsics"))
-    numbers = {one: document.number(given, one) for one in ("fx", "fy", "cx", "cy", *terms)}
-    settings = {own: numbers[one] for one, own in terms.items()}
-    if camera["camera_type"] == "ucm":
-        settings["unified_beta"] = 1.0
-    sides = [None, None] if size is None else document.numbers(size, f"resolution of {name}", 2)
-    camera_matrix = matrix(*(numbers[one] for one in ("fx", "fy", "cx", "cy")))
-    return Lens(name, model, document.size(*sides) | camera_matrix | settings)
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles: in the IMU's frame."""
+    placed = []
+    for number, pose in enumerate(document.entries.part("value0").parts("T_imu_cam")):
+        turn, place = ([pose.number(name) for name in names] for names in
+                       (("qw", "qx", "qy", "qz"), ("px", "py", "pz")))  # fmt: skip
+        name = f"cam{number}"
+        placed.append(Placed(name, "", None, of_quaternion(document, turn, place, name)))
+    return placed
+
+
+def _lens(camera: Fields) -> Lens:
+    kind = camera.word("camera_type", MODELS)
+    model, terms = MODELS[kind]
+    intrinsics = camera.part("intrinsics")
+    numbers = {name: intrinsics.number(name) for name in ("fx", "fy", "cx", "cy", *terms)}
+    settings = {own: numbers[name] for name, own in terms.items()} | ({"unified_beta": 1.0} if kind == "ucm" else {})
+    camera_matrix = matrix(*(numbers[name] for name in ("fx", "fy", "cx", "cy")))
+    return Lens(camera.label, model, camera.size("resolution") | camera_matrix | settings)
+
+
+PROGRAM = ProgramFiles(
+    "Basalt", "calibration .json", looks, marks="value0 intrinsics camera_type resolution T_imu_cam",
+    reads="ds, eucm, ucm, kb4, fov, pinhole, pinhole-radtan8", read=read, poses=poses, unit=METERS,
+)  # fmt: skip

@@ -12,6 +12,7 @@ import re
 import struct
 from collections.abc import Iterator, Sequence
 from math import pi
+from pathlib import Path
 
 from ..conventions import EPS32
 from ..maths.rotations import quaternion
@@ -100,6 +101,17 @@ def poses(document: Document) -> list[Placed]:
         pose = of_quaternion(document, numbers[:4], numbers[4:], f"image {number}")
         placed.append(Placed(str(camera), name, None, inverted(pose)))
     return placed
+
+
+def pair(path: Path) -> tuple[Path, Path] | None:
+    """See ProgramFiles. A folder stands for the model in it, or in its sparse/0."""
+    if path.is_dir():
+        folders = path, path / "sparse" / "0", path / "sparse"
+        there = [one for folder in folders for one in (folder / "images.bin", folder / "images.txt") if one.is_file()]
+        return pair(there[0]) if there else None
+    if path.stem not in ("images", "cameras") or path.suffix not in (".bin", ".txt"):
+        return None
+    return path.with_stem("cameras"), path.with_stem("images")
 
 
 def _cameras(document: Document) -> list[list[str]] | None:
@@ -213,7 +225,8 @@ def _line(lens: Lens) -> str:
 PROGRAM = ProgramFiles(
     "COLMAP", "cameras.txt, cameras.bin; images.txt, images.bin", looks,
     marks="CAMERA_ID MODEL WIDTH HEIGHT PARAMS PINHOLE SIMPLE_RADIAL",
-    reads="all models", lost="skew, tilt, the terms s2 and s4 of a thin prism", models=MODELS, read=read, poses=poses,
+    reads="all models", lost="skew, tilt, the terms s2 and s4 of a thin prism", models=MODELS, read=read,
+    poses=poses, pair=pair,
     export=FileWriter(
         "colmap", "COLMAP", "cameras.txt, images.txt and points3D.txt: calibrated lenses and poses",
         write, MODELS, refusal,

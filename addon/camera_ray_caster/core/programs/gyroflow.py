@@ -6,36 +6,46 @@ Reference: Gyroflow documentation, Lens profiles; its lens_profiles.
 
 from __future__ import annotations
 
-from ..text_forms.content import flat
 from .parts.document import Document
-from .parts.lens import Lens, mapping, matrix
+from .parts.lens import Lens, matrix
+from .parts.program import ProgramFiles
 
 MODELS = {
-    "opencv_fisheye": ("OPENCV_FISHEYE", "fisheye_params", ("k1", "k2", "k3", "k4")),
-    "opencv_standard": ("OPENCV_PINHOLE", "fisheye_params", ("k1", "k2", "p1", "p2", "k3")),
+    "opencv_fisheye": ("OPENCV_FISHEYE", ("k1", "k2", "k3", "k4")),
+    "opencv_standard": ("OPENCV_PINHOLE", ("k1", "k2", "p1", "p2", "k3")),
 }
-"""Our model for a distortion_model, the entry of its numbers, and its coefficients."""
+"""Our model for a distortion_model, and its coefficients."""
 STRETCHES = "input_horizontal_stretch", "input_vertical_stretch"
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lens of a document; see the package."""
-    entries = document.raw
-    if "calib_dimension" not in entries or not {"fisheye_params", "calib_params"} & entries.keys():
-        return None
-    old = "opencv_standard" if entries.get("use_opencv_standard") is True else "opencv_fisheye"
-    kind = document.one_of(entries.get("distortion_model") or old, "distortion_model", MODELS)
-    model, entry, terms = MODELS[kind]
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    entries = document.entries
+    return entries.has("calib_dimension") and (entries.has("fisheye_params") or entries.has("calib_params"))
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    entries = document.entries
+    plain = entries.text("use_opencv_standard") == "True"
+    kind = entries.word("distortion_model", MODELS, "opencv_standard" if plain else "opencv_fisheye")
+    model, terms = MODELS[kind]
     for name in STRETCHES:
-        if entries.get(name) is not None and document.number(entries, name) not in (0.0, 1.0):
-            raise document.refusal(f"{name} is {entries[name]}: profiles of stretched pictures are not read")
-    given = mapping(entries.get("calib_params" if entries.get("use_opencv_standard") is True else entry))
-    parts = ("camera_matrix", 9), ("distortion_coeffs", None)
-    rows, rest = (document.numbers(flat(given.get(name), name, document.path), name, count) for name, count in parts)
-    if len(rest) > len(terms):
-        raise document.refusal(f"distortion_coeffs has {len(rest)} numbers: {kind} has {len(terms)}")
-    size = mapping(entries["calib_dimension"])
-    settings = document.size(document.number(size, "w"), document.number(size, "h"))
+        stretch = entries.number(name, 1.0)
+        if stretch not in (0.0, 1.0):
+            raise document.refusal(f"{name} is {stretch}: profiles of stretched pictures are not read")
+    given = entries.part("calib_params" if plain else "fisheye_params")
+    rows, coefficients = given.matrix("camera_matrix", 9), given.matrix("distortion_coeffs")
+    if len(coefficients) > len(terms):
+        raise document.refusal(f"distortion_coeffs has {len(coefficients)} numbers: {kind} has {len(terms)}")
+    settings = entries.part("calib_dimension").sides("w", "h")
     settings |= matrix(rows[0], rows[4], rows[2], rows[5]) | {"skew": rows[1]}
-    name = " ".join(str(entries[part]) for part in ("camera_brand", "camera_model") if entries.get(part))
-    return [Lens(name, model, settings | dict(zip(terms, rest, strict=False)))]
+    name = f"{entries.text('camera_brand')} {entries.text('camera_model')}".strip()
+    return [Lens(name, model, settings | dict(zip(terms, coefficients, strict=False)))]
+
+
+PROGRAM = ProgramFiles(
+    "Gyroflow", "lens profiles as .json", looks,
+    marks="calib_dimension fisheye_params use_opencv_fisheye calibrator_version",
+    reads="opencv_fisheye, opencv_standard", lost="stretched pictures and other models are refused", read=read,
+)  # fmt: skip

@@ -12,22 +12,22 @@ from ..cameras.parts.devices import numbers_as_text
 from ..cameras.parts.scanners import AZIMUTHS, COLUMNS, ELEVATIONS
 from .parts.document import Document
 from .parts.lens import Lens, numbers_of
+from .parts.program import ProgramFiles
 
 HEADS = ["channel", "elevation", "azimuth"], ["laser id", "elevation", "azimuth"]
 FEW = 32
 """Number of channels of the sensors with a step of 0.18 degrees, not 0.2."""
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the scanner of a document; see the package."""
-    if b"levation" not in document.data[:256]:
-        return None
-    lines = [[cell.strip() for cell in line.split(",")] for line in document.text.splitlines() if line.strip(" ,")]
-    head = next((k for k, line in enumerate(lines[:2]) if [cell.lower() for cell in line[:3]] in HEADS), None)
-    if head is None:
-        return None
-    rows = []
-    for line in lines[head + 1 :]:
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    return b"levation" in document.data[:256] and _head(_lines(document)) is not None
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    lines, rows = _lines(document), []
+    for line in lines[(_head(lines) or 0) + 1 :]:
         document.check()
         numbers = numbers_of(line[:3])
         if len(numbers) != 3:
@@ -43,3 +43,22 @@ def read(document: Document, key: str) -> list[Lens] | None:
         ELEVATIONS.name: numbers_as_text(elevations), AZIMUTHS.name: numbers_as_text(azimuths),
         COLUMNS.name: 2000 if len(rows) <= FEW else 1800,
     })]  # fmt: skip
+
+
+def hint(document: Document) -> str:
+    """See ProgramFiles."""
+    return "its first line must name channel, elevation, azimuth, of Hesai's angle corrections"
+
+
+def _lines(document: Document) -> list[list[str]]:
+    return [[cell.strip() for cell in line.split(",")] for line in document.text.splitlines() if line.strip(" ,")]
+
+
+def _head(lines: list[list[str]]) -> int | None:
+    return next((k for k, line in enumerate(lines[:2]) if [cell.lower() for cell in line[:3]] in HEADS), None)
+
+
+PROGRAM = ProgramFiles(
+    "Hesai", "angle corrections .csv", looks, marks="channel elevation azimuth", reads="channels, as scanners",
+    lost="columns and times", read=read, endings=(".csv",), hint=hint,
+)  # fmt: skip

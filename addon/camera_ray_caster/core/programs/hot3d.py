@@ -8,44 +8,59 @@ Reference: HOT3D documentation, and the hand tracking toolkit that reads its cli
 
 from __future__ import annotations
 
-from .aria import MODELS as ARIA
+from ..units import METERS
 from .parts.document import Document
-from .parts.lens import Lens, mapping, matrix, numbers_of
+from .parts.lens import Lens, matrix
 from .parts.placed import Placed, of_quaternion
+from .parts.program import PictureFolders, ProgramFiles
 
-KINDS = {"FISHEYE624": ARIA["FisheyeRadTanThinPrism"][:2], "PINHOLE": ("OPENCV_PINHOLE", ())}
+TERMS = "k1", "k2", "k3", "k4", "k5", "k6", "p2", "p1", "s1", "s2", "s3", "s4"
+MODELS = {"FISHEYE624": ("FISHEYE624", TERMS), "PINHOLE": ("OPENCV_PINHOLE", ())}
 """Our model for the last part of a projection_model_type, and the settings that follow the center."""
 
-WORLD, DEVICE = "T_world_from_camera", "T_device_from_camera"
+KIND, WORLD, DEVICE = "projection_model_type", "T_world_from_camera", "T_device_from_camera"
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lens of a document, a single calibration; see the package, which looks for those inside."""
-    entries = document.raw
-    if not {"projection_model_type", "projection_params"} <= entries.keys():
+def looks(document: Document) -> bool:
+    """See ProgramFiles: a calibration, or streams that have one each."""
+    entries = document.entries
+    streams = list(entries.named().values())
+    in_streams = len(streams) == len(entries) and all(one.part("calibration").has(KIND) for one in streams)
+    return in_streams or entries.has(KIND, "projection_params")
+
+
+def read(document: Document) -> list[Lens] | None:
+    """See ProgramFiles. Those of streams are further inside."""
+    entries = document.entries
+    if not entries.has(KIND):
         return None
-    kind = str(entries["projection_model_type"]).rpartition(".")[2]
-    model, terms = KINDS[document.one_of(kind, "projection_model_type", KINDS)]
-    given = entries["projection_params"]
-    focal = 1 if len(numbers_of(given)) == len(terms) + 3 else 2
-    numbers = document.numbers(given, "projection_params", focal + 2 + len(terms))
-    size = [document.number(entries, side) if side in entries else None for side in ("image_width", "image_height")]
+    kind = entries.text(KIND).rpartition(".")[2]
+    model, terms = MODELS[document.one_of(kind, KIND, MODELS)]
+    focal = 1 if entries.count_of("projection_params") == len(terms) + 3 else 2
+    numbers = entries.numbers("projection_params", focal + 2 + len(terms))
     settings = matrix(numbers[0], numbers[focal - 1], *numbers[focal : focal + 2])
-    rest = dict(zip(terms, numbers[focal + 2 :], strict=True))
-    return [Lens(str(entries.get("label", "")), model, document.size(*size) | settings | rest)]
+    coefficients = dict(zip(terms, numbers[focal + 2 :], strict=True))
+    size = entries.sides("image_width", "image_height")
+    return [Lens(entries.text("label"), model, size | settings | coefficients)]
 
 
-def poses(document: Document) -> list[Placed] | None:
-    """Return the poses of the cameras; None of any other file. Raises InputError."""
-    streams = {name: mapping(one) for name, one in document.raw.items()}
-    own = {name: mapping(one.get("calibration")) for name, one in streams.items()}
-    if not all("projection_model_type" in one for one in own.values()):
-        return None
-    in_world = all(WORLD in one for one in streams.values())
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles."""
+    streams = document.entries.named()
+    in_world = all(one.has(WORLD) for one in streams.values())
     placed = []
-    for name, one in streams.items():
-        pose = mapping(one[WORLD] if in_world else own[name].get(DEVICE))
-        label = str(own[name].get("label") or f"{name}.calibration")
-        turn, place = pose.get("quaternion_wxyz"), pose.get("translation_xyz")
+    for name, stream in streams.items():
+        calibration = stream.part("calibration")
+        pose = stream.part(WORLD) if in_world else calibration.part(DEVICE)
+        label = calibration.text("label") or f"{name}.calibration"
+        pose = pose.labeled(label)
+        turn, place = pose.numbers("quaternion_wxyz", 4), pose.numbers("translation_xyz", 3)
         placed.append(Placed(label, "", None, of_quaternion(document, turn, place, label)))
     return placed
+
+
+PROGRAM = ProgramFiles(
+    "HOT3D", "cameras of its clips as .json", looks,
+    marks="calibration projection_model_type projection_params T_device_from_camera", reads="FISHEYE624, PINHOLE",
+    read=read, poses=poses, unit=METERS, pictures=PictureFolders("*.cameras.json", numbered=True),
+)  # fmt: skip

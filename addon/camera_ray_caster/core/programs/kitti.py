@@ -13,14 +13,17 @@ development kits of KITTI's raw data and odometry; KITTI-360 documentation.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Sequence
 from functools import partial
 
 import numpy as np
 
-from . import opencv
+from ..units import METERS
 from .parts.document import Document
 from .parts.lens import Lens, numbers_of, one_of_several
 from .parts.placed import Placed, checked, inverted, pose_of
+from .parts.plain import plain_lens
+from .parts.program import CameraRecord, FileWriter, ProgramFiles
 
 LINE = re.compile(r"^(P\d|[SKDRT]_\d\d|[SRP]_rect_\d\d):[ \t]+(\S+[ \t]+[^\s#].*)$", re.MULTILINE)
 """A line of a name and two words or more: one number named P1 is a coefficient of other formats."""
@@ -33,22 +36,31 @@ LONGEST = 1000
 """Characters in which such a line ends."""
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lenses of a document; see the package."""
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    return _has_rows(document) or any(map(LENS.fullmatch, _lines(document)))
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
     lines = _lines(document)
-    return [one_of_several(name, _lens, document, lines, name) for name in lines if LENS.fullmatch(name)] or None
+    if not any(map(LENS.fullmatch, lines)):
+        raise document.refusal("it has KITTI's poses, and no lens")
+    return [one_of_several(name, _lens, document, lines, name) for name in lines if LENS.fullmatch(name)]
 
 
-def poses(document: Document) -> list[Placed] | None:
-    """Return the poses of a document: those of the cameras of a calibration, in the frame of the first one, or of
-    poses.txt; None of any other file. Raises InputError.
-    """
-    first = document.text[:LONGEST].strip().partition("\n")[0].split()
-    if len(first) == len(numbers_of(first)) == POSE:
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles: those of the cameras of a calibration, in the frame of the first one, or of poses.txt."""
+    if _has_rows(document):
         rows = [line.split() for line in document.text.splitlines() if line.strip()]
         return [_moved(document, number, row) for number, row in enumerate(rows, 1)]
     lines = _lines(document)
-    return [Placed(lens.name, "", None, _pose(document, lines, lens)) for lens in read(document, "") or ()] or None
+    return [Placed(lens.name, "", None, _pose(document, lines, lens)) for lens in read(document)]
+
+
+def _has_rows(document: Document) -> bool:
+    first = document.text[:LONGEST].strip().partition("\n")[0].split()
+    return len(first) == len(numbers_of(first)) == POSE
 
 
 def _lines(document: Document) -> dict[str, list[str]]:
@@ -67,7 +79,7 @@ def _lens(document: Document, lines: dict[str, list[str]], name: str) -> Lens:
         entries |= zip(("image_width", "image_height"), numbers(size, 2), strict=True)
     if kind == "K":
         entries["distortion_coefficients"] = numbers(f"D_{number}", 5)
-    return (opencv.read(document.part(entries), "") or [])[0]._replace(name=name)
+    return plain_lens(document.part(entries))._replace(name=name)
 
 
 def _pose(document: Document, lines: dict[str, list[str]], lens: Lens) -> np.ndarray:
@@ -95,3 +107,18 @@ def _moved(document: Document, number: int, row: list[str]) -> Placed:
 
 def _numbers(document: Document, lines: dict[str, list[str]], name: str, count: int) -> list[float]:
     return document.numbers(lines.get(name), name, count)
+
+
+def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
+    """See FileWriter. One file per camera, the rows of a matrix for each frame."""
+    for name in dict.fromkeys(record.name for record in records):
+        rows = [record.pose[:3].ravel().tolist() for record in records if record.name == name]
+        yield f"{name}_kitti.txt", "".join(" ".join(map(repr, row)) + "\n" for row in rows)
+
+
+PROGRAM = ProgramFiles(
+    "KITTI", "calib_cam_to_cam.txt, also perspective.txt of KITTI-360; calib.txt; poses .txt", looks,
+    marks="P0 P1 P2 P3 Tr", reads="pinholes as calibrated (K_02) and rectified (P_rect_02, P2), and their places",
+    lost="of calib.txt the size of the pictures; of poses lenses and times", read=read, poses=poses, unit=METERS,
+    export=FileWriter("kitti", "KITTI Poses", "<camera>_kitti.txt: a matrix for each frame, of any camera", write),
+)  # fmt: skip

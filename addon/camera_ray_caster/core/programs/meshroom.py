@@ -9,13 +9,13 @@ References: AliceVision, sfmDataIO: the changes of its file format; its camera m
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from .parts.document import Document
-from .parts.lens import Lens, mapping, one_of_several
+from .parts.fields import Fields
+from .parts.lens import Lens, one_of_several
 from .parts.placed import Placed, checked
+from .parts.program import ProgramFiles
 
 MODELS = {
     "pinhole": ("OPENCV_PINHOLE", ()),
@@ -31,79 +31,81 @@ MODELS = {
 }
 """Our model for a type, or for the distortionType of a pinhole, and its coefficients."""
 
-CENTERED = 1, 2, 1
+CENTERED = [1.0, 2.0, 1.0]
 """The version of files from which on principal points are measured from the middle."""
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lenses of a document; see the package."""
-    entries = document.raw
-    intrinsics = entries.get("intrinsics")
-    if not isinstance(intrinsics, list) or not all("intrinsicId" in mapping(one) for one in intrinsics):
-        return None
-    version = tuple(document.numbers(entries.get("version", [1, 2, 1]), "version"))
-    return [one_of_several(str(one["intrinsicId"]), _lens, document, one, version) for one in intrinsics]
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    entries = document.entries
+    return entries.has("intrinsics") and all(one.has("intrinsicId") for one in entries.parts("intrinsics"))
 
 
-def _lens(document: Document, camera: dict, version: tuple[float, ...]) -> Lens:
-    name = str(camera["intrinsicId"])
-    kind = str(camera.get("type", "pinhole")).lower()
-    kind = str(camera.get("distortionType") or kind).lower() if kind == "pinhole" else kind
-    model, terms = MODELS[document.one_of(kind, f"type of {name}", MODELS)]
-    width, height = document.number(camera, "width"), document.number(camera, "height")
-    if document.number(camera, "pixelRatio", 1.0) != 1:
-        raise document.refusal(f"pixelRatio of {name} is {camera['pixelRatio']}: only square pixels are read")
-    if "pxFocalLength" in camera:
-        focal = document.numbers(camera["pxFocalLength"], f"pxFocalLength of {name}")
-    else:
-        focal = [document.number(camera, "focalLength") / document.number(camera, "sensorWidth") * width]
-    center = document.numbers(camera.get("principalPoint"), f"principalPoint of {name}", 2)
-    if version >= CENTERED:
-        center = [center[0] + width / 2, center[1] + height / 2]
-    given = camera.get("distortionParams")
-    rest = [0.0] * len(terms) if given in (None, "", []) else document.numbers(given, f"distortionParams of {name}")
-    if len(rest) != len(terms) and any(rest):
-        raise document.refusal(f"distortionParams of {name} has {len(rest)} numbers: {kind} has {len(terms)}")
-    settings = {"fx": focal[0], "fy": focal[-1], "cx": center[0], "cy": center[1]}
-    return Lens(name, model, document.size(width, height) | settings | dict(zip(terms, rest, strict=False)))
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    entries = document.entries
+    centered = entries.numbers("version", default=CENTERED) >= CENTERED
+    cameras = [one.labeled(one.text("intrinsicId")) for one in entries.parts("intrinsics")]
+    return [one_of_several(camera.label, _lens, camera, centered) for camera in cameras]
 
 
-def poses(document: Document) -> list[Placed] | None:
-    """Return the poses of the views in the order of the file; None of any other file. Raises InputError."""
-    entries = document.raw
-    views = entries.get("views")
-    if not isinstance(views, list) or not isinstance(entries.get("intrinsics"), list):
-        return None
-    own = {str(one.get("poseId")): mapping(one.get("pose")).get("transform") for one in _mappings(entries, "poses")}
-    rigs = {str(one.get("rigId")): _mappings(one, "subPoses") for one in _mappings(entries, "rigs")}
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles: those of the views, in the order of the file."""
+    entries = document.entries
+    own = {one.text("poseId"): one.part("pose").part("transform") for one in entries.parts("poses")}
+    rigs = {one.text("rigId"): one.parts("subPoses") for one in entries.parts("rigs")}
     placed = []
-    for view in map(mapping, views):
+    for view in entries.parts("views"):
         document.check()
-        name = str(view.get("path") or view.get("viewId", ""))
-        transform = own.get(str(view.get("poseId")))
-        if transform is None:
+        name = view.text("path") or view.text("viewId")
+        transform = own.get(view.text("poseId"))
+        if transform is None or not len(transform):
             continue
-        pose = _pose(document, transform, name)
-        independent = str(view.get("isPoseIndependant", "true")).lower() in ("true", "1")
-        if str(view.get("rigId")) in rigs and not independent:
-            cameras, number = rigs[str(view["rigId"])], document.number(view, "subPoseId")
-            if not 0 <= number < len(cameras) or number % 1:
-                raise document.refusal(f"subPoseId of {name} is {number:g}: its rig has {len(cameras)} cameras")
-            pose = pose @ _pose(document, cameras[int(number)].get("pose"), f"camera {number:g} of a rig")
-        placed.append(Placed(str(view.get("intrinsicId", "")), name, None, pose))
+        pose, rig = _pose(transform.labeled(name)), view.text("rigId")
+        if rig in rigs and view.text("isPoseIndependant", "true").lower() not in ("true", "1"):
+            number = view.whole("subPoseId")
+            if number >= len(rigs[rig]):
+                raise document.refusal(f"subPoseId of {name} is {number}: its rig has {len(rigs[rig])} cameras")
+            pose = pose @ _pose(rigs[rig][number].part("pose").labeled(f"camera {number} of a rig"))
+        placed.append(Placed(view.text("intrinsicId"), name, None, pose))
     if not placed:
         raise document.refusal("it has no poses of its views: give the file of StructureFromMotion, not of CameraInit")
     return placed
 
 
-def _mappings(owner: dict, name: str) -> list[dict]:
-    found = owner.get(name)
-    return list(map(mapping, found)) if isinstance(found, list) else []
-
-
-def _pose(document: Document, transform: Any, name: str) -> np.ndarray:
+def _pose(transform: Fields) -> np.ndarray:
     pose = np.eye(4)  # the transposed of a rotation by columns is it by rows: from the camera
-    given = mapping(transform)
-    pose[:3, :3] = np.reshape(document.numbers(given.get("rotation"), f"rotation of {name}", 9), (3, 3))
-    pose[:3, 3] = document.numbers(given.get("center"), f"center of {name}", 3)
-    return checked(document, pose, f"rotation of {name}")
+    pose[:3, :3] = np.reshape(transform.numbers("rotation", 9), (3, 3))
+    pose[:3, 3] = transform.numbers("center", 3)
+    return checked(transform.document, pose, transform.said("rotation"))
+
+
+def _lens(camera: Fields, centered: bool) -> Lens:
+    kind = camera.text("type", "pinhole").lower()
+    kind = camera.text("distortionType", kind).lower() if kind == "pinhole" else kind
+    model, terms = MODELS[camera.document.one_of(kind, camera.said("type"), MODELS)]
+    width, height = camera.number("width"), camera.number("height")
+    ratio = camera.number("pixelRatio", 1.0)
+    if ratio != 1:
+        raise camera.document.refusal(f"{camera.said('pixelRatio')} is {ratio}: only square pixels are read")
+    if camera.has("pxFocalLength"):
+        focal = camera.numbers("pxFocalLength")
+    else:
+        focal = [camera.number("focalLength") / camera.number("sensorWidth") * width]
+    x, y = camera.numbers("principalPoint", 2)
+    if centered:
+        x, y = x + width / 2, y + height / 2
+    coefficients = camera.numbers("distortionParams", default=[0.0] * len(terms))
+    if len(coefficients) != len(terms) and any(coefficients):
+        said = camera.said("distortionParams")
+        raise camera.document.refusal(f"{said} has {len(coefficients)} numbers: {kind} has {len(terms)}")
+    settings = {"fx": focal[0], "fy": focal[-1], "cx": x, "cy": y} | dict(zip(terms, coefficients, strict=False))
+    return Lens(camera.label, model, camera.document.size(width, height) | settings)
+
+
+PROGRAM = ProgramFiles(
+    "Meshroom", ".sfm of AliceVision", looks,
+    marks="intrinsicId pxFocalLength principalPoint distortionParams sensorWidth",
+    reads="pinhole, radial1, radial3, brown, fisheye4, fisheye1",
+    lost="views without a pose; anamorphic lenses are refused", read=read, poses=poses,
+)  # fmt: skip

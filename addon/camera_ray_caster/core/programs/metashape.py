@@ -1,53 +1,55 @@
-"""The calibrations of Agisoft Metashape, as XML: of one camera, or the sensors of a project's cameras.
+"""Agisoft Metashape's XML: the calibration of one camera, or the sensors and cameras of a project.
 
 f is in pixels, cx and cy are measured from the middle of the picture; b1 and b2 are affinity and skew. With p1 and p2
 swapped its distortion is OpenCV's; a fisheye's is the same of the angle, which is COLMAP's THIN_PRISM_FISHEYE.
-A sensor of a label that others have is named LABEL 1, LABEL 2, ...; metashape_poses reads where the cameras are.
-Reference: Agisoft Metashape manual, appendix Camera models.
+A sensor of a label that others have is named LABEL 1, LABEL 2, ...
+A camera's transform leads from it, y down and z ahead, to its chunk; that of its component, or of the chunk, with a
+scale, to the world. The world of a georeferenced chunk is that of the Earth's center: here it is a frame of east,
+north and up about the middle of the cameras, on the WGS 84 ellipsoid. A camera with a master stands beside it as its
+sensor tells: the rotation leads from its frame to that of the master, where the location is, in units of the chunk.
+Cameras without a transform, of their own or of a master, are left out: they were not aligned.
+References: Agisoft Metashape manual, appendix Camera models; Agisoft Metashape Python API, Camera.master,
+Sensor.rotation, Sensor.location, Chunk.transform and CoordinateSystem.localframe.
 """
 
 from __future__ import annotations
 
 from collections import Counter
 
-from ..text_forms.xml_subset import Element, XmlError, tree
+import numpy as np
+
+from ..text_forms.xml_subset import Element
 from .parts.document import Document
+from .parts.earth import AXIS, axes_at
+from .parts.fields import Fields
 from .parts.lens import Lens, one_of_several
+from .parts.placed import Placed, checked, pose_of
+from .parts.program import ProgramFiles
 
 MODELS = {"frame": "OPENCV_PINHOLE", "fisheye": "THIN_PRISM_FISHEYE", "equidistant_fisheye": "THIN_PRISM_FISHEYE"}
 TERMS = {"k1": "k1", "k2": "k2", "k3": "k3", "k4": "k4", "p1": "p2", "p2": "p1"}
 """Our settings for Metashape's coefficients."""
 
+GEOGRAPHIC = "GEOGCS", "PROJCS", "COMPD_CS", "GEOCCS"
+"""Begins of the coordinate systems of the Earth, in OGC's words."""
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lenses of a document; see the package."""
-    root = root_of(document)
-    if root is None:
-        return None
+
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    return document.xml.name == "calibration" or bool(_named_sensors(document.xml))
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    root = document.xml
     if root.name == "calibration":
         return [_lens(document, "", root)]
-    return [one_of_several(name, _of_sensor, document, one, name) for name, one in named_sensors(root)] or None
+    return [one_of_several(name, _of_sensor, document, one, name) for name, one in _named_sensors(root)]
 
 
-def root_of(document: Document) -> Element | None:
-    """Return the outermost element of a file with a calibration; None of any other file. Raises InputError."""
-    if not document.text.lstrip().startswith("<") or "<calibration" not in document.text:
-        return None
-    try:
-        return tree(document.text, document.check)
-    except XmlError as error:
-        raise document.refusal(f"it is not XML: {error}") from error
-
-
-def all_of(element: Element, name: str) -> list[Element]:
-    """Return the elements of a name, in any depth."""
-    found = [element] if element.name == name else []
-    return found + [one for child in element.children for one in all_of(child, name)]
-
-
-def named_sensors(root: Element) -> list[tuple[str, Element]]:
+def _named_sensors(root: Element) -> list[tuple[str, Element]]:
     """Return the sensors that have a calibration, with names of their own."""
-    sensors = [one for one in all_of(root, "sensor") if any(child.name == "calibration" for child in one.children)]
+    sensors = [one for one in root.all("sensor") if one.child("calibration") is not None]
     labels = [one.attributes.get("label") or one.attributes.get("id", "") for one in sensors]
     total, count = Counter(labels), Counter[str]()
     named = []
@@ -64,21 +66,101 @@ def _of_sensor(document: Document, sensor: Element, name: str) -> Lens:
 
 
 def _lens(document: Document, name: str, calibration: Element) -> Lens:
-    entries = {child.name: child.text for child in calibration.children}
-    sides = next((child.attributes for child in calibration.children if child.name == "resolution"), entries)
-    kind = calibration.attributes.get("type") or entries.get("projection") or "frame"
+    entries, resolution = Fields(document, calibration.texts()), calibration.child("resolution")
+    sides = entries if resolution is None else Fields(document, dict(resolution.attributes))
+    kind = calibration.attributes.get("type") or entries.text("projection") or "frame"
     model = MODELS[document.one_of(kind, "projection", MODELS)]
-    width, height = document.number(sides, "width"), document.number(sides, "height")
-    focal = document.number(entries, "f")
+    width, height = sides.number("width"), sides.number("height")
+    focal = entries.number("f")
     settings = document.size(width, height) | {
-        "fx": focal + document.number(entries, "b1", 0.0), "fy": focal, "skew": document.number(entries, "b2", 0.0),
-        "cx": width / 2 - 0.5 + document.number(entries, "cx", 0.0),
-        "cy": height / 2 - 0.5 + document.number(entries, "cy", 0.0),
+        "fx": focal + entries.number("b1", 0.0), "fy": focal, "skew": entries.number("b2", 0.0),
+        "cx": width / 2 - 0.5 + entries.number("cx", 0.0), "cy": height / 2 - 0.5 + entries.number("cy", 0.0),
     }  # fmt: skip
-    settings |= {own: document.number(entries, theirs, 0.0) for theirs, own in TERMS.items()}
-    unread = [one for one in ("p3", "p4", *(("k4",) if kind == "frame" else ())) if document.number(entries, one, 0.0)]
+    settings |= {own: entries.number(theirs, 0.0) for theirs, own in TERMS.items()}
+    unread = [one for one in ("p3", "p4", *(("k4",) if kind == "frame" else ())) if entries.number(one, 0.0)]
     if unread:
         raise document.refusal(f"its {', '.join(unread)} of a {kind} camera is not 0, which no model here has")
     if kind == "frame":
         del settings["k4"]
     return Lens(name, model, settings)
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles: those of the aligned cameras in the order of the file."""
+    root = document.xml
+    names = {id(sensor): name for name, sensor in _named_sensors(root)}
+    placed: list[Placed] = []
+    georeferenced = False
+    for chunk in root.all("chunk"):
+        sensors = {one.attributes.get("id"): one for one in chunk.all("sensor")}
+        own = {one.attributes.get("id"): one.child("transform") for one in chunk.all("component")}
+        holder = chunk.child("cameras")
+        cameras = holder.all("camera") if holder is not None else []
+        by_id = {one.attributes.get("id", ""): one for one in cameras}
+        for camera in cameras:
+            document.check()
+            label, number = camera.attributes.get("label", ""), camera.attributes.get("sensor_id")
+            sensor = sensors.get(number)
+            master = camera if camera.child("transform") is not None else _master(document, camera, by_id)
+            transform = master.child("transform")
+            if transform is None:
+                continue
+            pose = pose_of(document, transform.text.split(), f"transform of {master.attributes.get('label', '')}")
+            if master is not camera and sensor is not None:
+                pose = pose @ _rigid(document, sensor, "location", f"sensor {number}")
+            to_world = own.get(master.attributes.get("component_id")) or chunk.child("transform")
+            if to_world is not None:
+                pose = _moved(document, to_world, pose)
+            name = names.get(id(sensor), "") if sensor is not None else f"of sensor {number}"
+            placed.append(Placed(name, label, None, pose))
+        reference = chunk.child("reference")
+        georeferenced |= reference is not None and reference.text.startswith(GEOGRAPHIC)
+    if not placed:
+        raise document.refusal("none of its cameras has a transform: align them in Metashape first")
+    middle = np.mean([one.pose[:3, 3] for one in placed], axis=0)
+    if not georeferenced or np.linalg.norm(middle) < AXIS / 2:  # a chunk without a scale is not in the world
+        return placed
+    axes = axes_at(middle)
+    for one in placed:
+        one.pose[:3, 3] -= middle
+        one.pose[:3] = axes @ one.pose[:3]
+    return placed
+
+
+def _master(document: Document, camera: Element, cameras: dict[str, Element]) -> Element:
+    """Return the master of a camera, which may be itself. Raises InputError for one that is not in the chunk."""
+    number = camera.attributes.get("master_id")
+    if number is None:
+        return camera
+    if number not in cameras:
+        label = camera.attributes.get("label", "")
+        raise document.refusal(f"master_id of {label} is {number}: no camera of its chunk has this id")
+    return cameras[number]
+
+
+def _rigid(document: Document, element: Element, place: str, name: str) -> np.ndarray:
+    """Return the pose (4, 4) of an element's rotation and its ``place``; without them, the identity."""
+    given = {name: text.split() for name, text in element.texts().items()}
+    pose = np.eye(4)
+    turn = document.numbers(given.get("rotation", np.eye(3).ravel().tolist()), f"rotation of {name}", 9)
+    pose[:3, :3] = np.reshape(turn, (3, 3))
+    pose[:3, 3] = document.numbers(given.get(place, [0.0] * 3), f"{place} of {name}", 3)
+    return checked(document, pose, f"rotation of {name}")
+
+
+def _moved(document: Document, transform: Element, pose: np.ndarray) -> np.ndarray:
+    """Return a pose of a chunk in its world: turned, and its place scaled and moved."""
+    moved, size = _rigid(document, transform, "translation", "a chunk"), transform.child("scale")
+    scale = document.numbers(size.text.split() if size is not None else 1.0, "scale of a chunk", 1)[0]
+    if scale <= 0:
+        raise document.refusal(f"scale of a chunk is {scale:g}: it must be above 0")
+    moved[:3, 3] = scale * moved[:3, :3] @ pose[:3, 3] + moved[:3, 3]
+    moved[:3, :3] = moved[:3, :3] @ pose[:3, :3]
+    return moved
+
+
+PROGRAM = ProgramFiles(
+    "Metashape", "calibrations, and cameras of projects, as .xml", looks,
+    marks="document chunk sensors sensor resolution adjusted", reads="frame, fisheye; slave cameras",
+    lost="cameras that are not aligned; k4 of a frame camera, p3 and p4 are refused", read=read, poses=poses,
+)  # fmt: skip

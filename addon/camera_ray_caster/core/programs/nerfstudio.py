@@ -1,19 +1,27 @@
-"""transforms.json of nerfstudio and instant-ngp: one lens for all frames, or one per frame.
+"""transforms.json of nerfstudio and instant-ngp: one lens for all frames, or one per frame, and the poses of frames.
 
 The center of the first pixel is (0.5, 0.5). k3 and k4 are the coefficients of r^6 and r^8; OpenCV's pinhole has no r^8.
 Entries of the whole file count before those of a frame; if it has one coefficient, those of frames do not count at all.
 Without w and h the pictures are as large as the frame, as in the files of NeRF, which have camera_angle_x alone.
-EQUIRECTANGULAR is the whole sphere; an ORTHOPHOTO's rays are parallel.
+EQUIRECTANGULAR is the whole sphere; an ORTHOPHOTO's rays are parallel. Poses are from Blender's camera frame to the
+world. Written, all frames are of one camera model, and distortion is stored per frame, because readers do not agree on
+the order of p1 and p2 in the head of the file.
 Reference: nerfstudio documentation, Data conventions; its reader, nerfstudio_dataparser.py.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from math import pi, tan
 from typing import Any
 
+from ..records import InputError
+from ..text_forms.json_text import as_text
 from .parts.document import Document
-from .parts.lens import Lens, matrix
+from .parts.fields import Fields
+from .parts.lens import Lens, matrix, matrix_of, word_of
+from .parts.placed import FROM_BLENDER, Placed, pose_in
+from .parts.program import SEPARATELY, CameraRecord, FileWriter, ProgramFiles, written
 
 MODELS = {
     "OPENCV": ("OPENCV_PINHOLE", ("k1", "k2", "k3", "p1", "p2")),
@@ -24,6 +32,7 @@ MODELS |= {"FISHEYE": MODELS["OPENCV_FISHEYE"]}
 """Our model, and its coefficients. Those of a pinhole count, too: nerfstudio distorts by them whatever the model is
 called.
 """
+WRITTEN = written(MODELS, "OPENCV", "OPENCV_FISHEYE")
 COEFFICIENTS, LIST = ("k1", "k2", "k3", "k4", "p1", "p2"), "distortion_params"
 """All coefficients, in the order of the list that may stand in their place."""
 FISHEYE624, SPHERE, PARALLEL = "FISHEYE624", "EQUIRECTANGULAR", "ORTHOPHOTO"
@@ -34,83 +43,100 @@ OF_LENS = (*SIZES, *FOCAL, *CENTER, *COEFFICIENTS, LIST, "camera_model", "is_fis
 """All entries of which a lens is made."""
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lenses of a document; see the package."""
-    entries = document.raw
-    frames = entries.get("frames")
-    if not isinstance(frames, list) or not all(isinstance(frame, dict) for frame in frames):
-        return None
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    entries = document.entries
+    return entries.has("frames") and entries.parts("frames") is not None
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    entries, frames = document.entries, document.entries.parts("frames")
     if any(name.startswith("ftheta_p") for name in entries):
         raise document.refusal("it has an f-theta lens of instant-ngp, which is not read: give a file of NVIDIA's")
     for name in ("latlong", "equirectangular", "orthographic"):
-        if entries.get(name):
+        if entries.text(name) not in ("", "False", "0.0"):
             raise document.refusal(f"its entry {name} of instant-ngp is not read: choose that model for the camera")
-    shared = not {"fl_x", "camera_angle_x"}.isdisjoint(entries) or entries.get("camera_model") == SPHERE
-    lenses = {lens.name: lens for lens in of_frames(document, frames)}
+    shared = any(map(entries.has, ("fl_x", "camera_angle_x"))) or entries.text("camera_model") == SPHERE
+    lenses = {lens.name: lens for lens in _of_frames(document, frames)}
     if not frames and not shared:
         raise document.refusal("it has no fl_x, and no frames")
     if len(lenses) < 2 and shared:
-        return [_lens(document, (frames or [{}])[0], "camera")]
+        return [_lens(document, frames[0] if frames else Fields(document, {}), "camera")]
     return list(lenses.values())
 
 
-def of_frames(document: Document, frames: list[dict]) -> list[Lens]:
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles."""
+    frames = document.entries.parts("frames")
+    placed = []
+    for number, (frame, lens) in enumerate(zip(frames, _of_frames(document, frames), strict=True)):
+        document.check()
+        name = frame.text("file_path", str(number))
+        pose = pose_in(frame.labeled(name), "transform_matrix") @ FROM_BLENDER
+        placed.append(Placed(lens.name, name, None, pose))
+    return placed
+
+
+def _of_frames(document: Document, frames: list[Fields]) -> list[Lens]:
     """Return the lens of each frame; equal lenses are one, by the name of its first frame. Raises InputError."""
     by_entries: dict[str, Lens] = {}
     by_lens: dict[str, Lens] = {}
-    found = []
+    lenses = []
     for number, frame in enumerate(frames):  # a file may have 100,000 frames
-        entries = repr([frame.get(one) for one in OF_LENS])
-        if entries not in by_entries:
+        own = frame.key(OF_LENS)
+        if own not in by_entries:
             document.check()
-            lens = _lens(document, frame, str(frame.get("file_path", number)))
-            by_entries[entries] = by_lens.setdefault(str(lens[1:]), lens)
-        found.append(by_entries[entries])
-    return found
+            lens = _lens(document, frame, frame.text("file_path", str(number)))
+            by_entries[own] = by_lens.setdefault(str(lens[1:]), lens)
+        lenses.append(by_entries[own])
+    return lenses
 
 
-def _focal(document: Document, entries: dict, axis: str, side: float) -> float:
-    """Return the focal length along x or y, in pixels."""
-    name = f"camera_angle_{axis}"
-    if f"fl_{axis}" in entries or name not in entries:
-        return document.number(entries, f"fl_{axis}")
-    angle = document.number(entries, name)
-    if not 0 < angle < pi:
-        raise document.refusal(f"{name} is {angle:g}: it must be above 0 and below pi")
-    return side / (2 * tan(angle / 2))
-
-
-def _lens(document: Document, frame: dict, name: str) -> Lens:
-    entries = frame | document.raw
-    kind = entries.get("camera_model", "OPENCV_FISHEYE" if entries.get("is_fisheye") else "OPENCV")
-    document.one_of(kind, "camera_model", (*MODELS, FISHEYE624, SPHERE, PARALLEL))
-    given = [document.number(entries, side) if side in entries else None for side in SIZES]
+def _lens(document: Document, frame: Fields, name: str) -> Lens:
+    whole, entries = document.entries, frame.merged(document.entries)
+    fisheye = entries.text("is_fisheye") not in ("", "False", "0.0")
+    kind = entries.word("camera_model", (*MODELS, FISHEYE624, SPHERE, PARALLEL),
+                        "OPENCV_FISHEYE" if fisheye else "OPENCV")  # fmt: skip
+    given = [entries.number(side) if entries.has(side) else None for side in SIZES]
     size = document.size(*given)
     if kind == SPHERE:
         return Lens(name, SPHERE, size)
     width, height = (side or own for side, own in zip(given, document.frame or (1, 1), strict=True))
-    focal = _focal(document, entries, "x", width)
-    focal_y = _focal(document, entries, "y", height) if {"fl_y", "camera_angle_y"} & set(entries) else focal
-    cx, cy = (document.number(entries, one, side / 2) for one, side in (("cx", width), ("cy", height)))
+    focal = _focal(entries, "x", width)
+    has_y = entries.has("fl_y") or entries.has("camera_angle_y")
+    focal_y = _focal(entries, "y", height) if has_y else focal
+    cx, cy = (entries.number(one, side / 2) for one, side in (("cx", width), ("cy", height)))
     if kind == PARALLEL:
-        return Lens(name, "ORTHO", size | _orthographic(document, (focal, focal_y), (cx, cy), (width, height)))
+        return Lens(name, "ORTHO", size | _orthographic(entries, (focal, focal_y), (cx, cy), (width, height)))
     size |= matrix(focal, focal_y, cx, cy, 0.5)
     if kind == FISHEYE624:
-        owner = document.raw if LIST in document.raw else frame
-        numbers = document.numbers(owner.get(LIST), LIST, len(OF_ARIA))
+        numbers = (whole if whole.has(LIST) else frame).numbers(LIST, len(OF_ARIA))
         return Lens(name, FISHEYE624, size | dict(zip(OF_ARIA, numbers, strict=True)))
     model, terms = MODELS[kind]
-    rest = _coefficients(document, frame)
+    coefficients = _coefficients(frame if not any(map(whole.has, (LIST, *COEFFICIENTS))) else whole)
     for term in COEFFICIENTS:
-        if term not in terms and rest.pop(term):
+        if term not in terms and coefficients.pop(term):
             raise document.refusal(f"{term} is not 0, but OpenCV's {model[7:].lower()} has no such coefficient")
-    return Lens(name, model, size | rest)
+    return Lens(name, model, size | coefficients)
 
 
-def _orthographic(document: Document, focal, center, size) -> dict[str, Any]:
+def _focal(entries: Fields, axis: str, side: float) -> float:
+    """Return the focal length along x or y, in pixels."""
+    name = f"camera_angle_{axis}"
+    if entries.has(f"fl_{axis}") or not entries.has(name):
+        return entries.number(f"fl_{axis}")
+    angle = entries.number(name)
+    if not 0 < angle < pi:
+        raise entries.document.refusal(f"{name} is {angle:g}: it must be above 0 and below pi")
+    return side / (2 * tan(angle / 2))
+
+
+def _orthographic(entries: Fields, focal, center, size) -> dict[str, Any]:
     """Return the settings of parallel rays, fl_x and fl_y of which pass through a unit of length."""
     if focal[0] != focal[1] or focal[0] <= 0:
-        raise document.refusal(f"fl_x and fl_y of an {PARALLEL} are {focal[0]:g} and {focal[1]:g}: they must be equal")
+        said = f"fl_x and fl_y of an {PARALLEL} are {focal[0]:g} and {focal[1]:g}"
+        raise entries.document.refusal(f"{said}: they must be equal")
     longer = max(size)
     return {
         "ortho_scale": longer / focal[0], "sensor_fit": "AUTO",
@@ -118,10 +144,44 @@ def _orthographic(document: Document, focal, center, size) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _coefficients(document: Document, frame: dict) -> dict[str, float]:
-    """Return all coefficients of a frame."""
-    shared = document.raw
-    owner = frame if {LIST, *COEFFICIENTS}.isdisjoint(shared) else shared
-    if LIST in owner:
-        return dict(zip(COEFFICIENTS, document.numbers(owner[LIST], LIST, len(COEFFICIENTS)), strict=True))
-    return {term: document.number(owner, term, 0.0) for term in COEFFICIENTS}
+def _coefficients(owner: Fields) -> dict[str, float]:
+    """Return all coefficients."""
+    if owner.has(LIST):
+        return dict(zip(COEFFICIENTS, owner.numbers(LIST, len(COEFFICIENTS)), strict=True))
+    return {term: owner.number(term, 0.0) for term in COEFFICIENTS}
+
+
+def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
+    """See FileWriter. One file with all cameras and frames. Raises InputError for several camera models."""
+    yield "transforms.json", as_text(transforms(records))
+
+
+def transforms(records: Sequence[CameraRecord]) -> dict[str, Any]:
+    """Return the entries of transforms.json. Raises InputError for several camera models."""
+    kinds: dict[str, str] = {}
+    for record in records:
+        kinds.setdefault(str(word_of(WRITTEN, record.lens)), record.name)
+    if len(kinds) > 1:
+        several = " and ".join(f"{name!r} is {kind}" for kind, name in kinds.items())
+        raise InputError(f"transforms.json has one camera_model, but camera {several}: {SEPARATELY}")
+    return {"camera_model": next(iter(kinds)), "frames": [_frame(record) for record in records]}
+
+
+def _frame(record: CameraRecord) -> dict[str, Any]:
+    terms = MODELS[str(word_of(WRITTEN, record.lens))][1]
+    values = matrix_of(record.lens.settings, 0.5) + record.lens.values(terms)
+    width, height = record.lens.size
+    size = {"file_path": record.image, "w": width, "h": height}
+    lens = dict(zip(("fl_x", "fl_y", "cx", "cy", *terms), values, strict=True))
+    return size | lens | {"transform_matrix": record.blenders.tolist()} | record.remark
+
+
+PROGRAM = ProgramFiles(
+    "nerfstudio", "transforms.json, of NeRF and instant-ngp, too", looks,
+    marks="frames transform_matrix camera_angle_x fl_x file_path camera_model",
+    reads="OPENCV, PINHOLE, OPENCV_FISHEYE, FISHEYE624, EQUIRECTANGULAR, ORTHOPHOTO",
+    lost="several camera models in one file; k4 to k6 of a pinhole", read=read, poses=poses,
+    export=FileWriter(
+        "nerfstudio", "nerfstudio", "transforms.json: pinholes and fisheyes, and poses", write, WRITTEN
+    ),
+)  # fmt: skip

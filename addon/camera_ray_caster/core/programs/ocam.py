@@ -13,18 +13,29 @@ import re
 
 from .parts.document import Document
 from .parts.lens import Lens
+from .parts.program import ProgramFiles
 
 BEGIN, COMMENT = re.compile(r"\d+\s+[-+.\d]"), "#polynomial"
 """Pattern of the first line, and what the toolbox writes before it. COLMAP's files of poses begin with numbers, too."""
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lens of a document; see the package."""
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
     if document.text.lstrip()[:1] == "{" or not document.text:
-        return [_of_json(document, document.raw)] if "polynomialC2W" in document.raw else None
-    lines = [line for line in map(str.strip, document.text.splitlines()) if line and not line.startswith("#")]
-    if not lines or not BEGIN.match(lines[0]) or not (len(lines) == 5 or COMMENT in document.text):
-        return None
+        return document.entries.has("polynomialC2W")
+    lines = document.lines()
+    if not lines or not BEGIN.match(lines[0]):
+        return False
+    return COMMENT in document.text or (len(lines) == 5 and len(lines[2].split()) == 2)
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    if document.text.lstrip()[:1] == "{" or not document.text:
+        entries = document.entries
+        terms, size = entries.numbers("affine", 3, [1.0, 0.0, 0.0]), entries.numbers("size", 2)
+        return [_lens(document, entries.numbers("polynomialC2W"), entries.numbers("image_center", 2), terms, size)]
+    lines = document.lines()
     if len(lines) != 5:
         raise document.refusal(f"it has {len(lines)} lines of numbers: a calib_results.txt of OCamCalib has 5")
     polynomial, _, center, affine, sides = (line.split() for line in lines)
@@ -37,14 +48,14 @@ def read(document: Document, key: str) -> list[Lens] | None:
     return [_lens(document, coefficients, (column, row), terms, (width, height))]
 
 
-def _of_json(document: Document, entries: dict) -> Lens:
-    names = ("polynomialC2W", None), ("image_center", 2), ("affine", 3), ("size", 2)
-    given = {"affine": [1.0, 0.0, 0.0]} | entries
-    return _lens(document, *(document.numbers(given.get(name), name, count) for name, count in names))
-
-
 def _lens(document: Document, coefficients, center, terms, size) -> Lens:
     return Lens("", "OCAM", document.size(*size) | {
         "cx": center[0], "cy": center[1], "ocam_polynomial": " ".join(map(repr, coefficients)),
         **{f"ocam_{name}": number for name, number in zip("cde", terms, strict=True)},
     })  # fmt: skip
+
+
+PROGRAM = ProgramFiles(
+    "OCamCalib", "calib_results.txt; the same as .json", looks,
+    marks="polynomial direct mapping affine polynomialC2W image_center", reads="OCam", read=read,
+)  # fmt: skip

@@ -8,52 +8,78 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from ..cameras import MODELS
 from ..cameras.parts.calibration import FROM_FILE
 from .parts.document import Document
-from .parts.lens import Lens, mapping, one_of_several
+from .parts.fields import Fields
+from .parts.lens import Lens, one_of_several
+from .parts.placed import FROM_BLENDER, Placed, checked
+from .parts.program import FileWriter, ProgramFiles
 
 FORMAT = "camera_ray_caster camera"
 RECORD = "record"
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lenses of a document; see the package."""
-    entries = document.raw
-    if entries.get("format") != FORMAT:
-        is_report = isinstance(mapping(entries.get(RECORD)).get("settings"), dict)
-        return [_lens(document, "", entries)] if is_report else None
-    cameras = entries.get("cameras")
-    if not isinstance(cameras, list):
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    entries = document.entries
+    return _is_camera(entries) or (entries.has(RECORD) and entries.part(RECORD).has("settings"))
+
+
+def _is_camera(entries: Fields) -> bool:
+    return entries.has("format") and entries.text("format") == FORMAT
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    entries = document.entries
+    if not _is_camera(entries):
+        return [_lens(entries)]
+    if not entries.has("cameras"):
         raise document.refusal("its cameras are missing: export it again")
     lenses: list[Lens] = []
-    for camera in map(mapping, cameras):
-        frames = camera.get("frames")
-        common, name = mapping(camera.get("all_frames")), str(camera.get("name", ""))
-        each = [mapping(frame) for frame in (frames if isinstance(frames, list) else [])]
-        own = [(one.get("frame"), one_of_several(name, _lens, document, name, common, one)) for one in each]
+    for camera in entries.parts("cameras"):
+        name, common = camera.text("name"), camera.part("all_frames")
+        own = [(frame, one_of_several(name, _lens, common.labeled(name), frame)) for frame in camera.parts("frames")]
         if len({repr(lens[1:]) for _, lens in own}) > 1:
-            lenses += [lens._replace(name=f"{name} {frame:g}") for frame, lens in own]
+            lenses += [lens._replace(name=f"{name} {frame.number('frame'):g}") for frame, lens in own]
         else:
             lenses += [lens for _, lens in own[:1]]
     return lenses
 
 
-def _lens(document: Document, name: str, *parts: dict) -> Lens:
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles."""
+    if not _is_camera(document.entries):
+        raise document.refusal("it is a report, which has a lens and no poses that are read: export a camera.json")
+    placed = []
+    for camera in document.entries.parts("cameras"):
+        name, common = camera.text("name"), camera.part("all_frames").part(RECORD)
+        for frame in camera.parts("frames"):
+            record = common.merged(frame.part(RECORD)).labeled(name)
+            matrix = np.reshape(record.matrix("matrix_world", 16), (4, 4))
+            sizes = np.linalg.norm(matrix[:3, :3], axis=0)
+            matrix[:3, :3] /= np.where(sizes > 0, sizes, 1)
+            pose = checked(document, matrix, record.said("matrix_world")) @ FROM_BLENDER
+            placed.append(Placed(name, name, frame.number("frame"), pose))
+    return placed
+
+
+def _lens(*parts: Fields) -> Lens:
     """Return the lens of a record, of which each part holds some entries."""
-    record: dict[str, Any] = {}
-    settings: dict[str, Any] = {}
-    for part in (mapping(part.get(RECORD)) for part in parts):
-        record |= part
-        settings |= mapping(part.get("settings"))
-    own = settings.get("panorama_type") if record.get("type") == "PANO" else record.get("type")
-    kind = record.get("model") or own
+    record, settings, name = Fields(parts[0].document, {}), Fields(parts[0].document, {}), parts[0].label
+    for part in (part.part(RECORD) for part in parts):
+        record, settings = record.merged(part), settings.merged(part.part("settings"))
+    own = settings.text("panorama_type") if record.text("type") == "PANO" else record.text("type")
+    kind = record.text("model") or own or None
     models = {model.key: model for model in MODELS}
-    model = models[document.one_of(kind, f"model of {name or 'the camera'}", models)]
-    values = {**record, **settings}
+    model = models[record.document.one_of(kind, f"model of {name or 'the camera'}", models)]
+    values = record.merged(settings).values
     names = [setting.name for setting in model.SETTINGS if setting not in FROM_FILE]
     if missing := [one for one in names if one not in values]:
-        raise document.refusal(f"it has no {missing[0]}: export it again")
+        raise record.document.refusal(f"it has no {missing[0]}: export it again")
     return Lens(name, model.key, {one: _restored(values[one]) for one in names})
 
 
@@ -62,3 +88,9 @@ def _restored(value: Any) -> Any:
     if isinstance(value, dict) and list(value) == ["float"]:
         return float(value["float"])
     return [_restored(one) for one in value] if isinstance(value, list) else value
+
+
+PROGRAM = ProgramFiles(
+    "this add-on", "camera.json, report.json", looks, marks="format cameras all_frames frames record settings",
+    reads="every model", lost="nothing", read=read, poses=poses, export=FileWriter("json", "Camera JSON", ""),
+)  # fmt: skip

@@ -16,7 +16,8 @@ from typing import Any
 from ..cameras.parts.devices import HDL_32E, VLP_16, VLP_32C, numbers_as_text
 from ..cameras.parts.scanners import AZIMUTHS, DELAYS, ELEVATIONS, PERIOD, RIGHT, UP
 from .parts.document import Document
-from .parts.lens import Lens, mapping
+from .parts.lens import Lens
+from .parts.program import ProgramFiles
 
 S3 = {
     DELAYS.name: numbers_as_text([7.2 * (k % 32 // 4) + (0, 1.3, 2.5, 3.7)[k % 4] for k in range(64)]),
@@ -26,22 +27,27 @@ VLS_128 = {DELAYS.name: numbers_as_text([2.665 * (k // 8) for k in range(128)]),
 TIMING = {16: VLP_16, 32: HDL_32E, 64: S3, 128: VLS_128}
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the scanner of a document; see the package."""
-    lasers = document.raw.get("lasers")
-    if not (isinstance(lasers, list) and lasers and "vert_correction" in mapping(lasers[0])):
-        return None
-    numbered = [(document.number(mapping(one), "laser_id"), mapping(one)) for one in lasers]
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    lasers = document.entries.parts("lasers")
+    return bool(lasers) and lasers[0].has("vert_correction")
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    entries = document.entries
+    numbered = [(laser.number("laser_id"), laser) for laser in entries.parts("lasers")]
     numbered.sort(key=lambda one: one[0])
-    if [number for number, _ in numbered] != list(range(len(lasers))):
-        raise document.refusal(f"the laser_id of its {len(lasers)} lasers are not 0 to {len(lasers) - 1}, each once")
+    count = len(numbered)
+    if [number for number, _ in numbered] != list(range(count)):
+        raise document.refusal(f"the laser_id of its {count} lasers are not 0 to {count - 1}, each once")
 
     def each(name: str, default: float | None = None) -> list[float]:
-        return [document.number(laser, name, default) for _, laser in numbered]
+        return [laser.number(name, default) for _, laser in numbered]
 
-    count, turned = len(lasers), each("rot_correction")
-    if "num_lasers" in document.raw and document.number(document.raw, "num_lasers") != count:
-        raise document.refusal(f"num_lasers is {document.raw['num_lasers']}, and it has {count} lasers")
+    turned = each("rot_correction")
+    if entries.number("num_lasers", count) != count:
+        raise document.refusal(f"num_lasers is {entries.text('num_lasers')}, and it has {count} lasers")
     timing: dict[str, Any] = VLP_32C if count == 32 and any(turned) else TIMING.get(count, {})
     return [Lens("", "SCANNER", {name: timing[name] for name in (DELAYS.name, PERIOD.name) if name in timing} | {
         ELEVATIONS.name: numbers_as_text([degrees(angle) for angle in each("vert_correction")]),
@@ -49,3 +55,11 @@ def read(document: Document, key: str) -> list[Lens] | None:
         RIGHT.name: numbers_as_text([-length for length in each("horiz_offset_correction", 0.0)]),
         UP.name: numbers_as_text(each("vert_offset_correction", 0.0)),
     })]  # fmt: skip
+
+
+PROGRAM = ProgramFiles(
+    "Velodyne", "calibrations of the ROS driver as .yaml", looks,
+    marks="lasers laser_id rot_correction vert_correction num_lasers",
+    reads="lasers, with angles and offsets, as scanners",
+    lost="when lasers fire, which is that of the device; corrections of ranges", read=read,
+)  # fmt: skip

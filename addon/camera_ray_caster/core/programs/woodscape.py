@@ -8,23 +8,33 @@ Reference: S. Yogamani et al., WoodScape (2019), and its code, calibration.
 from __future__ import annotations
 
 from .parts.document import Document
-from .parts.lens import Lens, mapping
+from .parts.lens import Lens
+from .parts.program import ProgramFiles
 
 TERMS = "k1", "k2", "k3", "k4"
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lens of a document; see the package."""
-    given = mapping(document.raw.get("intrinsic"))
-    if "cx_offset" not in given:
-        return None
-    document.one_of(given.get("model"), "model", ("radial_poly",))
-    width, height, across, down = (document.number(given, one) for one in ("width", "height", "cx_offset", "cy_offset"))
-    aspect = document.number(given, "aspect_ratio", 1.0)
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    return document.entries.part("intrinsic").has("cx_offset")
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    given = document.entries.part("intrinsic")
+    given.word("model", ("radial_poly",))
+    width, height, across, down = (given.number(name) for name in ("width", "height", "cx_offset", "cy_offset"))
+    aspect = given.number("aspect_ratio", 1.0)
     if aspect <= 0:
         raise document.refusal(f"its aspect_ratio is {aspect:g}: it must be above 0")
-    terms = [document.number(given, term) * aspect for term in TERMS]
+    terms = [given.number(term) * aspect for term in TERMS]
     return [Lens("", "FTHETA", document.size(width, height) | {
         "cx": (width - 1) / 2 + across, "cy": (height - 1) / 2 + down, "ftheta_reference": "ANGLE_TO_RADIUS",
         "ftheta_angle_to_radius": " ".join(map(repr, (0.0, *terms))), "ftheta_c": 1 / aspect,
     })]  # fmt: skip
+
+
+PROGRAM = ProgramFiles(
+    "WoodScape", "calibration .json", looks,
+    marks="intrinsic cx_offset cy_offset poly_order radial_poly aspect_ratio", reads="radial_poly", read=read,
+)  # fmt: skip

@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 
 from ..annotations.coco import unpacked
-from ..exports import export
-from ..exports.bop import Bop
+from ..exports import find_format, records
+from ..programs.bop import image_of
 from ..records import InputError, Shapes
 from ..units import MILLIMETERS, factor
 from .bop_models import diameter, model_of, ply
@@ -36,7 +36,7 @@ def files(
     Raises InputError for cameras that are no pinholes.
     """
     for view in views:
-        reason = Bop().refusal(view.shot)
+        reason = find_format("bop").refusal(view.shot)
         if reason is not None:
             raise InputError(f"BOP has pinholes only, and camera {view.camera_name!r} is none {reason}".strip()
                              + ": choose others (--cameras)")  # fmt: skip
@@ -74,9 +74,8 @@ def _scene(folder: str, views: list[View], numbers: dict[str, int]) -> Iterator[
         yield f"{folder}/depth/{number}.png", png(np.round(depth / step).astype(np.uint16)[::-1])
         if view.picture is not None:
             yield f"{folder}/rgb/{number}.png", view.picture
-        ((_, content),) = export("bop", [view.shot])[0]
-        key, camera = next(iter(json.loads(str(content)).items()))
-        cameras[key] = camera | {"depth_scale": step}
+        (record,) = records("bop", [view.shot])
+        cameras[str(int(view.frame))] = image_of(record) | {"depth_scale": step}
         seen = {one["shape_index"]: one for part in ("annotations", "hidden") for one in view.annotations[part]}
         poses = {one["shape_index"]: one for one in view.annotations["objects"]}
         truth[str(int(view.frame))] = [_truth(view, poses[row], numbers) for row in seen if row in poses]

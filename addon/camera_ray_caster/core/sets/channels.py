@@ -14,7 +14,7 @@ import numpy as np
 
 from ..casting.passes import PASSES
 from ..names import file_names
-from ..programs import ray_exr
+from ..programs.parts import ray_exr
 from ..records import InputError
 
 COMPOSITE = "Composite"

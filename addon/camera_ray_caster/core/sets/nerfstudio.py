@@ -13,7 +13,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..exports import export
+from ..exports import records
+from ..programs.nerfstudio import transforms as transforms_of
 from ..records import InputError
 from .png import png
 from .reading import TRAIN, VALIDATION, View
@@ -25,9 +26,7 @@ def files(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
     """Yield the files of a set; see the package. Raises InputError for cameras that nerfstudio cannot represent, and
     for depths beyond 65 m.
     """
-    made, _ = export("nerfstudio", [view.shot for view in views])
-    ((_, content),) = made
-    transforms = json.loads(str(content))
+    transforms = transforms_of(records("nerfstudio", [view.shot for view in views]))
     for frame, view in zip(transforms["frames"], views, strict=True):
         depth = np.round(view.planar_depth() * 1000)
         if depth.max(initial=0) > MOST:

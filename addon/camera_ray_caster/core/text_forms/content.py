@@ -19,7 +19,7 @@ from typing import Any
 
 from .. import memory
 from ..records import InputError
-from .xml_subset import XmlError, storage
+from .xml_subset import Element, XmlError, storage, tree
 from .yaml_subset import YamlError, parse
 
 LARGEST = 1 << 28
@@ -90,6 +90,16 @@ def entries_of(text: str, path: str, check: Check | None = None) -> dict:
     if isinstance(entries, list) and len(entries) > MOST_LISTED:
         raise InputError(f"calibration file {path!r} is a list of {len(entries)} entries, too many for cameras")
     return entries if isinstance(entries, dict) else {str(number): one for number, one in enumerate(entries)}
+
+
+def element_of(text: str, path: str, check: Check) -> Element:
+    """Return the outermost element of XML. Raises InputError, one line that names ``path``, for any other text."""
+    if text.lstrip()[:1] != "<":
+        raise InputError(f"calibration file {path!r} is not XML")
+    try:
+        return tree(text, check)
+    except XmlError as error:
+        raise InputError(f"calibration file {path!r} is not XML: {error}") from error
 
 
 def _json(text: str, path: str, check: Check) -> dict | list:

@@ -35,6 +35,19 @@ class Element:
     text: str = ""
     attributes: dict[str, str] = field(default_factory=dict)
 
+    def child(self, name: str) -> Element | None:
+        """Return the first element of a name directly in it."""
+        return next((one for one in self.children if one.name == name), None)
+
+    def all(self, name: str) -> list[Element]:
+        """Return the elements of a name, in any depth."""
+        own = [self] if self.name == name else []
+        return own + [one for child in self.children for one in child.all(name)]
+
+    def texts(self) -> dict[str, str]:
+        """Return the texts of the elements directly in it, by name."""
+        return {one.name: one.text for one in self.children}
+
 
 def tree(text: str, check: Callable[[], None] = lambda: None) -> Element:
     """Return the outermost element of a text; ``check`` is called now and then, and may raise. Raises XmlError."""

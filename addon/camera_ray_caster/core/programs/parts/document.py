@@ -7,7 +7,8 @@ from functools import cached_property
 from hashlib import sha256
 
 from ...records import InputError
-from ...text_forms.content import content_of, deadline, decoded, entries_of
+from ...text_forms.content import content_of, deadline, decoded, element_of, entries_of
+from ...text_forms.xml_subset import Element
 from .fields import Fields
 from .source import FileSource
 
@@ -49,6 +50,11 @@ class Document(FileSource):
         """Return the entries without types. Raises InputError for a file without entries."""
         return self.entries.values
 
+    @property
+    def has_entries(self) -> bool:
+        """Whether it is a JSON, YAML or XML file."""
+        return not isinstance(self._entries, InputError)
+
     @cached_property
     def _text(self) -> str | InputError:
         return _tried(lambda: decoded(self.data, self.path))
@@ -56,6 +62,15 @@ class Document(FileSource):
     @cached_property
     def _entries(self) -> Fields | InputError:
         return _tried(lambda: Fields(self, entries_of(self.text, self.path, self.check)))
+
+    @property
+    def xml(self) -> Element:
+        """Return the outermost element of an XML file. Raises InputError for any other file."""
+        return self._whole(self._xml)
+
+    @cached_property
+    def _xml(self) -> Element | InputError:
+        return _tried(lambda: element_of(self.text, self.path, self.check))
 
     @staticmethod
     def _whole(value):
@@ -66,6 +81,7 @@ class Document(FileSource):
     def part(self, entries: dict) -> Document:
         """Return a document of these entries alone, with the path of this one."""
         part = copy(self)
+        part.__dict__.pop("_xml", None)
         part._text, part.data = "", b""
         part._entries = Fields(part, entries)
         return part

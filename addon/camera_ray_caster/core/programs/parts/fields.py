@@ -1,6 +1,6 @@
 """The entries of a file, which have types: one that is missing, or of another type, is refused in one line.
 
-An entry of JSON that is null and one of YAML without a value are missing.
+An entry that is null is missing; where a list, a mapping or a text may be missing, an entry without a value is, too.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from ...records import InputError
 from ...text_forms.content import flat
 from .source import FileSource
 
-MISSING = None, ""
+EMPTY: tuple[Any, ...] = None, "", []
 
 
 class Fields:
@@ -30,7 +30,7 @@ class Fields:
 
     def has(self, *names: str) -> bool:
         """Whether there are entries of all these names."""
-        return all(name in self.values and self.values[name] not in MISSING for name in names)
+        return all(self.values.get(name) is not None for name in names)
 
     def first(self, *names: str) -> str:
         """Return the first of some names that is there, or the very first one."""
@@ -52,20 +52,20 @@ class Fields:
 
     def number(self, name: str, default: float | None = None) -> float:
         """Return a number."""
-        return self.numbers(name, 1, None if default is None else [default])[0]
+        return float(default) if default is not None and not self.has(name) else self.numbers(name, 1)[0]
 
     def numbers(self, name: str, count: int | None = None, default: Sequence[float] | None = None) -> list[float]:
         """Return a list of numbers, ``count`` of them if given; the default also for an empty list."""
-        if default is not None and (not self.has(name) or self.values[name] == []):
+        if default is not None and self.values.get(name) in EMPTY:
             return list(default)
-        return self.document.numbers(self.values.get(name) if self.has(name) else None, self.said(name), count)
+        return self.document.numbers(self.values.get(name), self.said(name), count)
 
     def matrix(self, name: str, count: int | None = None, default: Sequence[float] | None = None) -> list[float]:
         """Return the numbers of a list of rows, of OpenCV's matrix, or of a list, by rows."""
-        if default is not None and not self.has(name):
+        if default is not None and self.values.get(name) in EMPTY:
             return list(default)
         value = flat(self.values.get(name), self.said(name), self.document.path)
-        return self.document.numbers(None if value in MISSING else value, self.said(name), count)
+        return self.document.numbers(value, self.said(name), count)
 
     def count_of(self, name: str) -> int:
         """Return the length of a list; 0 for anything else."""
@@ -87,24 +87,43 @@ class Fields:
 
     def text(self, name: str, default: str = "") -> str:
         """Return a scalar as text."""
-        value = self.values.get(name) if self.has(name) else default
+        value = default if self.values.get(name) in (None, "") else self.values[name]
         if isinstance(value, list | dict):
             raise self.refusal(name, "one word")
         return str(value)
 
     def part(self, name: str) -> Fields:
         """Return a mapping; an empty one if it is missing."""
-        value = self.values[name] if self.has(name) else {}
+        value = {} if self.values.get(name) in (None, "") else self.values[name]
         if not isinstance(value, dict):
             raise self.refusal(name, "a mapping")
         return Fields(self.document, value, self.label)
 
     def parts(self, name: str) -> list[Fields]:
         """Return a list of mappings; an empty one if it is missing."""
-        value = self.values[name] if self.has(name) else []
+        value = [] if self.values.get(name) in EMPTY else self.values[name]
         if not isinstance(value, list) or not all(isinstance(one, dict) for one in value):
             raise self.refusal(name, "a list of mappings")
         return [Fields(self.document, one, self.label) for one in value]
+
+    def each(self, name: str) -> list[Fields]:
+        """Return a list of anything, each in fields with one entry of this name."""
+        value = [] if self.values.get(name) in EMPTY else self.values[name]
+        if not isinstance(value, list):
+            raise self.refusal(name, "a list")
+        return [Fields(self.document, {name: one}, self.label) for one in value]
+
+    def some(self, names: Collection[str]) -> Fields:
+        """Return the entries of some names."""
+        return Fields(self.document, {name: one for name, one in self.values.items() if name in names}, self.label)
+
+    def merged(self, other: Fields) -> Fields:
+        """Return these entries and those of another mapping, which count before them."""
+        return Fields(self.document, self.values | other.values, self.label)
+
+    def key(self, names: Collection[str]) -> str:
+        """Return a text by which the entries of some names are told from others."""
+        return repr([self.values.get(name) for name in names])
 
     def named(self) -> dict[str, Fields]:
         """Return the entries that are mappings, by name, labeled by it."""

@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,6 +24,10 @@ Content = str | bytes | np.ndarray | Iterator[str]
 """Content of a file: text, also in parts, bytes, or an image, (rows, columns, 3) float32 from the bottom up, stored as
 float32 EXR.
 """
+
+
+SEPARATELY = "export them separately, each by its name (--cameras NAME)"
+"""What to do if lenses do not fit into one file."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,6 +92,19 @@ class FileWriter:
     """Whether a pose is stored as a rotation."""
 
 
+class PictureFolders(NamedTuple):
+    """Folders with a file for each picture."""
+
+    pattern: str
+    """Of the names of files."""
+    folders: tuple[str, ...] = ("",)
+    """In which they are looked for."""
+    numbered: bool = False
+    """Whether their names have frames; else they are in the order of the times in their names, from frame 1 on."""
+    moved_by: str = ""
+    """End of the name of the trajectory that moves the camera, in the folder or above; "" without one."""
+
+
 @dataclass(frozen=True)
 class ProgramFiles:
     """A program's files."""
@@ -112,12 +131,14 @@ class ProgramFiles:
     """Unit of lengths in its files."""
     general: bool = False
     """Whether others may look like it: it reads what no other does."""
-    ending: str = ""
+    endings: tuple[str, ...] = ()
     """Ends of the names of its files, of which ``hint`` says what is wrong."""
     hint: Callable[[Document], str | None] = lambda document: None
     """Returns why a document with such a name is not of this program; None if it cannot tell."""
-    folders: tuple[tuple[str, tuple[str, ...]], ...] = ()
-    """Names of files, a file for each picture, and the folders in which they are looked for."""
+    pictures: PictureFolders | None = None
+    """Its folders with a file for each picture."""
+    pair: Callable[[Path], tuple[Path, Path] | None] = lambda path: None
+    """Returns the file of lenses and that of poses to which a file or a folder belongs, of a program with one each."""
 
     def recognizes(self, document: Document) -> bool:
         """Whether a document is of this program."""
@@ -125,6 +146,21 @@ class ProgramFiles:
             return self.looks is not None and self.looks(document)
         except InputError:
             return False
+
+
+def by_lens(
+    records: Sequence[CameraRecord], text: Callable[[Lens], str]
+) -> Iterator[tuple[str, str, list[CameraRecord]]]:
+    """Yield for each lens the name of its file without ending, the lens as text, and its records.
+
+    The name is the camera's, or if the lens changes from frame to frame the name of each record.
+    """
+    for name in dict.fromkeys(record.name for record in records):
+        own = [(record, text(record.lens)) for record in records if record.name == name]
+        if len({lens for _, lens in own}) == 1:
+            yield name, own[0][1], [record for record, _ in own]
+        else:
+            yield from ((record.stem, lens, [record]) for record, lens in own)
 
 
 def in_words(names: Iterable[str]) -> str:

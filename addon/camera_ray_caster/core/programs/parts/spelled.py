@@ -14,7 +14,7 @@ from typing import Any
 from ...cameras.parts.calibration import LARGEST
 from ...records import InputError
 from ...text_forms.content import flat
-from .document import Document
+from .fields import Fields
 from .lens import numbers_of
 
 MATRIX = (
@@ -52,9 +52,9 @@ def plain_name(name: str) -> str:
 class Spelled:
     """Entries by plain name, with the name and the value in the file. Raises InputError for two of the same name."""
 
-    def __init__(self, document: Document, entries: Mapping[str, Any]):
-        self.document = document
-        self.found = self._merged(entries)
+    def __init__(self, entries: Fields):
+        self.document = entries.document
+        self.found = self._merged(entries.values)
 
     def _merged(self, entries: Mapping[str, Any]) -> dict[str, tuple[str, Any]]:
         found: dict[str, tuple[str, Any]] = {}
@@ -83,7 +83,7 @@ class Spelled:
 
     def side(self, end: str) -> Spelled:
         """Return the entries of one camera of a pair, under the names of a single one."""
-        own, stems = Spelled(self.document, {}), {*MATRIX, *DISTORTION}
+        own, stems = Spelled(Fields(self.document, {})), {*MATRIX, *DISTORTION}
         others = {stem + side for pair in SIDES if end in pair for side in pair for stem in stems}
         own.found = {name: one for name, one in self.found.items() if name not in others or not self._is_list(name)}
         own.found |= {stem: self.found[stem + end] for stem in stems if self._is_list(stem + end)}
@@ -133,7 +133,7 @@ class Spelled:
         return found[0], found[1]
 
 
-def cameras_of(entries: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:
+def cameras_of(entries: Fields) -> Iterator[tuple[str, Fields]]:
     """Yield each prefix that focal lengths have, without its separator, and the entries of its camera under their names
     without it; the prefix "" and all entries if there is none. Entries that have no prefix, or one without its number,
     belong to every camera: those of Camera.type to Camera1.fx.
@@ -145,10 +145,10 @@ def cameras_of(entries: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, A
     for prefix in prefixes:
         stem = prefix.rstrip("0123456789")
         own: dict[str, Any] = {}
-        for name, value in entries.items():
+        for name, value in entries.values.items():
             before = next((one for one in (prefix, stem) if re.match(re.escape(one) + r"[._\s-]", name)), None)
             if before is not None:
                 own[name[len(before) + 1 :]] = value
             elif not any(name.startswith(other) for other in prefixes):
                 own.setdefault(name, value)
-        yield prefix, own
+        yield prefix, Fields(entries.document, own)

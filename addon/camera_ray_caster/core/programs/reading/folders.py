@@ -1,46 +1,72 @@
-"""Folders with a file for each picture: Polycam's cameras, the clips of HOT3D, and the intrinsics of ARKitScenes.
-
-A clip's file has the number of its frame; the others are in the order of the times in their names, from frame 1 on.
-References: polyform, Polycam's data format; HOT3D documentation, HOT3D-Clips; ARKitScenes, tenFpsDataLoader.
-"""
+"""Files that belong together: of lenses and of poses, or a file for each picture in a folder."""
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from ...records import InputError
-
-CLIP, PINCAM, TRAJECTORY = ".cameras.json", ".pincam", ".traj"
-FILES = (
-    (f"*{CLIP}", ("",)),
-    (f"*{PINCAM}", ("", "lowres_wide_intrinsics")),
-    ("[0-9]*.json", ("", *(f"{one}{kind}" for one in ("keyframes/", "") for kind in ("corrected_cameras", "cameras")))),
-)
-"""Names of files, and the folders in which they are looked for."""
+from .. import PROGRAMS
+from ..parts.program import PictureFolders
 
 NEAR = 5e-3
 """Seconds by which the times of a picture and its pose may differ."""
 
 
-def files_in(folder: Path) -> list[Path]:
-    """Return the files of a folder's pictures in the order of the numbers in their names, and then the trajectory of
-    ARKitScenes, which has their poses; [] for any other folder. Raises InputError if that trajectory is missing.
+class PictureFiles(NamedTuple):
+    """The files of a folder's pictures, in the order of the numbers in their names."""
+
+    of: PictureFolders
+    files: list[Path]
+    trajectory: Path | None
+    """The file that has their poses, if they do not."""
+
+
+def beside(path: str) -> tuple[str, ...]:
+    """Return the files that a path stands for: that of lenses and that of poses, which may be the same, or the files of
+    a folder's pictures and their trajectory. Raises InputError for a folder without any.
     """
-    for pattern, inside in FILES:
-        for one in inside:
-            found = sorted((folder / one).glob(pattern), key=number_of)
-            if found and found[0].suffix == PINCAM:
-                beside = [*(folder / one).parent.glob(f"*{TRAJECTORY}"), *(folder / one).glob(f"*{TRAJECTORY}")]
-                if len(beside) != 1:
-                    raise InputError(f"folder {str(folder)!r} has {len(beside)} trajectories ({TRAJECTORY}) beside its "
-                                     f"files ({PINCAM}): there must be one, with their poses")  # fmt: skip
-                found += beside
-            if found:
-                return found
-    return []
+    pair = pair_of(path)
+    if pair is not None:
+        return pair
+    pictures = pictures_in(Path(path))
+    return tuple(map(str, [*pictures.files, *([] if pictures.trajectory is None else [pictures.trajectory])]))
+
+
+def pair_of(path: str) -> tuple[str, str] | None:
+    """Return the file of lenses and that of poses that belong to a path; None of a folder of pictures."""
+    file = Path(path)
+    pair = next((found for program in PROGRAMS if (found := program.pair(file)) is not None), None)
+    if pair is None:
+        return None if file.is_dir() else (str(file), str(file))
+    return str(pair[0]), str(pair[1])
+
+
+def pictures_in(folder: Path) -> PictureFiles:
+    """Return the files of a folder's pictures. Raises InputError if there are none, or if their trajectory is missing.
+    """
+    for pictures in (program.pictures for program in PROGRAMS if program.pictures is not None):
+        for inside in pictures.folders:
+            files = sorted((folder / inside).glob(pictures.pattern), key=number_of)
+            if files:
+                return PictureFiles(pictures, files, _trajectory(folder, folder / inside, pictures))
+    names = ", ".join(program.name for program in PROGRAMS if program.pictures is not None)
+    raise InputError(f"folder {str(folder)!r} has no images.bin or images.txt, nor its sparse/0, nor a file for each "
+                     f"picture as of {names}: give a file")  # fmt: skip
+
+
+def _trajectory(folder: Path, inside: Path, pictures: PictureFolders) -> Path | None:
+    ending = pictures.moved_by
+    if not ending:
+        return None
+    there = [*inside.parent.glob(f"*{ending}"), *inside.glob(f"*{ending}")]
+    if len(there) != 1:
+        raise InputError(f"folder {str(folder)!r} has {len(there)} trajectories ({ending}) beside its files "
+                         f"({pictures.pattern[1:]}): there must be one, with their poses")  # fmt: skip
+    return there[0]
 
 
 def number_of(file: Path) -> float:

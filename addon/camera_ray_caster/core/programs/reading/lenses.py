@@ -1,9 +1,6 @@
-"""Calibration files: one module per format, which recognizes its files and returns their lenses as models' settings.
+"""The lenses of a file of any program.
 
-The contract is ``read(document, key)``, which returns the lenses of a document, or None if it is not of that format.
-``key`` is the key of the chosen model, for formats that do not name theirs, or "". The readers convert pixel
-conventions: see parts/calibration.py. A file that no reader knows may have calibrations inside: a mapping of cameras by
-name, or a list of them.
+A file that no program recognizes may have calibrations inside: a mapping of cameras by name, or a list of them.
 """
 
 from __future__ import annotations
@@ -11,45 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...records import InputError
-from .. import (
-    aria,
-    arkit,
-    basalt,
-    camodocal,
-    ftheta,
-    generic,
-    gyroflow,
-    hesai,
-    hot3d,
-    isaac,
-    kitti,
-    meshroom,
-    metashape,
-    nerfstudio,
-    ocam,
-    opencv,
-    ouster,
-    program_of,
-    ray_arrays,
-    ray_exr,
-    ray_mesh,
-    recorded,
-    velodyne,
-    woodscape,
-)
+from .. import program_of
 from ..parts.document import Document
 from ..parts.lens import Lens
-from .nearest import by_name, unknown
-
-FORMATS = (
-    ray_arrays.read, ray_exr.read, ray_mesh.read, metashape.read, arkit.read,
-    hesai.read, kitti.read, ocam.read, velodyne.read, ouster.read, recorded.read, generic.read, aria.read,
-    nerfstudio.read, ftheta.read, isaac.read, woodscape.read, meshroom.read, gyroflow.read, hot3d.read,
-    basalt.read, camodocal.read, opencv.read,
-)  # fmt: skip
-"""Readers in the order in which they are tried."""
-
-ARRAYS = ray_arrays.ZIP, ray_arrays.NPY, ray_exr.MAGIC
+from .nearest import unknown
 
 DEEPEST = 3
 """Levels of mappings in which calibrations are looked for."""
@@ -71,12 +33,10 @@ def lenses_of(path: str, key: str = "", frame: tuple[int, int] | None = None) ->
     document = Document(path, frame, key)
     asked = (path, key, frame, document.digest)
     if asked not in _latest:
-        try:
-            lenses = _known(document, key)
-        except InputError as refusal:
-            raise by_name(document) or refusal from refusal
+        lenses = _known(document)
         if lenses is None:
-            inside = list(_inside(document, key, DEEPEST, ""))
+            inside = list(_inside(document, DEEPEST, "")) if document.has_entries else []
+            document.check()
             if not inside:
                 raise unknown(document)
             lenses = _named(inside)
@@ -86,18 +46,19 @@ def lenses_of(path: str, key: str = "", frame: tuple[int, int] | None = None) ->
     return list(_latest[asked])
 
 
-def _known(document: Document, key: str) -> list[Lens] | None:
+def _known(document: Document) -> list[Lens] | None:
+    """Return the lenses of the program that recognizes a document; None if none does, or they are further inside."""
     program = program_of(document)
-    if program is not None and program.read is not None:
-        return program.read(document)
-    if document.is_binary and not document.data.startswith(ARRAYS):
-        raise unknown(document)
-    return next((found for read in FORMATS if (found := read(document, key)) is not None), None)
+    if program is None:
+        return None
+    if program.read is None:
+        raise document.refusal(f"it is a file of {program.name}, which has poses and no lens")
+    return program.read(document)
 
 
-def _inside(document: Document, key: str, depth: int, path: str) -> Iterator[tuple[str, Lens]]:
+def _inside(document: Document, depth: int, path: str) -> Iterator[tuple[str, Lens]]:
     """Yield the lenses of the mappings in a document with the names of their entries, the nearest ones only."""
-    for name, value in document.raw.items():
+    for name, value in document.entries.values.items():
         document.check()
         items = [(name, value)] if isinstance(value, dict) else []
         if isinstance(value, list):
@@ -105,13 +66,13 @@ def _inside(document: Document, key: str, depth: int, path: str) -> Iterator[tup
         for own, entries in items:
             part = document.part(entries)
             try:
-                found = _known(part, key) if entries else None
+                lenses = _known(part) if entries else None
             except InputError as refusal:
-                found = [Lens("", "", {}, refusal)]
-            if found is not None:
-                yield from ((f"{path}{own}", lens) for lens in found)
+                lenses = [Lens("", "", {}, refusal)]
+            if lenses is not None:
+                yield from ((f"{path}{own}", lens) for lens in lenses)
             elif depth > 1:
-                yield from _inside(part, key, depth - 1, f"{path}{own}.")
+                yield from _inside(part, depth - 1, f"{path}{own}.")
 
 
 def _named(inside: list[tuple[str, Lens]]) -> list[Lens]:

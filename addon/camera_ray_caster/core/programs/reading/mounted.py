@@ -13,12 +13,9 @@ from ...records import InputError
 from ..parts.document import Document
 from ..parts.lens import Lens
 from ..parts.placed import FROM_BLENDER, Placed
-from .folders import CLIP, TRAJECTORY, nearest, number_of
+from .folders import nearest, number_of, pair_of, pictures_in
 from .lenses import lenses_of
-from .poses import beside, object_and_frame, placed_in
-
-COLMAP = ".bin", ".txt"
-"""Kinds of the files of a folder that is a COLMAP model."""
+from .poses import object_and_frame, placed_in
 
 UNNAMED = "", "camera"
 """Names of lenses in files that do not name them; nerfstudio's is the latter."""
@@ -57,7 +54,7 @@ class Mounted:
 
 
 def mounted(path: str, key: str, frame: tuple[int, int], rate: float, meters: float = 1.0) -> list[Mounted]:
-    """Return the cameras of a file, or of COLMAP's files in a folder, in the file's order; or one trajectory.
+    """Return the cameras of a file, or of the model in a folder, in the file's order; or one trajectory.
 
     ``key`` and ``frame`` are those of ``lenses_of``; ``rate`` is the number of frames in a second, for files with
     times, the first of which is frame 1; ``meters`` the length of the Blender unit in which poses are returned. Images
@@ -65,13 +62,12 @@ def mounted(path: str, key: str, frame: tuple[int, int], rate: float, meters: fl
     -2, ..., if their lenses are of several models, or two in one frame. The files of a folder of pictures are its
     frames. Raises InputError, in one line.
     """
-    if Path(path).is_dir() and Path(beside(path)[0]).suffix not in COLMAP:
+    pair = pair_of(path)
+    if pair is None:
         return _of_folder(path, key, frame, rate, meters)
-    lens_file, pose_file = beside(path)
-    document = Document(pose_file, frame)
+    lens_file, pose_file = pair
+    document = Document(pose_file, frame, key)
     placed = placed_in(document, meters)
-    if not placed:
-        raise document.refusal("it has no pose of a camera")
     if len(placed) > MOST:
         raise document.refusal(f"it has {len(placed):,} poses: {MOST:,} are read")
     if placed[0].moves or placed[0].time is not None:
@@ -117,12 +113,12 @@ def _frames(document: Document, placed: list[Placed], rate: float) -> list[float
 
 def _of_folder(path: str, key: str, frame: tuple[int, int], rate: float, meters: float) -> list[Mounted]:
     """Return the cameras of a folder with a file for each picture; equal lenses are one."""
-    files = list(map(Path, beside(path)))
-    moves = placed_in(Document(str(files.pop()), frame), meters) if files[-1].suffix == TRAJECTORY else []
+    pictures = pictures_in(Path(path))
+    moves = [] if pictures.trajectory is None else placed_in(Document(str(pictures.trajectory), frame), meters)
     times = np.array([one.time or 0.0 for one in moves])
     cameras: dict[str, Mounted] = {}
     lenses: dict[str, Lens] = {}
-    for order, file in enumerate(files, 1):
+    for order, file in enumerate(pictures.files, 1):
         move = nearest(times, number_of(file)) if moves else None
         if moves and move is None:
             continue
@@ -131,7 +127,7 @@ def _of_folder(path: str, key: str, frame: tuple[int, int], rate: float, meters:
                 raise InputError(f"file {str(file)!r} of a folder of pictures has no lens: take it out")
             camera = cameras.setdefault(one.name, Mounted(one.name, one.file, one.alone))
             camera.lenses.append(lenses.setdefault(repr(one.lens), one.lens))
-            camera.frames.append(number_of(file) if file.name.endswith(CLIP) else float(order))
+            camera.frames.append(number_of(file) if pictures.of.numbered else float(order))
             camera.poses.append(one.poses[0] if move is None else moves[move].pose @ one.poses[0])
     if not cameras:
         raise InputError(f"folder {path!r} has no picture at a time of its trajectory: give both of one recording")

@@ -11,8 +11,8 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from .parts.document import Document
-from .parts.lens import Lens
+from .document import Document
+from .lens import Lens
 from .ray_arrays import table
 
 MAGIC = b"\x76\x2f\x31\x01"
@@ -24,10 +24,13 @@ Raises ValueError with the reason, in one line, for a file that cannot be read.
 """
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lens of a document; see the package."""
-    if not document.data.startswith(MAGIC):
-        return None
+def looks(document: Document) -> bool:
+    """Whether it is an EXR image."""
+    return document.data.startswith(MAGIC)
+
+
+def lens_of(document: Document) -> Lens:
+    """Return the lens of an image. Raises InputError."""
     if decoder is None:
         raise document.refusal("it is an EXR image, which Blender reads: load it there, or save its arrays as NPZ")
     try:
@@ -50,7 +53,7 @@ def read(document: Document, key: str) -> list[Lens] | None:
         )
     ahead = vectors[directions[0]]
     ahead[(ahead == 0).all(axis=2)] = np.nan
-    return [table(document, ahead, vectors[origins[0]] if origins else None, np.array((0.0, 0.0, 1.0, 1.0)))]
+    return table(document, ahead, vectors[origins[0]] if origins else None, np.array((0.0, 0.0, 1.0, 1.0)))
 
 
 def _vectors(channels: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:

@@ -12,8 +12,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .parts.document import Document
-from .parts.lens import Lens
+from .document import Document
+from .lens import Lens
 from .ray_arrays import table
 
 DIRECTION, ORIGIN = ("dx", "dy", "dz"), ("ox", "oy", "oz")
@@ -28,17 +28,27 @@ FARTHEST = 4.0
 """Largest coordinate of a place: pixels in place of fractions are refused."""
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lens of a document; see the package."""
-    if b"\0" in document.data[:64]:
-        return None
+def looks(document: Document) -> bool:
+    """Whether it is a mesh of rays."""
+    return not document.is_binary and (_head(document) is not None or _is_mesh(document))
+
+
+def lens_of(document: Document) -> Lens:
+    """Return the lens of a mesh of rays. Raises InputError."""
+    head = _head(document)
+    return _lattice(document, *(_of_mesh(document) if head is None else _of_columns(document, *head)))
+
+
+def _head(document: Document) -> tuple[list[str], tuple[str, str]] | None:
+    """Return the names of a table's columns, and those of places; None of any other file."""
     begin = document.data[:4096].decode("utf-8", "replace").lstrip("\ufeff#").split("\n", 1)[0]
     names = begin.lower().replace(",", " ").replace(";", " ").split()
     places = next((pair for pair in PLACES if set(pair) <= set(names)), None)
-    if places is not None and set(DIRECTION) <= set(names):
-        return [_lattice(document, *_of_columns(document, names, places))]
-    is_mesh = all(line in b"\n" + document.data for line in LINES)
-    return [_lattice(document, *_of_mesh(document))] if is_mesh else None
+    return (names, places) if places is not None and set(DIRECTION) <= set(names) else None
+
+
+def _is_mesh(document: Document) -> bool:
+    return all(line in b"\n" + document.data for line in LINES)
 
 
 def _of_columns(document: Document, names: list[str], places: tuple[str, str]):

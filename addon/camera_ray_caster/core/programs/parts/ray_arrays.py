@@ -15,22 +15,25 @@ from typing import Any
 
 import numpy as np
 
-from .. import memory
-from ..arguments import DAMAGED, numbers
-from ..cameras.parts.pose import flaw_of
-from ..maths.vector import inverse
-from ..records import InputError
-from .parts.document import Document
-from .parts.lens import Lens
+from ... import memory
+from ...arguments import DAMAGED, numbers
+from ...cameras.parts.pose import flaw_of
+from ...maths.vector import inverse
+from ...records import InputError
+from .document import Document
+from .lens import Lens
 
 ZIP, NPY = b"PK\x03\x04", b"\x93NUMPY"
 KEY = "RAY_TABLE"
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lens of a document; see the package."""
-    if not document.data.startswith((ZIP, NPY)):
-        return None
+def looks(document: Document) -> bool:
+    """Whether it is a file of numpy."""
+    return document.data.startswith((ZIP, NPY))
+
+
+def lens_of(document: Document) -> Lens:
+    """Return the lens of a file of arrays. Raises InputError."""
     try:
         arrays = _arrays(document)
     except DAMAGED as error:
@@ -54,7 +57,7 @@ def read(document: Document, key: str) -> list[Lens] | None:
     area = arrays.get("area", np.array((0.0, 0.0, 1.0, 1.0)))
     if area.shape != (4,) or not (area[2:] > area[:2]).all():
         raise document.refusal("area must be left, bottom, right, top, 0 to 1 over the frame")
-    return [table(document, directions, origins, area, arrays.get("pose"))]
+    return table(document, directions, origins, area, arrays.get("pose"))
 
 
 def pose_in(document: Document) -> np.ndarray | None:

@@ -11,7 +11,9 @@ from __future__ import annotations
 import re
 
 from .parts.document import Document
-from .parts.lens import Lens, mapping, matrix
+from .parts.fields import Fields
+from .parts.lens import Lens, matrix
+from .parts.program import ProgramFiles
 from .parts.spelled import HEIGHT, WIDTH, Spelled
 
 RADIAL_TANGENTIAL = {name: name for name in ("k1", "k2", "p1", "p2")}
@@ -31,39 +33,49 @@ SCARAMUZZA = "SCARAMUZZA"
 PARTS = "projection_parameters", "distortion_parameters", "mirror_parameters"
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lens of a document; see the package."""
-    entries = document.raw
-    if PARTS[0] not in entries and entries.get("model_type") != SCARAMUZZA:
-        return None
-    kind = document.one_of(entries.get("model_type"), "model_type", (*MODELS, SCARAMUZZA))
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    entries = document.entries
+    return entries.has(PARTS[0]) or (entries.has("model_type") and entries.text("model_type") == SCARAMUZZA)
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    entries = document.entries
+    kind = entries.word("model_type", (*MODELS, SCARAMUZZA))
     if kind == SCARAMUZZA:
-        return [_ocam(document, entries)]
+        return [_ocam(entries)]
     model, focal, terms = MODELS[kind]
-    given: dict = {}
-    for part in PARTS:
-        given |= mapping(entries.get(part))
-    settings = {own: document.number(given, name) for name, own in terms.items()}
-    camera_matrix = matrix(*(document.number(given, name) for name in focal))
-    return [Lens("", model, _size(document, entries) | camera_matrix | settings)]
+    given = entries.part(PARTS[0])
+    for part in PARTS[1:]:
+        given = given.merged(entries.part(part))
+    settings = {own: given.number(name) for name, own in terms.items()}
+    return [Lens("", model, _size(entries) | matrix(*(given.number(name) for name in focal)) | settings)]
 
 
-def _size(document: Document, entries: dict) -> dict:
-    size = Spelled(document, {name: value for name, value in entries.items() if name.lower().startswith("image")})
+def _size(entries: Fields) -> dict:
+    size = Spelled(entries.some([name for name in entries if name.lower().startswith("image")]))
     width, height = (size.number(names) if size.has(names) else None for names in (WIDTH, HEIGHT))
-    return document.size(width, height)
+    return entries.document.size(width, height)
 
 
-def _ocam(document: Document, entries: dict) -> Lens:
-    affine, given = mapping(entries.get("affine_parameters")), mapping(entries.get("poly_parameters"))
-    c, d, e, x, y = (document.number(affine, name) for name in ("ac", "ad", "ae", "cx", "cy"))
+def _ocam(entries: Fields) -> Lens:
+    document, affine, given = entries.document, entries.part("affine_parameters"), entries.part("poly_parameters")
+    c, d, e, x, y = (affine.number(name) for name in ("ac", "ad", "ae", "cx", "cy"))
     if not c > 0:
         raise document.refusal(f"ac is {c:g}: it must be above 0")
     powers = sorted(int(name[1:]) for name in given if re.fullmatch(r"p\d{1,2}", name))
     if powers != list(range(len(powers))) or not powers:
         raise document.refusal("its poly_parameters must be p0, p1, ... without a gap")
-    polynomial = [document.number(given, f"p{power}") * c ** (1 - power) for power in powers]
-    return Lens("", "OCAM", _size(document, entries) | {
+    polynomial = [given.number(f"p{power}") * c ** (1 - power) for power in powers]
+    return Lens("", "OCAM", _size(entries) | {
         "cx": x, "cy": y, "ocam_polynomial": " ".join(map(repr, polynomial)),
         "ocam_c": 1 / c, "ocam_d": e / c, "ocam_e": d / c,
     })  # fmt: skip
+
+
+PROGRAM = ProgramFiles(
+    "VINS", "camodocal's .yaml, of VINS-Mono, VINS-Fusion and KITTI-360", looks,
+    marks="model_type projection_parameters distortion_parameters mirror_parameters",
+    reads="PINHOLE, PINHOLE_FULL, MEI, KANNALA_BRANDT, SCARAMUZZA", read=read,
+)  # fmt: skip

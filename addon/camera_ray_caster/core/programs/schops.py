@@ -12,23 +12,26 @@ import numpy as np
 
 from .parts.document import Document
 from .parts.lens import Lens
-from .ray_arrays import table
+from .parts.program import ProgramFiles
+from .parts.ray_arrays import table
 
 GRIDS = {"CentralGenericModel": ("grid", ""), "NoncentralGenericModel": ("direction_grid", "point_grid")}
 """Names of the grids of directions and of points, by the model's type in the file."""
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lens of a document; see the package."""
-    entries = document.raw
-    kind = entries.get("type")
-    if not isinstance(kind, str) or kind not in GRIDS:
-        return None
-    wide, high = (_count(document, f"grid_{side}", 4) for side in ("width", "height"))
-    width, height = (_count(document, side, 1) for side in ("width", "height"))
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    return document.entries.text("type") in GRIDS
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    entries = document.entries
+    wide, high = (entries.whole(f"grid_{side}", 4) for side in ("width", "height"))
+    width, height = (entries.whole(side, 1) for side in ("width", "height"))
     ends = []
     for axis, count, side in (("x", wide, width), ("y", high, height)):
-        low, high_end = (document.number(entries, f"calibration_{end}_{axis}") for end in ("min", "max"))
+        low, high_end = (entries.number(f"calibration_{end}_{axis}") for end in ("min", "max"))
         cell = (high_end + 1 - low) / (count - 3)
         if not cell > 0:
             least = f"calibration_min_{axis}, {low:g}"
@@ -37,17 +40,17 @@ def read(document: Document, key: str) -> list[Lens] | None:
     (left, right), (top, bottom) = ends
     directions, points = (
         None if not name else
-        np.array(document.numbers(entries.get(name), name, 3 * wide * high)).reshape(high, wide, 3)[::-1].copy()
-        for name in GRIDS[kind]
+        np.array(entries.numbers(name, 3 * wide * high)).reshape(high, wide, 3)[::-1].copy()
+        for name in GRIDS[entries.text("type")]
     )  # fmt: skip
     assert directions is not None
     lens = table(document, directions, points, np.array((left, 1 - bottom, right, 1 - top)))
-    size = {"calibration_width": float(width), "calibration_height": float(height)}
+    size = document.size(float(width), float(height))
     return [lens._replace(settings=lens.settings | size | {"ray_axes": "OPENCV", "ray_interpolation": "SPLINE"})]
 
 
-def _count(document: Document, name: str, least: int) -> int:
-    found = document.number(document.raw, name)
-    if found % 1 or found < least:
-        raise document.refusal(f"{name} is {found:g}: it must be a whole number from {least}")
-    return int(found)
+PROGRAM = ProgramFiles(
+    "camera_calibration (Schöps)", "intrinsics .yaml", looks,
+    marks="calibration_min_x calibration_max_x grid_width grid_height grid",
+    reads="CentralGenericModel, NoncentralGenericModel", read=read,
+)  # fmt: skip

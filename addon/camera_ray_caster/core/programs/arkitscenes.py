@@ -1,0 +1,72 @@
+"""ARKitScenes: .pincam files, a line of width, height, fx, fy, cx, cy, and the trajectory that moves the camera, .traj.
+
+The center of the first pixel is (0, 0). A line of the trajectory has seconds, axis times angle, and x, y, z, from the
+world to the camera.
+References: ARKitScenes documentation, Dataset files formats; its tenFpsDataLoader.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from ..maths.rotations import rotation
+from ..units import METERS
+from .parts.document import Document
+from .parts.lens import Lens, matrix, numbers_of
+from .parts.placed import Placed, inverted
+from .parts.program import PictureFolders, ProgramFiles
+from .parts.trajectory import rows_of
+
+PINCAM, TRAJECTORY = ".pincam", ".traj"
+
+
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    return _pincam(document) is not None or rows_of(document, 7) is not None
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    words = _pincam(document)
+    if words is None:
+        raise document.refusal("it is a trajectory, which has no lens")
+    width, height, *rest = document.numbers(words, "the line", 6)
+    return [Lens("", "OPENCV_PINHOLE", document.size(width, height) | matrix(*rest))]
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles. The camera of a .pincam stands in the frame that the trajectory moves."""
+    if _pincam(document) is not None:
+        return [Placed("", "", None, np.eye(4))]
+    return [_moved(document, number, row) for number, row in enumerate(rows_of(document, 7) or (), 1)]
+
+
+def _moved(document: Document, number: int, words: list[str]) -> Placed:
+    document.check()
+    time, *rest = document.numbers(words, f"pose {number}", 7)
+    to_camera = np.eye(4)
+    to_camera[:3, :3] = rotation(np.array([rest[:3]]))[0]
+    to_camera[:3, 3] = rest[3:]
+    return Placed("", "", None, inverted(to_camera), time)
+
+
+def _pincam(document: Document) -> list[str] | None:
+    """Return the six numbers of a .pincam, as they stand there; None of any other file."""
+    words = document.text[:1000].split()
+    return words if len(words) == 6 and len(numbers_of(words)) == 6 and "\n" not in document.text.strip() else None
+
+
+def hint(document: Document) -> str:
+    """See ProgramFiles."""
+    if Path(document.path).suffix.lower() == PINCAM:
+        return "it must be one line of six numbers: width, height, fx, fy, cx and cy"
+    return "its lines must have seven numbers: a time, axis times angle, and x, y, z"
+
+
+PROGRAM = ProgramFiles(
+    "ARKitScenes", ".pincam; .traj", looks, reads="pinhole", read=read, poses=poses, unit=METERS,
+    endings=(PINCAM, TRAJECTORY), hint=hint,
+    pictures=PictureFolders(f"*{PINCAM}", ("", "lowres_wide_intrinsics"), moved_by=TRAJECTORY),
+)  # fmt: skip

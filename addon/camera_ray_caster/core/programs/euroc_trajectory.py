@@ -1,0 +1,56 @@
+"""Trajectories of EuRoC's ground truth: lines of nanoseconds, x, y, z and the quaternion w, x, y, z, apart by commas.
+
+What follows in a line is not read. A pose leads from the moving frame to the world; written, from the camera, x right,
+y down, z ahead. Frame 0 is at 0 seconds.
+Reference: The EuRoC MAV dataset, Data format.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from ..maths.rotations import quaternion
+from ..units import METERS
+from .parts.document import Document
+from .parts.placed import Placed, of_quaternion
+from .parts.program import CameraRecord, FileWriter, ProgramFiles
+from .parts.trajectory import check_commas, rows_of
+
+HEAD = "#timestamp [ns],p_x,p_y,p_z,q_w,q_x,q_y,q_z\n"
+
+
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    return rows_of(document, 8, commas=True) is not None
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles."""
+    check_commas(document)
+    placed = []
+    for number, row in enumerate(rows_of(document, 8, commas=True) or (), 1):
+        document.check()
+        time, x, y, z, *turn = document.numbers(row[:8], f"pose {number}", 8)
+        pose = of_quaternion(document, turn, [x, y, z], f"pose {number}")
+        placed.append(Placed("", "", None, pose, time / 1e9))
+    return placed
+
+
+def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
+    """See FileWriter. One file per camera."""
+    for name in dict.fromkeys(record.name for record in records):
+        lines = [_line(record) for record in records if record.name == name]
+        yield f"{name}_euroc.csv", HEAD + "".join(lines)
+
+
+def _line(record: CameraRecord) -> str:
+    numbers = (*record.pose[:3, 3].tolist(), *quaternion(record.pose[:3, :3]).tolist())
+    return ",".join((str(round(record.seconds * 1e9)), *map(repr, numbers))) + "\n"
+
+
+PROGRAM = ProgramFiles(
+    "EuRoC trajectories", ".csv", looks, lost="lenses", poses=poses, unit=METERS,
+    export=FileWriter(
+        "euroc", "EuRoC Trajectory", "<camera>_euroc.csv: nanoseconds, places and quaternions of any camera", write
+    ),
+)  # fmt: skip
