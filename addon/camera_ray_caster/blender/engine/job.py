@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from time import perf_counter
 
@@ -19,6 +19,7 @@ from ...core.memory import of_pixels, require
 from ...core.records import Finding, Shapes
 from ...core.report.accuracy import accuracy
 from ...core.report.report import Report, report_cast
+from ..read import movie_clips
 from ..read.evaluated import Eye, scene_at
 from ..read.frames import frame_of, frame_rate, go_to
 from ..read.lengths import meters_of
@@ -83,6 +84,8 @@ class Job:
             finally:
                 visit(frame)
         moved = perf_counter()
+        if clips := movie_clips.notes(scene, camera_object, found.camera.model.group):
+            found = replace(found, shapes=replace(found.shapes, notes=(*found.shapes.notes, *clips)))
         return cls(
             camera=found.camera,
             shapes=found.shapes,
