@@ -22,7 +22,7 @@ def looked_at(*shapes, **options):
 
 
 def square(name, x=0.0, z=0.0):
-    return crc.mesh((*SQUARE, x, 0, z), FACES, name=name)
+    return crc.mesh(np.add(SQUARE, (x, 0, z)), FACES, name=name)
 
 
 def plane(name, x=0.0, z=0.0):
