@@ -3,6 +3,8 @@ whole, and what was finished is not made again.
 """
 
 import json
+import socket
+import subprocess
 import sys
 import time
 from contextlib import suppress
@@ -97,3 +99,56 @@ def test_some_moments(reference, tmp_path, name, moment):
 @pytest.mark.parametrize("moment", range(FEW, FEW + KILLS))
 def test_many_moments(reference, tmp_path, name, moment):
     kill(reference, tmp_path / "out", name, Random(moment))
+
+
+def port():
+    """A port that nobody uses."""
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
+
+
+@pytest.fixture
+def dask():
+    """A function that starts a part of Dask; what it started ends with the test."""
+    started = []
+
+    def begin(name, *words):
+        command = [sys.executable, "-m", f"distributed.cli.{name}", "--no-dashboard", *map(str, words)]
+        started.append(subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
+        return started[-1]
+
+    yield begin
+    for process in reversed(started):
+        with suppress(psutil.NoSuchProcess):
+            for child in psutil.Process(process.pid).children(recursive=True):
+                child.kill()
+        process.kill()
+        process.wait(30)
+
+
+@pytest.mark.hostile
+def test_a_scheduler_that_begins_anew_goes_on(reference, tmp_path, dask):
+    """Killed with half of the pictures made; the next one, with workers of its own, has the address of the first."""
+    scene, whole = reference
+    number, out = port(), tmp_path / "out"
+    address = f"tcp://127.0.0.1:{number}"
+
+    def begin():
+        scheduler = dask("dask_scheduler", "--host", "127.0.0.1", "--port", number)
+        return scheduler, [dask("dask_worker", address, "--nthreads", "1", "--no-nanny") for _ in range(2)]
+
+    scheduler, own = begin()
+    time.sleep(4)
+    run = start(ROOT / "scripts" / "dataset.py", scene, *WORDS, "--scheduler", address, "--output", out)
+    while run.poll() is None and len(list(out.glob("*_0*.json"))) < 8:
+        time.sleep(0.01)
+    assert run.poll() is None
+    for process in (scheduler, *own):
+        process.kill()
+        process.wait(30)
+    begin()
+    said = run.communicate(timeout=150)
+    assert (run.returncode, complaints(said[1])) == (0, [])
+    assert left(out) == left(whole)
+    assert len(finished(out)) == len(finished(whole))

@@ -11,37 +11,26 @@ import atexit
 import logging
 import os
 import sys
-import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import CancelledError
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
+from functools import partial
 from importlib import import_module
-from itertools import islice
 from math import inf
 from threading import Lock, current_thread, main_thread
 from typing import Any
 
 from ...core.file_set import clear_up
 from ...core.records import InputError
-from ..process import signals
 from ..process.standard_output import keep_output, quiet_errors
+from . import tasks
 
-CHUNK = 4
-"""Number of pictures per task of a worker."""
-LEAST, PER_WORKER = 16, 4
-"""Number of tasks that are with the scheduler at a time, and in addition for each thread of a worker."""
 ANSWER = "10s"
 """Time to wait for a scheduler to answer."""
 START = "60s"
 """Time for a worker of this machine to start."""
-CHECK = 15
-"""Seconds between two checks that a worker runs. Two checks must fail, since a killed worker may be restarting."""
 FILES, FILES_PER_WORKER = 24, 6
 """Open files without which no cluster starts: 4 workers fail with 48 at once, with 24 after a minute, with 16 never."""
-FEWER = "give fewer --workers, or raise the limits of open files, processes and memory (ulimit)"
-POLL = 0.05
-"""Seconds between two checks for finished tasks."""
 
 ENVIRONMENT = {"MALLOC_TRIM_THRESHOLD_": 128 << 20, "MALLOC_MMAP_THRESHOLD_": 32 << 20}
 """Environment of workers: glibc keeps freed memory for new arrays, while Dask's default returns it to the system."""
@@ -65,6 +54,8 @@ def cluster(options) -> Iterator[Any]:
         import distributed
     except ModuleNotFoundError as error:
         raise InputError("--workers and --scheduler need Dask: install it with pip install '.[farm]'") from error
+    for name in ("distributed", "distributed.client", "tornado", "asyncio"):  # each logs every lost connection
+        logging.getLogger(name).setLevel(logging.CRITICAL + 1)
     with ExitStack() as stack:
         stack.callback(clear_up, options.output)
         address = options.scheduler or stack.enter_context(_local(options.workers))
@@ -93,7 +84,7 @@ def _local(workers: int) -> Iterator[str]:
         raise InputError("--workers starts Python processes and cannot start Blender: run the script with pip's bpy")
     needed, limit = FILES + FILES_PER_WORKER * workers, _most_files()
     if limit < needed:  # with too few, Dask's processes wait for each other without end
-        raise InputError(f"{workers} workers cannot start: too many open files for a limit of {limit}; {FEWER}")
+        raise InputError(f"{workers} workers cannot start: too many open files for a limit of {limit}; {tasks.FEWER}")
     own = {"distributed.nanny.pre-spawn-environ": ENVIRONMENT}
     limits = {
         "threads_per_worker": 1,
@@ -102,14 +93,12 @@ def _local(workers: int) -> Iterator[str]:
         "silence_logs": logging.CRITICAL,
         "death_timeout": START,
     }
-    for name in ("distributed", "tornado", "asyncio"):  # out of files, each logs every connection
-        logging.getLogger(name).setLevel(logging.CRITICAL + 1)
     with dask.config.set(own):
         try:
             with quiet_errors():  # of the workers, too: their outcomes have the errors
                 made = distributed.LocalCluster(n_workers=workers, **limits)
         except (RuntimeError, OSError, MemoryError) as error:
-            raise InputError(f"{workers} workers cannot start: {_reason(error)}; {FEWER}") from error
+            raise InputError(f"{workers} workers cannot start: {_reason(error)}; {tasks.FEWER}") from error
         with made:
             yield made.scheduler_address
 
@@ -164,46 +153,23 @@ def _missing():
 
 
 def outcomes(client, pictures, stamp: Mapping[str, Any], maps: Mapping[str, Any], jobs: Iterable) -> Iterator:
-    """Yield the outcomes of jobs: of finished ones at once, of others as workers finish them, chunk by chunk. A few
-    chunks for each worker are with the scheduler at a time.
-
-    Raises InputError if a worker refuses a job, if a job kills its workers, and if the scheduler is lost.
+    """Yield the outcomes of jobs: of finished ones at once, of others as workers finish them. Raises the errors of
+    ``tasks.Tasks``, and those with which workers refuse a job.
     """
-    import distributed
-
     options = pictures.options
-    seen, gone = time.monotonic(), 0
-    missing = (job for job in jobs if pictures.taken(job, stamp, maps.get(job.camera)) is None)
-    for job in jobs:
-        found = pictures.taken(job, stamp, maps.get(job.camera))
-        if found is not None:
-            yield found
-    chunks = iter(lambda: [*islice(missing, CHUNK)], [])
-    waiting: dict[Any, list] = {}
-    try:
-        while True:
-            signals.raise_if_stopping()
-            if options.workers and time.monotonic() - seen > CHECK:
-                seen, gone = time.monotonic(), 0 if client.nthreads() else gone + 1
-                if gone > 1:
-                    raise InputError(f"all workers have ended; finished pictures are kept; {FEWER}")
-            for chunk in islice(chunks, max(0, LEAST + PER_WORKER * _threads(client) - len(waiting))):
-                waiting[client.submit(work, options, stamp, maps, chunk, pure=False)] = chunk
-            if not waiting:
-                return
-            for future in [future for future in waiting if future.done()]:
-                del waiting[future]
-                yield from future.result()
-            time.sleep(POLL)
-    except distributed.KilledWorker as error:
-        raise InputError(f"these pictures crashed several workers in turn: {error.task}") from error
-    except (OSError, CancelledError) as error:
-        raise InputError("the Dask scheduler has ended: start again; finished pictures are kept") from error
 
+    def connect():
+        import distributed
 
-def _threads(client) -> int:
-    """Return the number of the workers' threads, as the client was last told."""
-    return sum(worker["nthreads"] for worker in client.scheduler_info()["workers"].values())
+        return distributed.Client(options.scheduler, timeout=ANSWER, set_as_default=False)
+
+    def taken(job):
+        return pictures.taken(job, stamp, maps.get(job.camera))
+
+    task = partial(work, options, stamp, maps)
+    made = tasks.Tasks(client, task, iter(jobs), taken, options.dataset, options.retries,
+                       connect if options.scheduler else None)  # fmt: skip
+    return made.outcomes()
 
 
 def work(options, stamp: Mapping[str, Any], maps: Mapping[str, Any], jobs: Sequence) -> list:
