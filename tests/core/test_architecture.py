@@ -51,6 +51,7 @@ MAY_IMPORT = {
     "core.cast": HITS | {"core.any_rays"},
     "core.clouds": HITS | {"core.cast", "core.clouds"},
     "core.annotations": HITS | {"core.any_rays", "core.cast", "core.version", "core.annotations"},
+    "core.faces": RAYS | {"core.faces"},
     "core.shaders": RAYS | {"core.shaders"},
     "core.motion": RAYS | {"core.motion"},
     # a witness that knew a camera model's formula would be no witness

@@ -2,7 +2,7 @@
 
 import bpy
 import numpy as np
-from parts import BUTTON, addon, load
+from parts import BUTTON, addon, cast_through, load
 from window_scenarios import middle
 
 PATH = "camera_ray_caster."
@@ -93,6 +93,7 @@ def every_kind(user, scenes):
     own, ball = scene.camera.data.camera_ray_caster, bpy.data.objects["Ball"].camera_ray_caster
     bpy.ops.camera_ray_caster.add_line(setting="slit_1")
     slit, settings = own.slit_1, scene.camera_ray_caster
+    cast_through(user)
     own.model = "DOME_MASTER"
     yield from user.press(f"{BUTTON}see_through(")
     for model, owner, name, values in (

@@ -24,6 +24,11 @@ def load(user, scenes, name):
     yield from user.open_tab("Ray Caster")
 
 
+def cast_through(user):
+    """Have See Through show the picture of a cast: the view is Rendered by the add-on's engine."""
+    bpy.context.scene.render.engine, user.area().spaces.active.shading.type = "CAMERA_RAY_CASTER", "RENDERED"
+
+
 def timed(panel, seconds):
     """Have the drawing of a panel timed, in seconds of the processor."""
     draw = panel.draw

@@ -59,9 +59,10 @@ def save(user, path):
 
 
 def see_through(user, scenes):
-    """Look through a dome: what was hidden is back, and the engine comes back after a second press."""
+    """Look through a camera that is cast: what was hidden is back, and the engine comes back after a second press."""
     yield from load(user, scenes, "living_room_omnimax")
     bpy.context.scene.render.engine, before = "BLENDER_WORKBENCH", overlays(user.area().spaces.active)
+    bpy.context.scene.camera.data.camera_ray_caster.model = "GENERAL_LINEAR"  # of many origins: a cast shows it
     yield from user.press(f"{BUTTON}see_through(")
     yield from user.until(lambda: not any(overlays(user.area().spaces.active).values()), "they are hidden")
 

@@ -25,7 +25,8 @@ SCENARIOS = (
     "shown_camera", "set_frame", "other_engine", "marks", "click_seen", "drag_a_ray", "cast_all", "cast_all_by_cycles",
     "export_all", "scanned_points", "slit_scan_movie",
     "drag_x_before_a_class", "autosaved",
-    "quad_and_local_views", "undone", "linked_cameras", "by_hand", "every_kind", "saved_views", "saved_runs", "disable",
+    "quad_and_local_views", "undone", "linked_cameras", "by_hand", "every_kind", "saved_views", "saved_runs",
+    "live_picture", "live_ends", "live_redraws", "disable",
 )  # fmt: skip
 SEEDS = "1", "2", "3", "4"
 """Of random acts, 250 each: see random_acts.py."""

@@ -1,7 +1,7 @@
 """What a user sees in several views and windows, and in files that Blender saves by itself: see scenarios.py."""
 
 import bpy
-from parts import BUTTON, addon, load
+from parts import BUTTON, addon, cast_through, load
 
 
 def overlays(space):
@@ -14,6 +14,7 @@ def autosaved(user, scenes):
     yield from load(user, scenes, "living_room_omnimax")
     paths = bpy.context.preferences.filepaths
     before = overlays(user.area().spaces.active)
+    cast_through(user)
     yield from user.press(f"{BUTTON}see_through(")
     yield from user.until(lambda: not any(overlays(user.area().spaces.active).values()), "they are hidden")
     bpy.context.scene.camera.location.x += 0.01
@@ -37,12 +38,17 @@ def quad_and_local_views(user, scenes):
     yield from load(user, scenes, "living_room_omnimax")
     area, button = user.area(), f"{BUTTON}see_through("
     space, before = area.spaces.active, overlays(area.spaces.active)
+    own, live = bpy.context.scene.camera.data.camera_ray_caster, addon("view3d.live")._live
     in_view = {"window": user.window, "area": area, "region": user.region("WINDOW")}
     for enter in (bpy.ops.screen.region_quadview, bpy.ops.view3d.localview):
         with bpy.context.temp_override(**in_view):
             enter()
         yield from user.wait(0.5)
+        own.model = "OMNIMAX"
         yield from user.press(button)
+        yield from user.until(lambda: any(one.count for one in live[space.as_pointer()].values()), "it is live")
+        user.picture(f"live_{enter.idname_py().rpartition('.')[2]}")
+        own.model = "GENERAL_LINEAR"
         yield from user.until(lambda: not any(overlays(space).values()), "they are hidden")
         yield from user.wait(1)
         user.picture(f"view_{enter.idname_py().rpartition('.')[2]}")

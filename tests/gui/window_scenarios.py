@@ -5,7 +5,7 @@ import time
 import bpy
 import numpy as np
 from lesson_scenarios import place_of
-from parts import BUTTON, addon, load
+from parts import BUTTON, addon, cast_through, load
 
 
 def shown_camera(user, scenes):
@@ -148,6 +148,7 @@ def click_seen(user, scenes):
 
     before = overlays()
     tool(user, "builtin.select_box")
+    cast_through(user)
     yield from user.press(f"{BUTTON}see_through(")
     yield from user.until(lambda: not any(overlays().values()), "outlines and grid are hidden")
     seen, probe = addon("read.scene_cache").cached_scene(context), addon("view3d.mouse_gizmo").probe

@@ -50,7 +50,7 @@ from .ui import (
     show_result,
     verify_panels,
 )
-from .view3d import lesson, mouse_gizmo, notice, overlay, points
+from .view3d import lesson, live, mouse_gizmo, notice, overlay, points
 
 CLASSES = (
     *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,
@@ -67,7 +67,7 @@ CLASSES = (
 
 MODULES = (
     groups, paths, kept, follow, reports, images, gallery, scene_cache, engine, viewport, cast_operator, overlay,
-    points, lesson, notice, render_panels, menus, gallery_operators, lesson_operators, presets, export_operators,
+    points, lesson, live, notice, render_panels, menus, gallery_operators, lesson_operators, presets, export_operators,
     rig_operators, commands, other_engine, see_through, hide_overlays, select_seen, in_steps,
 )  # fmt: skip
 """Modules that register more than classes. Their ``register(undo)`` gives ``undo`` the callbacks that undo it."""

@@ -52,9 +52,9 @@ def cached_scene(context) -> CachedScene:
     else:
         shapes, otherwise = shapes_record(depsgraph), evaluated_otherwise(depsgraph)
     raw, camera, reason = _camera(scene.camera, depsgraph)
-    differences = tuple(_differences(camera, scene))
+    said = tuple(differences(camera, scene))
     camera = camera and replace(camera, pixel_time=None)
-    _read[:] = [CachedScene(key, raw, camera, shapes, reason, differences, otherwise)]
+    _read[:] = [CachedScene(key, raw, camera, shapes, reason, said, otherwise)]
     _stale.clear()
     return _read[0]
 
@@ -66,7 +66,7 @@ def _camera(camera_object, depsgraph) -> tuple[BlenderCamera | None, Camera | No
         return None, None, in_labels(str(error))
 
 
-def _differences(camera: Camera | None, scene) -> Iterator[str]:
+def differences(camera: Camera | None, scene) -> Iterator[str]:
     """Yield sentences about how a render differs from the window."""
     if camera is None:
         return

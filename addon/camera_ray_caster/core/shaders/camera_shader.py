@@ -17,6 +17,7 @@ from zlib import crc32
 import numpy as np
 
 from ..camera.camera import Camera
+from ..cameras.model import Model
 from ..conventions import EPS32
 from ..maths.recording import Parameter, Record, record
 from .osl import Inputs, OslWriter
@@ -150,7 +151,7 @@ def ray_record(camera: Camera) -> Record:
     """
     width, height = camera.model.frame
     frame = Parameter(width, "frame_width"), Parameter(height, "frame_height")
-    model = replace(_named(camera.model), frame=frame)
+    model = named(camera.model, frame=frame)
     chief_ray = replace(camera, model=model).camera_rays if _is_sheared(camera) else model.rays
     opening = _named(camera.aperture, "aperture")
 
@@ -168,6 +169,11 @@ def ray_record(camera: Camera) -> Record:
 def _is_sheared(camera: Camera) -> bool:
     """Whether the camera's axes are not perpendicular in float32: lengths then depend on the direction."""
     return bool(np.abs(camera.pose.basis.T @ camera.pose.basis - np.eye(3)).max() > 16 * EPS32)
+
+
+def named(model: Model, **given: Any) -> Model:
+    """Return a model with its numbers as parameters named after their fields, except the ``given`` fields."""
+    return replace(_named(model), **given)
 
 
 def _named(item: Any, name: str = "") -> Any:

@@ -1,0 +1,1 @@
+"""A camera's picture as a warp of a few perspective pictures from its eye."""
