@@ -145,7 +145,7 @@ class OwnTimes:
 def _in_boxes(
     tree: Tree, some: np.ndarray, start, ahead, near: float, limit: Callable[[], np.ndarray]
 ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    order = some[coherent_order(start[:, some], ahead[:, some])]
+    order = some[coherent_order(start[:, some], ahead[:, some], tree.reach)]
     packets = packets_of(start[:, order], ahead[:, order])
     for ray, part in Traversal(tree, packets, near, lambda: packets.farthest(limit()[order])).pairs():
         yield order[ray], part.astype(np.int32)

@@ -13,12 +13,16 @@ FAN = 8
 """Number of packets in a packet."""
 
 
-def coherent_order(origin: np.ndarray, direction: np.ndarray) -> np.ndarray:
-    """Return an order of rays, (3, n) each, in which neighbors begin near each other and look in similar directions."""
+def coherent_order(origin: np.ndarray, direction: np.ndarray, reach: float) -> np.ndarray:
+    """Return an order of rays, (3, n) each, in which neighbors begin near each other and look in similar directions:
+    along Morton's curve through origins and unit directions, both as they move the rays at the distance ``reach``.
+
+    If directions and origins count the same, rays whose origins differ by 15 mm take 1.5 times as long.
+    """
     ahead = direction / norm(direction)
     if (origin == origin[:, :1]).all():
         return np.argsort(morton(ahead), kind="stable")
-    return np.argsort(morton(np.concatenate((origin, ahead)), bits=6), kind="stable")
+    return np.argsort(morton(np.concatenate((origin, reach * ahead)), even=True), kind="stable")
 
 
 @dataclass(frozen=True, eq=False)

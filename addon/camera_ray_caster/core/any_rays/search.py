@@ -145,13 +145,13 @@ class BodySearch(Found):
         """Give all hits that may count to ``keep(rays, hits)``, where the hits count the given rays from 0."""
         rays = np.flatnonzero(np.isfinite(origin).all(axis=0) & np.isfinite(direction).all(axis=0))
         if self._tree is not None and len(rays):
-            rays = rays[coherent_order(origin[:, rays], direction[:, rays])]
+            rays = rays[coherent_order(origin[:, rays], direction[:, rays], self._tree.reach)]
         from_one = len(rays) > 0 and all((part.take(rays) == part[rays[0]]).all() for part in origin)
-        kinds, scratch = self._kinds, Scratch()
+        scratch = Scratch()
         with np.errstate(all="ignore"):  # NaN and inf mean no hit
+            kinds = [bodies.prepared(origin[:, rays]) for bodies in self._kinds] if len(rays) else self._kinds
             if from_one:
                 origin = np.broadcast_to(origin[:, rays[:1]], origin.shape)
-                kinds = [bodies.seen_from(origin[:, 0], len(rays)) for bodies in kinds]
             for first in range(0, len(rays), RAYS):
                 part = rays[first : first + RAYS]
                 some = _of(origin, part), taken(direction, part)

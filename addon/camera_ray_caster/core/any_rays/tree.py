@@ -9,6 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..maths.speed import lazy
+
 FAN = 4
 """Number of nodes below a node. With 2 and 8, random rays in a room take 1.0 and 1.1 times as long."""
 
@@ -43,6 +45,12 @@ class Tree:
     def size(self) -> np.ndarray:
         """The longest side of each box."""
         return (self.faces[:, len(self) :] - self.faces[:, : len(self)]).max(axis=0)
+
+    @lazy
+    def reach(self) -> float:
+        """Half of the longest side of the box of all bodies."""
+        ends = self.faces.reshape(3, 2, -1)[..., :FAN]
+        return float((np.nanmax(ends[:, 1], axis=1) - np.nanmin(ends[:, 0], axis=1)).max() / 2)
 
     @property
     def middle(self) -> np.ndarray:
@@ -95,16 +103,18 @@ def _order(middle: np.ndarray) -> np.ndarray:
     return order
 
 
-def morton(points: np.ndarray, bits: int = 10) -> np.ndarray:
-    """Return the places of points (d, n) along Morton's curve through the box of all points, (n,) int64."""
+def morton(points: np.ndarray, bits: int = 10, even: bool = False) -> np.ndarray:
+    """Return the places of points (d, n) along Morton's curve through the box of all points, (n,) int64. Each side of
+    the box is divided into 2^bits steps, or, if these are ``even``, the longest one.
+    """
     axes = len(points)
     spread = np.zeros(1 << bits, np.int64)
     for bit in range(bits):
         spread |= (np.arange(1 << bits) >> bit & 1) << (bit * axes)
+    least, sides = points.min(axis=1), np.ptp(points, axis=1)
     code = np.zeros(points.shape[1], np.int64)
-    for axis, values in enumerate(points):
-        least, most = values.min(), values.max()
-        if most > least:
-            steps = (values - least) * (((1 << bits) - 1) / (most - least))
+    for axis, side in enumerate(np.full(axes, sides.max()) if even else sides):
+        if side > 0:
+            steps = (points[axis] - least[axis]) * (((1 << bits) - 1) / side)
             code |= spread.take(steps.astype(np.intp), mode="clip") << axis
     return code

@@ -38,8 +38,8 @@ class Bodies(ABC):
         ``body`` has one index for each ray, or is one number for all of them.
         """
 
-    def seen_from(self, eye: np.ndarray, rays: int) -> Bodies:
-        """Return the bodies for this number of rays that all leave one point, (3,): they meet the same to the bit."""
+    def prepared(self, origin: np.ndarray) -> Bodies:
+        """Return the bodies, ready for many rays with these origins, (3, n): they meet the same to the bit."""
         return self
 
     @abstractmethod

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ...maths.speed import Scratch
-from ...maths.vector import along, difference, dot, norm
+from ...maths.vector import along, cross, difference, dot, norm
 from ...memory import require
 from ..bodies import Bodies, places_of
 from ..cutouts import Cutouts, crossings
@@ -19,10 +19,13 @@ BYTES = 144
 """Upper bound of the memory of each triangle, with its box and its share of the tree."""
 
 PREPARED = 0.25
-"""Number of rays from one point, for each triangle, from which the triangles are prepared for them. Not tuned."""
+"""Number of rays, for each triangle, from which the triangles are prepared for them. Not tuned."""
 
-MOST_PREPARED = 1 << 21
+MOST_PREPARED = 1 << 20
 """Largest number of triangles that are prepared: they take half a gigabyte."""
+
+MOVED = 2
+"""Factor of the error bound of volumes by moments: their origins are rounded when the middle is subtracted."""
 
 FEWER = "cast at fewer instances, or reduce the subdivision"
 
@@ -73,10 +76,10 @@ class TriangleBodies(Bodies):
         some = np.flatnonzero(met)
         return _crossings(len(met), some, corners[:, :, some], direction, start)
 
-    def seen_from(self, eye: np.ndarray, rays: int) -> Bodies:
+    def prepared(self, origin: np.ndarray) -> Bodies:
         """See ``Bodies``."""
-        is_worth_it = PREPARED * len(self.at) < rays and len(self.at) <= MOST_PREPARED
-        return TrianglesFromEye(self, eye) if is_worth_it else self
+        is_worth_it = PREPARED * len(self.at) < origin.shape[1] and len(self.at) <= MOST_PREPARED
+        return PreparedTriangles(self, origin) if is_worth_it else self
 
     def corners(self, body: np.ndarray, origin: Any) -> np.ndarray:
         """Return the corners of triangles relative to origins, (3, 3, m): corner, component."""
@@ -103,22 +106,34 @@ def _placed(shapes: InCamera, at: Any, q: np.ndarray) -> list[np.ndarray]:
     return [axes[0, i] * q[0] + (axes[1, i] * q[1] + axes[2, i] * q[2]) + center[i] for i in range(3)]
 
 
-class TrianglesFromEye(Bodies):
-    """Triangles for many rays from one point: what a volume takes of the triangle is computed once for all rays."""
+class PreparedTriangles(Bodies):
+    """Triangles for many rays: what a volume takes of the triangle is computed once for all, relative to the middle of
+    the rays' origins. If all rays leave one point, that is the point.
+    """
 
     twice = False
 
-    def __init__(self, triangles: TriangleBodies, eye: np.ndarray):
+    def __init__(self, triangles: TriangleBodies, origin: np.ndarray):
         self._triangles = triangles
         self.at, self.number, self.low, self.high = triangles.at, triangles.number, triangles.low, triangles.high
-        corners = triangles.corners(np.arange(len(self.at)), eye[:, None])
-        self._edges = edge_vectors(corners, True)
-        self._rounding = VOLUME_ROUNDING * np.maximum.reduce([norm(corner) for corner in corners]) ** 2
+        self._middle = (origin.min(axis=1) / 2 + origin.max(axis=1) / 2)[:, None]
+        self._from_one = bool((origin == self._middle).all())
+        corners = triangles.corners(np.arange(len(self.at)), self._middle)
+        self._edges = edge_vectors(corners, self._from_one)
+        self._longest = np.maximum.reduce([norm(corner) for corner in corners])
 
     def meet(self, body: Any, origin: Any, direction: Any, start: Any, scratch: Scratch) -> np.ndarray:
         """See ``Bodies``."""
-        found = tuple(dot(direction, places_of(edge, body)) for edge in self._edges)
-        met, open_ = _inside(found, places_of(self._rounding, body) * norm(direction))
+        longest = places_of(self._longest, body)
+        if self._from_one:
+            found = tuple(dot(direction, places_of(edge, body)) for edge in self._edges)
+            met, open_ = _inside(found, VOLUME_ROUNDING * longest**2 * norm(direction))
+        else:
+            away = difference(origin, self._middle)
+            factors = np.concatenate((direction, cross(away, direction)))
+            edges = (places_of(edge, body) for edge in self._edges)
+            found = tuple(dot(factors[:3], edge[:3]) + dot(factors[3:], edge[3:]) for edge in edges)
+            met, open_ = _inside(found, MOVED * VOLUME_ROUNDING * (longest + norm(away)) ** 2 * norm(direction))
         body = np.broadcast_to(body, len(met))
         corners = self._triangles.corners(body[open_], origin[:, open_])
         met[open_] = _is_met(corners, [part[open_] for part in direction])
