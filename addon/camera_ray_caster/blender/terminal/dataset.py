@@ -20,13 +20,13 @@ from typing import Any
 
 import bpy
 
-from ...core.exports.plain import as_text
 from ...core.exports.writing import write
 from ...core.file_set import Taken, atomic_folder, clear_up
 from ...core.records import InputError
 from ...core.sets import companions, shares
 from ...core.sets.common import DATASET
 from ...core.sets.run import Run
+from ...core.text_forms.json_text import as_text
 from ..output.annotations import merged_files
 from ..output.points import KITTI, collect_sequences
 from ..output.stamps import differing, finished
