@@ -260,3 +260,41 @@ def test_a_preview_shows_the_distance_where_there_is_no_depth(tmp_path, passes, 
     ((name, content),) = SET_FORMATS["preview"].files(read_set(tmp_path))
     shown = cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_COLOR)
     assert (name, shown.shape[1]) == ("preview.png", count * SIZE[0])
+
+
+METRIC = {"bop-scenes", "depth16"}
+"""Formats with lengths in millimeters; the files of all others are the same at any Unit Scale."""
+
+
+@pytest.mark.one_for_each("key")
+@pytest.mark.parametrize("key", SET_FORMATS)
+def test_lengths_of_sets_follow_the_unit_scale(made, key):
+    folder, casts = made
+    found = {}
+    for meters in (1.0, 0.01, 1000.0):
+        for path in folder.glob("PERSP_000?.json"):
+            report = json.loads(path.read_text())
+            report["host"]["meters"] = meters
+            path.write_text(json.dumps(report))
+        found[meters] = dict(SET_FORMATS[key].files(read_set(folder)))
+        depth = np.where(np.isfinite(casts[0][1]["depth"]), casts[0][1]["depth"], 0)[::-1] * 1000 * meters
+        if key == "bop-scenes":
+            scene = "test/000000/"
+            camera = json.loads(found[meters][scene + "scene_camera.json"])["1"]
+            pixels = cv2.imdecode(np.frombuffer(found[meters][scene + "depth/000001.png"], np.uint8), -1)
+            assert np.abs(pixels * camera["depth_scale"] - depth).max() <= camera["depth_scale"]
+            assert np.allclose(camera["cam_t_w2c"], casts[0][0].world_to_opencv[:3, 3] * 1000 * meters, rtol=1e-6)
+            truth = json.loads(found[meters][scene + "scene_gt.json"])["1"]
+            objects = {one["obj_id"]: one["cam_t_m2c"] for one in truth}
+            assert np.allclose(objects[1], np.array((-0.3, 0, 5)) * 1000 * meters, atol=1e-6 * meters)
+            assert json.loads(found[meters]["models/models_info.json"])["1"]["size_x"] == pytest.approx(2000 * meters)
+        if key == "depth16":
+            step = json.loads(found[meters]["depth16.json"])["millimeters"]
+            pixels = cv2.imdecode(np.frombuffer(found[meters]["PERSP_0001_depth.png"], np.uint8), -1)
+            assert np.abs(pixels * step - depth).max() <= step
+
+    def words(files):  # without comments, which tell the unit
+        return {name: [line for line in one.splitlines() if not line.startswith("#")] if isinstance(one, str) else one
+                for name, one in files.items()}  # fmt: skip
+
+    assert all(words(files) == words(found[1.0]) for files in found.values()) == (key not in METRIC)
