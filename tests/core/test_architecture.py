@@ -20,7 +20,7 @@ LOW = {
     "core.memory", "core.maths", "core.units",
 }  # fmt: skip
 FILES = {"core.programs", "core.text_forms"}
-RAYS = LOW | {"core.cameras", "core.camera"} | FILES
+RAYS = LOW | {"core.lenses", "core.cameras", "core.camera"} | FILES
 HITS = RAYS | {"core.scene", "core.motion", "core.shapes", "core.errors", "core.casting"}
 READ = {"core", "blender.properties", "blender.process", "blender.read"}
 RENDER = READ | {"blender.cycles", "blender.verification", "blender.output"}
@@ -39,7 +39,8 @@ MAY_IMPORT = {
     "core.units": set(),
     "core.version": set(),
     "core.maths": {"core.conventions", "core.maths"},
-    "core.cameras": LOW | {"core.cameras"},
+    "core.lenses": LOW | {"core.lenses"},
+    "core.cameras": LOW | {"core.lenses", "core.cameras"},
     "core.text_forms": {"core.memory", "core.records", "core.text_forms"},
     "core.programs": LOW | FILES | {"core.cameras"},
     "core.camera": RAYS,

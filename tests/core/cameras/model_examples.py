@@ -14,7 +14,7 @@ from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.records import BlenderCamera
 
-from . import central_examples, multiperspective_examples, table_examples
+from . import central_examples, lens_examples, multiperspective_examples, table_examples
 from .example_frames import BORDER, DEFAULTS, IDENTITY, PORTRAIT, SHIFTED, TURNED, WIDE_PIXELS
 
 __all__ = ["BORDER", "EXAMPLES", "FACTS", "IDENTITY", "ONLY_SOME", "REFUSED", "TURNED", "UNSEEN", "camera", "raw_of"]
@@ -34,6 +34,7 @@ ONLY_SOME = {
 }  # fmt: skip
 
 EXAMPLES = defaultdict(lambda: [{}], {
+    **lens_examples.EXAMPLES,
     **central_examples.EXAMPLES,
     **multiperspective_examples.EXAMPLES,
     **table_examples.EXAMPLES,
@@ -135,6 +136,7 @@ FACTS = {
 """What geometry by hand says: settings, pixel coordinates, the ray's origin and direction (of any length) there."""
 
 UNSEEN = {
+    **lens_examples.UNSEEN,
     **central_examples.UNSEEN,
     **multiperspective_examples.UNSEEN,
     **table_examples.UNSEEN,

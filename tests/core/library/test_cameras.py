@@ -39,7 +39,7 @@ def test_a_model_by_its_key_is_that_of_its_declared_defaults(model):
         points = np.array(line) if name == "path" else np.array((line[0], np.add(*line)))
         settings[name] = points, np.eye(4), [(k, k + 1) for k in range(len(points) - 1)]
     raw = BlenderCamera("Camera", "PERSP", np.eye(4), resolution_x=96, resolution_y=54, model=model.key,
-                        settings=settings)  # fmt: skip
+                        settings=settings, **model.following({}))  # fmt: skip
     expected = camera_from(raw).rays()
     np.testing.assert_array_equal(found.rays().directions, expected.directions)
     np.testing.assert_array_equal(found.rays().origins, expected.origins)

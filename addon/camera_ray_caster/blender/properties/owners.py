@@ -1,6 +1,6 @@
 """The Blender struct that owns a declared camera setting."""
 
-from ...core.cameras.parts.settings import CAMERA, CYCLES, FROM_A_FILE, OWN, RENDER, STEREO, Setting
+from ...core.cameras.parts.settings import CAMERA, CYCLES, FOCUS, FROM_A_FILE, OWN, RENDER, STEREO, Setting
 from .declared import GROUP
 
 
@@ -16,6 +16,7 @@ def owner_of(setting: Setting, camera, scene):
 OWNERS = {
     OWN: lambda camera, scene: getattr(camera, GROUP),
     CAMERA: lambda camera, scene: camera,
+    FOCUS: lambda camera, scene: camera.dof,
     STEREO: lambda camera, scene: camera.stereo,
     RENDER: lambda camera, scene: scene.render,
     CYCLES: lambda camera, scene: scene.cycles if "cycles" in scene.bl_rna.properties else None,

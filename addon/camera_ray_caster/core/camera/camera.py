@@ -25,7 +25,7 @@ from .jacobian import of_projection, of_rays, of_settings
 from .meeting import meeting
 from .pixels import by_time, given
 from .posed import posed
-from .sampling import in_opening, sub_pixel
+from .sampling import sampled
 from .spherical_stereo import with_eye
 from .sweep import rays_in_sweep
 from .times import PixelTime, SweepTime
@@ -151,12 +151,14 @@ class Camera:
         """Return the rays of a sample in the pixels with the centers x, y, in the form of ``camera_rays``. The sample
         has the same place in every pixel, and in each pixel another point of the aperture.
         """
-        off_x, off_y = sub_pixel(sample)
-        place = x + off_x, y + off_y
+        place, point = sampled(self.aperture, x, y, sample)
         chief = self.camera_rays(*place)
-        if self.aperture is None:
-            return chief
-        return self.model.through(self.aperture, chief, *place, self.aperture.points(*in_opening(sample, x, y)))
+        return chief if self.aperture is None else self.model.through(self.aperture, chief, *place, point)
+
+    def sample_light(self, x, y, sample: int):
+        """Return the light of the rays of ``sample_rays``; see ``Model.light``. None if all carry the same."""
+        place, point = sampled(self.aperture, x, y, sample)
+        return None if self.aperture is None else self.model.light(self.aperture, *place, point)
 
     @property
     def parallel(self):

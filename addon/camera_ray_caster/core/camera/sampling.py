@@ -7,6 +7,8 @@ steps are powers of the plastic number. In the opening they are shifted by a has
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 STEP_2D = (0.7548776662466927, 0.5698402909980532)
@@ -16,6 +18,14 @@ def sub_pixel(sample: int) -> tuple[float, float]:
     """Return the offset of a sample from the pixel's center, in pixels, -1/2 .. 1/2 on both axes."""
     across, up = ((0.5 + step * sample) % 1.0 - 0.5 for step in STEP_2D)
     return across, up
+
+
+def sampled(aperture: Any, x, y, sample: int) -> tuple[tuple[Any, Any], Any]:
+    """Return the places of a sample in the pixels with the centers x, y, and its points of an ``Aperture``: None if
+    there is no aperture.
+    """
+    off_x, off_y = sub_pixel(sample)
+    return (x + off_x, y + off_y), None if aperture is None else aperture.points(*in_opening(sample, x, y))
 
 
 def in_opening(sample: int, x, y):

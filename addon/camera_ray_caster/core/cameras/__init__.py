@@ -34,6 +34,7 @@ from .pencil import Pencil
 from .perspective import Perspective
 from .pushbroom import Pushbroom
 from .ray_table import RayTable
+from .real_lens import RealLens
 from .scanner import Scanner
 from .stereographic_panorama import StereographicPanorama
 from .strip import Strip
@@ -47,7 +48,7 @@ MODELS: list[type[Model]] = [
     CentralCylindrical, CameraObscura,
     FisheyeOrthographic, FisheyeStereographic, OpencvPinhole, OpencvFisheye,
     UnifiedCamera, EnhancedUnifiedCamera, DoubleSphere, Fisheye624, ThinPrismFisheye, FieldOfView, Division,
-    FTheta, OCam, RayTable, Omnimax, DomeMaster, Cylindrical,
+    FTheta, OCam, RayTable, RealLens, Omnimax, DomeMaster, Cylindrical,
     StereographicPanorama,
     GeneralLinear, CrossSlit, Pushbroom, Pencil, TwistedOrthographic, Strip, OmnidirectionalStereo,
     Scanner,

@@ -22,8 +22,9 @@ float64 drop derivatives. A term is left out where a number is false, not where 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -39,26 +40,12 @@ from .parts.inverse import pixels_of
 from .parts.outline import outline_of
 from .parts.settings import Setting
 from .parts.silhouette import everywhere
+from .parts.steps import Firing, Step
 
 NOWHERE, IN_RAYS, IN_CASTS = 0, 1, 2
 """Values of ``Model.polynomials``: nowhere, in ``Camera.rays``, or in casts, too."""
-GROUPS = ("Blender's Own", "Calibrated", "Fisheye", "Dome", "Panorama", "Multiperspective", "Historical")
+GROUPS = ("Blender's Own", "Calibrated", "Real Lens", "Fisheye", "Dome", "Panorama", "Multiperspective", "Historical")
 """Values of ``Model.group``, in the order of menus and of the table of models."""
-
-
-class Step(NamedTuple):
-    """One step of a formula from the pixel to the ray."""
-
-    words: str
-    symbols: str
-
-
-class Firing(NamedTuple):
-    """When the pixels of a scanner fire, in seconds from the begin of a sweep."""
-
-    per_column: float
-    rows: np.ndarray
-    """(height,): what each row adds."""
 
 
 @dataclass(frozen=True)
@@ -126,6 +113,11 @@ class Model(ABC):
         """
         return cls(raster.size, *(setting.read(raw) for setting in cls.SETTINGS))
 
+    @classmethod
+    def following(cls, given: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the values of settings that, in Python, follow from those given if they are left out; default none."""
+        return {}
+
     def formula_values(self, x: float, y: float) -> dict[str, Any]:
         """Return the values, at a pixel, of the names in FORMULA that its steps do not assign and that are neither
         settings nor facts: what is found by iteration, and points and lines. The default is none.
@@ -191,6 +183,13 @@ class Model(ABC):
         chief: the pixel's chief ray. By default the two rays meet on the aperture's surface of focus.
         """
         return aperture.through(*chief, self.planar, *point)
+
+    def light(self, aperture: Aperture, x, y, point: tuple[Any, Any]):
+        """Return the light that a pixel's ray through a point of the aperture carries, relative to the middle of the
+        picture; None, the default, if all rays carry the same. Where it is not None, rays of the aperture without a
+        direction are dark: a part of the lens is in their way.
+        """
+        return None
 
     @classmethod
     def eye(cls, raw: BlenderCamera, view: str) -> BlenderCamera | None:

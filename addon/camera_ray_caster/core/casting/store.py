@@ -46,12 +46,18 @@ def _write_missed(name: str, values: HitValues, out: np.ndarray, everywhere: boo
         write_where(out, missed, values.hits.missed)
 
 
-def add_combined(hits: Hits, total: np.ndarray) -> None:
-    """Add the combined pass to a sum, (rows, columns, 4)."""
+def add_combined(hits: Hits, total: np.ndarray, light: np.ndarray | None) -> None:
+    """Add the combined pass to a sum, (rows, columns, 4). ``light`` multiplies its colors; rays without a direction
+    are then black and opaque, since the lens is in their way.
+    """
     for window, block in hits.blocks():
         part = total[window]
         once = hits.rays.scratch("once", part.shape, np.float64)
         store(block, {"combined": once})
+        if light is not None:
+            dark = np.broadcast_to(np.isnan(block.rays.direction[0]), part.shape[:2])
+            once[..., :3] *= np.where(dark, 0.0, light[window])[..., None]
+            once[..., 3][dark] = 1.0
         part += once
 
 

@@ -141,7 +141,7 @@ def cast_tile(
         if total is None:
             store(hits, parts, tile.where)
         else:
-            add_combined(hits, total)
+            add_combined(hits, total, plan.camera.sample_light(*place[:2], sample))
         seconds += generated - began, found - generated, perf_counter() - found
         effort.step()
     if total is not None:

@@ -88,6 +88,7 @@ def camera(model: str, size, pose=None, **settings: Any) -> Camera:
         for key, value in settings.items()
     }
     given |= completed(model, declared, given, (width, height))
+    given = {**known[model].following(given), **given}
     values = {key: one.default for key, one in declared.items() if key not in RECORD_FIELDS}
     values |= {key: value for key, value in given.items() if key not in RECORD_FIELDS}
     fields: dict[str, Any] = {"clip_start": 0.0, "clip_end": np.inf}

@@ -47,7 +47,7 @@ TEXT = """\
         throughput = 0;
     }} else {{
         position = point({o[0]}, {o[1]}, -{o[2]});
-        direction = normalize(vector({d[0]}, {d[1]}, -{d[2]}));
+        direction = normalize(vector({d[0]}, {d[1]}, -{d[2]}));{light}
     }}
 }}
 """
@@ -135,7 +135,8 @@ def camera_shader(
         x=x,
         y=y,
         o=texts[:3],
-        d=texts[3:],
+        d=texts[3:6],
+        light="".join(f"\n        throughput = {text};" for text in texts[6:]),
     )
     said = " ".join(map(str, sorted(inputs.used)))
     values = {**{name: float(value) for name, value in frame.items()}, **own}
@@ -144,7 +145,8 @@ def camera_shader(
 
 
 def ray_record(camera: Camera) -> Record:
-    """Return the record of a ray, origin and direction in the camera's frame, as a function of pixel and aperture.
+    """Return the record of a ray, origin and direction in the camera's frame, as a function of pixel and aperture. A
+    seventh number is its light, if that is not the same for all rays.
 
     Its four inputs are the pixel coordinates x and y, and a point of the aperture in radii, or for a hole two numbers
     in [0, 1). The fields of the model are parameters.
@@ -160,7 +162,9 @@ def ray_record(camera: Camera) -> Record:
         if opening is not None:
             lens = opening.radius * across, opening.radius * (-up if opening.is_mirrored else up)
             point = opening.points(across, up) if opening.is_hole else lens
-            origin, direction = opening.through(origin, direction, camera.model.planar, *point)
+            origin, direction = model.through(opening, (origin, direction), x, y, point)
+            carried = model.light(opening, x, y, point)
+            return *origin, *direction, *(() if carried is None else (carried,))
         return *origin, *direction
 
     return record(ray, 4)

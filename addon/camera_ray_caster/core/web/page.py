@@ -49,8 +49,14 @@ TABLES_OF = {
 }
 """The tables of the page's own cameras: the rays of a lens that was measured at five times four places."""
 
-HELD = {"RAY_TABLE": ("ray_axes", "ray_interpolation", "ray_slide")}
-"""Settings that are no knobs: each of their variants holds the table again."""
+HELD = {
+    "RAY_TABLE": ("ray_axes", "ray_interpolation", "ray_slide"),
+    "REAL_LENS": (
+        "lens_focus", "focus_distance", "aperture_fstop", "lens_state", "lens_wavelength", "lens_vignetting",
+        "lens_falloff",
+    ),
+}  # fmt: skip
+"""Settings that are no knobs: each of their variants holds the table, or the traced lens, again."""
 
 FILES = Path(__file__).with_name("page_files")
 SCRIPTS = "formula", "scene", "picture", "space", "state", "own", "main"

@@ -20,7 +20,7 @@ import numpy as np
 
 from ...maths.vector import along, cross, difference, dot, unit
 from ...records import BlenderCamera, InputError, Pose
-from .settings import CAMERA, Flag, Number, Setting, Whole
+from .settings import FOCUS, Flag, Number, Setting, Whole
 
 FORWARD = 0.0, 0.0, -1.0
 SIDEWAYS = 1.0, 0.0, 0.0
@@ -138,15 +138,18 @@ class Aperture:
 SMALLEST = 1e-5
 """Blender's lower limit of f-stop and focus distance."""
 
+FOCUS_DISTANCE = Number(
+    "focus_distance", "Focus Distance", "Distance to the surface of focus", 10.0, 0.0, unit="length", owner=FOCUS
+)
+F_STOP = Number("aperture_fstop", "F-Stop", "Focal length over the diameter of the opening", 2.8, 0.0, owner=FOCUS)
 DEPTH_OF_FIELD: tuple[Setting, ...] = (
-    Flag("use_dof", "Depth of Field", "Send rays through the whole opening of a thin lens", False, owner=CAMERA),
-    Number("focus_distance", "Focus Distance", "Distance to the surface of focus", 10.0, 0.0, unit="length",
-           owner=CAMERA),
-    Number("aperture_fstop", "F-Stop", "Focal length over the diameter of the opening", 2.8, 0.0, owner=CAMERA),
-    Whole("aperture_blades", "Blades", "Corners of the opening; a disc below 3", 0, 0, 16, owner=CAMERA),
-    Number("aperture_rotation", "Rotation", "Of the polygon of the blades", 0.0, unit="angle", owner=CAMERA),
-    Number("aperture_ratio", "Ratio", "Divisor of the width of the opening", 1.0, 0.01, owner=CAMERA),
-)  # fmt: skip
+    Flag("use_dof", "Depth of Field", "Send rays through the whole opening of a thin lens", False, owner=FOCUS),
+    FOCUS_DISTANCE,
+    F_STOP,
+    Whole("aperture_blades", "Blades", "Corners of the opening; a disc below 3", 0, 0, 16, owner=FOCUS),
+    Number("aperture_rotation", "Rotation", "Of the polygon of the blades", 0.0, unit="angle", owner=FOCUS),
+    Number("aperture_ratio", "Ratio", "Divisor of the width of the opening", 1.0, 0.01, owner=FOCUS),
+)
 """Blender's own settings of depth of field, which ``thin_lens`` reads besides ``focus_position``."""
 
 
@@ -162,10 +165,17 @@ def thin_lens(raw: BlenderCamera, pose: Pose, parallel: bool) -> Aperture | None
     ratio, blades = float(settings["aperture_ratio"]), int(settings["aperture_blades"])
     if not 0 < ratio < np.inf:
         raise InputError(f"aperture_ratio of camera {raw.name!r} is {ratio}: it must be positive")
-    focus = float(settings["focus_distance"])
-    if settings["focus_position"] is not None:
-        focus = abs(float((np.asarray(settings["focus_position"]) - pose.eye) @ pose.basis[:, 2]))
+    focus = focus_of(raw, pose)
     size = 1.0 if parallel else raw.lens * 1e-3
     radius = size / (2 * max(float(settings["aperture_fstop"]), SMALLEST))
     rotation = float(settings["aperture_rotation"])
-    return Aperture(radius, max(focus, SMALLEST), blades, rotation, ratio)
+    return Aperture(radius, float(focus), blades, rotation, ratio)
+
+
+def focus_of(raw: BlenderCamera, pose: Pose) -> float:
+    """Return the focus distance in Blender units: with a focus object that object's depth."""
+    position = raw.settings.get("focus_position")
+    if position is not None:
+        return max(abs(float((np.asarray(position) - pose.eye) @ pose.basis[:, 2])), SMALLEST)
+    focus = FOCUS_DISTANCE.read(raw)
+    return focus if focus > SMALLEST else SMALLEST

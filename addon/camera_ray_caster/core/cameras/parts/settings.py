@@ -30,10 +30,10 @@ float32 does not resolve a hundredth of a degree of a larger angle.
 
 LIMIT_ROUNDING = 1e-6
 """Relative amount by which a value may exceed a limit, since Blender stores it as float32."""
-
-OWN, CAMERA, STEREO, RENDER, CYCLES, FROM_A_FILE = "own", "camera", "stereo", "render", "cycles", "file"
+OWN, CAMERA, FOCUS, STEREO = "own", "camera", "focus", "stereo"
+RENDER, CYCLES, FROM_A_FILE = "render", "cycles", "file"
 """Owner of a setting: the add-on's properties, which are made from the setting, or, for Blender's own settings, the
-camera, its stereoscopy settings, the scene's render settings or its Cycles settings; FROM_A_FILE has no property.
+camera, its depth of field or stereoscopy, the scene's render or Cycles settings; FROM_A_FILE has no property.
 """
 
 RECORD_FIELDS = frozenset(entry.name for entry in fields(BlenderCamera))
@@ -52,7 +52,7 @@ class Setting(ABC):
     default: Any
     """Value of a new camera."""
     owner: str = field(default=OWN, kw_only=True)
-    """Where Blender keeps the setting: one of OWN, CAMERA, STEREO, RENDER, CYCLES."""
+    """Where Blender keeps the setting: OWN or one of the others."""
     partner: str = field(default="", kw_only=True)
     """The other setting of a pair of which neither makes sense alone."""
     left_out: str = field(default=DECLARED, kw_only=True)

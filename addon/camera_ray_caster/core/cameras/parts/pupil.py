@@ -1,0 +1,151 @@
+"""The aperture of a real lens: the rays of a film point through the whole stop, traced through every surface.
+
+A disc in the plane of the paraxial exit pupil, around the point where the pixel's chief ray crosses it, holds all rays
+that pass. Rays in whose way the stop or a rim stands carry no light: that loss is the vignetting. The light of a ray is
+in proportion to cos^4 of its angle to the axis at the film, relative to the middle of the picture.
+References: C. Kolb, D. Mitchell, P. Hanrahan, A Realistic Camera Model for Computer Graphics (1995).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...lenses.chief import ChiefRays
+from ...lenses.optics import BISECTIONS, Optics
+from ...lenses.trace import LensSurface, trace
+from ...maths.recording import is_recorded, look_up
+from .aperture import Aperture
+
+RADII = 25
+"""Radii on the film, from the axis to the end of the picture, at which the disc is tried."""
+
+GRID = 65
+"""Points along the side of a square in which the disc is tried."""
+
+TRIED = 1.5
+"""Half the side of that square over the radius of the paraxial exit pupil: six lenses need 0.98 to 1.1."""
+
+SLACK = 2.0 * TRIED / (GRID - 1)
+"""What the disc is wider than the farthest point that passes, in paraxial radii: the grid's step."""
+
+FEWEST = 1 / 64
+"""Smallest share of passing rays by which light is divided, where vignetting is switched off."""
+
+
+@dataclass(frozen=True)
+class Pupil(Aperture):
+    """The entrance pupil as an ``Aperture``, and the disc in the exit pupil."""
+
+    plane: float = 0.0
+    """z of the paraxial exit pupil in the lens frame, mm of the lens."""
+    disc: float = 0.0
+    """Radius of the disc there, mm of the lens."""
+    stop_radius: float = np.inf
+    """Radius of the stop, mm of the lens; inf if its shape is the disc's own polygon."""
+    passing: tuple[float, ...] = ()
+    """Share of the disc that passes, by the radius on the film in even steps from 0 to ``corner``."""
+    corner: float = np.inf
+    """Radius of the frame's farthest corner on the film, mm of the lens."""
+    spread: float = 0.0
+    """Largest angle between a ray and one that meets the chief ray on the plane of focus, radians."""
+
+    def blur(self, distance, radius):
+        """See Aperture: by the aberrations, too."""
+        far = distance + radius
+        return self.widest * np.maximum(1.0, far / self.focus) + far * self.spread
+
+
+def from_film(optics: Optics, film: float, chief: ChiefRays, pupil: Pupil, a, b, point):
+    """Return origin and direction of rays before the lens, in the lens frame.
+
+    a, b: the picture's place on the film, upright, mm of the lens. point: of the unit disc. NaN in the direction's x of
+    rays that do not pass.
+    """
+    plane, crossing = pupil.plane, chief.at(a * a + b * b)[3]
+    across, up = (-place * crossing + pupil.disc * part for place, part in zip((a, b), point, strict=True))
+    side = 1.0 if film > plane else -1.0
+    direction = side * (across + a), side * (up + b), side * (plane - film)
+    length = np.sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2])
+    dx, dy, dz = (part / length for part in direction)
+    return trace(_with_stop(optics, pupil.stop_radius)[::-1], (-a, -b, film), (dx, dy, dz), to_film=False)
+
+
+def _with_stop(optics: Optics, radius: float) -> tuple[LensSurface, ...]:
+    surfaces = list(optics.surfaces)
+    surfaces[optics.stop] = replace(surfaces[optics.stop], rim=radius)
+    return tuple(surfaces)
+
+
+def measured(
+    optics: Optics, film: float, chief: ChiefRays, pupil: Pupil, radius: float, unit: float, corner: float
+) -> Pupil:
+    """Return a pupil with its disc, the shares that pass and the spread, by tracing a grid at RADII radii.
+
+    radius: of the stop, and corner: the largest radius on the film, mm of the lens. unit: Blender units per mm.
+    """
+    paraxial, depth = abs(optics.exit_pupil[1]) * radius, pupil.focus / unit
+    side = np.linspace(-TRIED, TRIED, GRID)
+    r = np.linspace(0.0, corner * (1 - 1e-9), RADII)[:, None, None]
+    point = side[None, None, :], side[None, :, None]
+    reach = np.sqrt(point[0] ** 2 + point[1] ** 2)
+    is_round = pupil.blades < 3
+    plane = optics.exit_pupil[0]
+    pupil = replace(pupil, plane=plane, disc=paraxial, stop_radius=radius if is_round else np.inf)
+    with np.errstate(all="ignore"):
+        origin, direction = from_film(optics, film, chief, pupil, r, 0.0 * r, point)
+        passes = np.isfinite(direction[0]) & np.isfinite(origin[0])
+        disc = float(np.where(passes, reach, 0.0).max(initial=0.0)) + SLACK if is_round else 1.0
+        within = reach <= disc
+        share = (passes & within).sum(axis=(1, 2)) / within.sum()
+        if is_round:  # on the axis what passes is a disc, and its share is known to rounding
+            share[0] = min(_marginal(optics, film, chief, pupil) / disc, 1.0) ** 2
+        height, place, tangent, _ = chief.at(r * r)
+        turn = 2 / (1 + tangent * tangent * r * r)
+        z = optics.entrance_pupil[0] - depth
+        beside = [
+            (o + (z - origin[2]) / direction[2] * d) - (middle + (z - place) / (1 - turn) * ahead)
+            for o, d, middle, ahead in zip(
+                origin[:2], direction[:2], (r * height, 0.0), (r * tangent * turn, 0.0), strict=True
+            )
+        ]
+        angle = np.sqrt(beside[0] ** 2 + beside[1] ** 2) * np.abs(direction[2]) / depth
+        spread = float(np.where(passes & within & np.isfinite(angle), angle, 0.0).max(initial=0.0))
+    return replace(pupil, disc=disc * paraxial, passing=tuple(share.tolist()), spread=2 * spread, corner=corner)
+
+
+def _marginal(optics: Optics, film: float, chief: ChiefRays, pupil: Pupil) -> float:
+    """Return the largest radius in the exit pupil, over the disc's, of rays that pass from the film's center."""
+    low, high, zero = 0.0, TRIED, np.zeros(1)
+    for _ in range(BISECTIONS):
+        middle = (low + high) / 2
+        passes = np.isfinite(from_film(optics, film, chief, pupil, zero, zero, (zero + middle, zero))[1][0])[0]
+        low, high = (middle, high) if passes else (low, middle)
+    return low
+
+
+def light_of(film: float, chief: ChiefRays, pupil: Pupil, place, point, falls_off: bool, vignetting: bool):
+    """Return the light of rays that pass, relative to the mean of the middle of the picture; arguments as in
+    ``from_film``. Without ``vignetting`` the rays that pass make up for those that do not.
+    """
+    distance = film - pupil.plane
+    squared, value = place[0] * place[0] + place[1] * place[1], 1.0
+    if falls_off:
+        share = pupil.disc / distance
+        crossing = chief.at(squared)[3]
+        beside = [part - part * crossing + pupil.disc * own for part, own in zip(place, point, strict=True)]
+        cosine = distance * distance / (distance * distance + beside[0] * beside[0] + beside[1] * beside[1])
+        value = cosine * cosine * (1 + share * share)
+    if vignetting:
+        return value / max(pupil.passing[0], FEWEST)
+    table = np.maximum(np.array(pupil.passing), FEWEST)
+    row = np.minimum(np.sqrt(squared) * ((RADII - 1) / pupil.corner), RADII - 1 - 1e-6)
+    first = np.floor(row)
+    low, high = (look_up(table, as_index(first + k)) for k in (0, 1))
+    return value / (low + (row - first) * (high - low))
+
+
+def as_index(number):
+    """Return whole numbers in the type of an index, for ``look_up``."""
+    return number if is_recorded(number) else np.nan_to_num(np.asarray(number)).astype(np.intp)

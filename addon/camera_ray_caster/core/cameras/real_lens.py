@@ -1,0 +1,259 @@
+"""A real lens: rays are traced through the surfaces of a prescription, from a lens file.
+
+Assumptions: geometric optics, centered surfaces that refract: spheres, conics, aspheres and planes; no reflections
+between them, no diffraction. Chief rays pass the center of the stop, and are polynomials of the radius on the film
+(``core.lenses.chief``); rays of the aperture are traced surface by surface (``parts.pupil``). The eye is the center of
+the paraxial entrance pupil, so that framing and focus distance are those of a thin lens of the same focal length.
+Blender's Focal Length scales the whole lens. The film stands where the plane at the focus distance is sharpest.
+Formula: with (a, b) the pixel on the film, upright, and h, z and q = tan(theta / 2) / r as functions of its length r,
+o = (a h, b h, z), r = (2 q a, 2 q b, q^2 r^2 - 1) / (1 + q^2 r^2). There is no ray where a rim is in the way.
+References: C. Kolb, D. Mitchell, P. Hanrahan, A Realistic Camera Model for Computer Graphics (1995);
+W. Smith, Modern Optical Engineering, 4th ed. (2008).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..conventions import gamma
+from ..lenses.chief import DEGREE, ChiefRays, chief_rays
+from ..lenses.focus import chief_of, focused, optics_of, own_focal_length
+from ..lenses.optics import Optics
+from ..lenses.prescription import Prescription
+from ..lenses.read import read_lens
+from ..maths.recording import NotRecordable, is_recorded
+from ..maths.speed import lazy
+from ..maths.vector import components
+from ..records import BlenderCamera, InputError, Pose, Raster
+from .model import Step, WindowModel
+from .parts.aperture import F_STOP, FOCUS_DISTANCE, Aperture, focus_of, thin_lens
+from .parts.chief_search import ChiefSearch
+from .parts.differences import varied_by
+from .parts.film import FILM, LENS, Film, Window
+from .parts.lens_settings import FALLOFF, FOCUS, LENS_FILE, PARAXIAL, STATE, VIGNETTING, WAVELENGTH
+from .parts.pose import pose_from
+from .parts.pupil import Pupil, from_film, light_of, measured
+from .parts.silhouette import pixel_bounds, radial_intervals
+
+MILLIMETER = 1e-3
+"""In Blender units, as for a thin lens."""
+RIM_SLACK = 2.0**-30
+"""Share of the rim's radius beyond it within which a point counts as on the rim; see ``parts.radial``."""
+
+
+TRACED = LENS, FOCUS_DISTANCE, F_STOP, STATE, WAVELENGTH
+"""Numbers that have a new family of chief rays; their derivatives are those of differences."""
+
+
+@dataclass(frozen=True)
+class RealLens(WindowModel):
+    """The window gives the place on the film, upright, in mm of the lens file."""
+
+    chief: ChiefRays
+    optics: Optics
+    film: float
+    """z of the film in the lens frame, mm of the file."""
+    pupil: float
+    """z of the entrance pupil, mm of the file: the origin of the camera's frame."""
+    unit: float
+    """Blender units per mm of the file."""
+    radius: float
+    """Of the stop, mm of the file."""
+    vignetting: bool = True
+    falls_off: bool = True
+    prescription: Prescription | None = None
+
+    key = "REAL_LENS"
+    label = "Real Lens"
+    description = "Rays traced through the glass of a lens file: distortion, vignetting and blur of the real lens"
+    group = "Real Lens"
+    number = 28
+    central = False
+    SETTINGS = (
+        LENS_FILE, LENS, FOCUS, FOCUS_DISTANCE, F_STOP, STATE, WAVELENGTH, VIGNETTING, FALLOFF, *FILM,
+    )  # fmt: skip
+    FORMULA = (
+        Step(
+            "Pixel on the film, upright, V pixels on the fitted side, p times as high as wide, mm of the file",
+            "a = (x - W/2 + shift_x V) pitch, b = ((y - H/2) p + shift_y V) pitch",
+        ),
+        Step("Chief ray of the radius, by its polynomials", "rho = sqrt(a² + b²), h, z, q"),
+        Step("Angle from the axis", "theta = 2 atan(q rho)"),
+        Step("Origin, where it leaves the front surface", "o = (a h unit, b h unit, z unit)"),
+        Step("Direction", "r = (2 q a, 2 q b, q² rho² - 1)"),
+    )
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> RealLens:
+        """Build the lens of a file, focused. Raises InputError for a file that cannot be read, and for a focus distance
+        nearer than the lens allows.
+        """
+        prescription = read_lens(LENS_FILE.read(raw))
+        if is_recorded(*(setting.read(raw) for setting in TRACED)):
+            raise NotRecordable("a lens is traced anew for these settings")
+        try:
+            optics = optics_of(prescription, STATE.read(raw), WAVELENGTH.read(raw))
+            unit = LENS.read(raw) * MILLIMETER / own_focal_length(prescription)
+            distance = focus_of(raw, pose_from(raw)) / unit
+            if not distance > optics.nearest_focus:
+                given, nearest = (f"{float(part * unit):.6g}" for part in (distance, optics.nearest_focus))
+                raise FOCUS_DISTANCE.refusal(raw, given, f"above {nearest}, since nothing nearer has an image")
+            sharpest = FOCUS.read(raw) != PARAXIAL
+            film, radius, eye, *numbers = varied_by(
+                lambda *settings: focused(prescription, sharpest, *settings),
+                STATE.read(raw), WAVELENGTH.read(raw), distance, F_STOP.read(raw),
+            )  # fmt: skip
+        except InputError as error:
+            raise InputError(f"{error}; lens file {LENS_FILE.read(raw)!r}") from error
+        size = Film.from_blender(raw, raster).size * MILLIMETER / unit
+        window = Window.from_blender(raw, raster, size)
+        chief = chief_of(numbers, chief_rays(optics, float(film)))
+        flags = VIGNETTING.read(raw), FALLOFF.read(raw)
+        return cls(raster.size, window, chief, optics, film, eye, unit, radius, *flags, prescription)
+
+    @classmethod
+    def following(cls, given: Mapping[str, Any]) -> dict[str, Any]:
+        """See Model: the focal length of the file."""
+        return {LENS.name: own_focal_length(read_lens(given.get(LENS_FILE.name, "")))}
+
+    def rays(self, x, y):
+        """See Model. The errors are those of the polynomials, beside rounding; see ``formula_rounding``."""
+        a, b = self.window.plane_from_pixels(x, y)
+        squared = a * a + b * b
+        rim = self.chief.rim * (1 + RIM_SLACK)
+        passes, squared = squared <= rim * rim, np.minimum(squared, rim * rim)
+        height, place, tangent, _ = self.chief.at(squared)
+        share = 2 / (1 + tangent * tangent * squared)
+        across, out = np.where(passes, tangent * share, np.nan), height * self.unit
+        return (a * out, b * out, self._depth(place)), (a * across, b * across, 1 - share)
+
+    def _depth(self, place):
+        """Return z in the camera's frame of a place on the lens's axis."""
+        return (place - self.pupil) * self.unit
+
+    def project(self, points):
+        """See Model: the secant method on the family of chief rays, in a bracket where it does not settle.
+
+        NaN for points behind the ray's origin, and for those that no chief ray meets.
+        """
+        x, y, z = components(np.asarray(points, np.float64))
+        shape = np.shape(x)
+        x, y, z = (np.atleast_1d(part) for part in (x, y, z))
+        across = np.hypot(x, y)
+        with np.errstate(all="ignore"):
+            r = self.search.radius_of(across / self.unit, z / self.unit + self.pupil)
+            scale = np.where(across > 0, r / np.where(across > 0, across, 1.0), np.where(r == 0, 0.0, np.nan))
+            pixels = np.stack(self.window.pixels_from_plane(x * scale, y * scale), axis=-1)
+        return pixels.reshape(*shape, 2)
+
+    @lazy
+    def _family(self):
+        """The same to the corners of the frame: rays of the aperture come where a rim stops the chief ray, too."""
+        return self.search.up_to(self._corner)
+
+    @lazy
+    def _corner(self) -> float:
+        """Radius of the frame's farthest corner on the film, with a pixel around the frame; at most the family's."""
+        left, right, low, high = self.window.extent(self.frame)
+        pixel = abs(self.window.pitch_x) + abs(self.window.pitch_y)
+        corner = np.hypot(max(abs(left), abs(right)), max(abs(low), abs(high))) + pixel
+        return float(min(corner, self.chief.end))
+
+    @lazy
+    def search(self) -> ChiefSearch:
+        """The inverse of the chief rays."""
+        return ChiefSearch(self.chief, float(self.pupil), self.chief.rim * (1 + RIM_SLACK / 2))
+
+    def bounds(self, centers, radii):
+        """See Model. A chief ray that meets a ball, moved to the eye, meets the ball that is larger by the distance of
+        the eye from the ray's line; from its origin, if the ball is near.
+        """
+        reach = self.formula_reach
+        away = np.sqrt((centers * centers).sum(axis=1)) - radii
+        grown = radii + np.where(away > 2 * reach, self._wander, reach)
+        radii, angles, _, _ = self._family
+        intervals = radial_intervals(centers, grown, lambda theta: np.interp(theta, angles, radii), angles[-1])
+        return pixel_bounds(self.window, *intervals)
+
+    def aperture(self, raw: BlenderCamera, pose: Pose) -> Aperture | None:
+        """Return the entrance pupil, with what of the lens passes; None without depth of field."""
+        thin = thin_lens(raw, pose, False)
+        if thin is None:
+            return None
+        wide = float(self.radius * abs(self.optics.entrance_pupil[1]) * self.unit)
+        pupil = Pupil(wide, thin.focus, thin.blades, thin.rotation, thin.ratio)
+        numbers = float(self.radius), float(self.unit), self._corner
+        return measured(self.optics, float(self.film), self.chief, pupil, *numbers)
+
+    def through(self, aperture: Any, chief, x, y, point):
+        """See Model: through a point of the disc in the exit pupil. No light passes where the direction's x is NaN."""
+        a, b = self.window.plane_from_pixels(x, y)
+        place = tuple(part / aperture.radius for part in point)
+        (ox, oy, oz), direction = from_film(self.optics, self.film, self.chief, aperture, a, b, place)
+        return (ox * self.unit, oy * self.unit, self._depth(oz)), direction
+
+    def light(self, aperture: Any, x, y, point):
+        """See Model."""
+        a, b = self.window.plane_from_pixels(x, y)
+        place = tuple(part / aperture.radius for part in point)
+        return light_of(self.film, self.chief, aperture, (a, b), place, self.falls_off, self.vignetting)
+
+    @property
+    def K(self) -> np.ndarray:
+        """The camera matrix of the paraxial lens; see Model."""
+        tangent = float(self.chief.at(np.float64(0.0))[2])
+        width, height = self.window.pitch_x, self.window.pitch_y
+        center = self.window.center_x - 0.5, self.frame[1] - self.window.center_y - 0.5
+        focal = 1 / (2 * tangent)
+        return np.array([[focal / width, 0.0, center[0]], [0.0, focal / height, center[1]], [0.0, 0.0, 1.0]])
+
+    def facts(self) -> dict[str, object]:
+        """Return the lens's numbers, in mm but for f_number, and what its file states of them."""
+        scale = float(self.unit) / MILLIMETER
+        lens, optics = self.prescription, self.optics
+        known: dict[str, object] = {"lens": lens.name, "source": lens.source} if lens else {}
+        known |= {
+            "focal_length": optics.focal_length * scale,
+            "f_number": optics.focal_length / (2 * float(self.radius) * abs(optics.entrance_pupil[1])),
+            "widest_f_number": optics.widest_f_number,
+            "back_focus": optics.back_focus * scale,
+            "film_distance": (float(self.film) - optics.rear.z) * scale,
+            "stop": 2 * float(self.radius) * scale,
+            "image_circle": 2 * self.chief.rim * scale,
+            "field_of_view": [float(np.degrees(2 * self.chief.widest))],
+            "nearest_focus": optics.nearest_focus * scale,
+        }
+        claims = lens.claims.items() if lens else ()
+        return known | {f"{name}, as the file states": value for name, value in claims}
+
+    def formula_values(self, x, y):
+        """See Model."""
+        a, b = self.window.plane_from_pixels(x, y)
+        height, place, tangent, _ = (float(part) for part in self.chief.at(np.float64(a * a + b * b)))
+        return {"h": height, "z": place - self.pupil, "q": tangent, "unit": float(self.unit),
+                "pitch": float(self.window.pitch_x)}  # fmt: skip
+
+    @lazy
+    def _wander(self) -> float:
+        """The largest distance of a chief ray's line from the eye."""
+        beside = self.search.beside(self._family[0], 0.0, self.pupil)[0]
+        return float(np.abs(beside).max() * self.unit) * (1 + 1e-9)
+
+    @lazy
+    def formula_reach(self) -> float:
+        """See Model: the largest distance of a ray's origin from the eye."""
+        _, _, heights, places = self._family
+        return float(np.hypot(heights, places - self.pupil).max() * self.unit) * (1 + 1e-9)
+
+    def formula_rounding(self, x, y):
+        """See Model: the polynomials' error beside the trace, and the rounding of their sums."""
+        chief, steps = self.chief, np.arange(2, DEGREE + 3)
+        height, place, tangent = (
+            gamma(4) * float((np.abs(part) * steps).sum()) for part in (chief.height, chief.place, chief.tangent)
+        )
+        origin = chief.errors[0] + height * chief.rim + place
+        return float(origin * self.unit), chief.errors[1] + 2 * tangent * chief.rim

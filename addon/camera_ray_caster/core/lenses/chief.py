@@ -1,0 +1,197 @@
+"""The chief rays of a lens: the real rays through the center of the stop, a family of one parameter.
+
+They begin at the center of the stop, at an angle to the axis, and are traced to the front and to the film. The ray
+before the lens does not depend on the film; the film's place gives the radius r at which the ray meets it. A family of
+polynomials gives from r what a camera needs: the height h and the place z at which the ray leaves the front surface,
+the tangent of half its angle to the axis, and the height e at which it crosses the paraxial exit pupil. With R the
+radius at which rays cease to exist, by grazing refraction or since r stops growing, the functions h / r, z, tan / r and
+e / r have a root at R, and are smooth functions of t = sqrt(1 - r^2 / R^2).
+References: J. Boyd, Chebyshev and Fourier Spectral Methods, 2nd ed. (2001), section 2; W. Smith, Modern Optical
+Engineering, 4th ed. (2008), section 9 (pupils).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from math import pi
+
+import numpy as np
+from numpy.polynomial.chebyshev import chebvander
+
+from ..records import InputError
+from .optics import BISECTIONS, Optics
+from .trace import trace
+
+DEGREE = 24
+"""Of the polynomials: six lenses from 2 to 210 degrees are then right to 8e-14 radians and 4e-12 mm. With one degree
+all lenses have one formula, whose coefficients follow the focus and can be exchanged.
+"""
+
+ANGLES = 2049
+"""Places at which the family is searched for its ends."""
+
+FARTHEST_END = 3.0
+"""Largest R over the radius at which a rim stops the chief ray: beyond it nothing is asked."""
+
+CHECKS = 257
+"""Places at which the polynomials are compared with the trace."""
+
+
+@dataclass(frozen=True)
+class ChiefRays:
+    """The polynomials of the family, Chebyshev series in 2 t - 1, in mm."""
+
+    height: tuple[float, ...]
+    place: tuple[float, ...]
+    tangent: tuple[float, ...]
+    pupil: tuple[float, ...]
+    end: float
+    """R: the radius on the film at which rays cease to exist."""
+    rim: float
+    """The radius on the film beyond which a rim is in the way of the chief ray."""
+    errors: tuple[float, float]
+    """Largest difference from the trace: of origins in mm, and of directions in radians."""
+    widest: float
+    """Angle from the axis of the chief ray at ``rim``."""
+
+    def at(self, squared):
+        """Return h / r, z, tan(theta / 2) / r and e / r at r^2; NaN beyond ``end``. It can be recorded."""
+        t = 2 * np.sqrt(1 - squared / (self.end * self.end)) - 1
+        return tuple(clenshaw(t, series) for series in (self.height, self.place, self.tangent, self.pupil))
+
+
+def clenshaw(t, series):
+    """Return the value of a Chebyshev series at t, -1 to 1; its rounding is some EPS of the sum of magnitudes times
+    the degree. numpy's ``chebval`` does not record.
+    """
+    before, now = 0.0, series[-1]
+    for coefficient in series[-2:0:-1]:
+        before, now = now, coefficient + (t + t) * now - before
+    return series[0] + t * now - before
+
+
+@lru_cache(maxsize=16)
+def chief_rays(optics: Optics, film: float) -> ChiefRays:
+    """Return the chief rays of a film at z = film. Raises InputError if no ray passes the lens near its axis."""
+    radius, front, rear, angle_end, rim_angle = _family(optics, film)
+    end, rim = float(radius(angle_end)), float(radius(rim_angle))
+    if end > FARTHEST_END * rim:
+        end = FARTHEST_END * rim
+    nodes = np.cos((np.arange(DEGREE + 1) + 0.5) * pi / (DEGREE + 1))
+    functions = _functions(optics, film, _angles(radius, _radii(nodes, end), angle_end), front, rear)
+    weights = 2 / (DEGREE + 1) * chebvander(nodes, DEGREE)
+    weights[:, 0] /= 2
+    height, place, tangent, pupil = (tuple((weights.T @ values).tolist()) for values in functions)
+    found = ChiefRays(height, place, tangent, pupil, end, rim, (0.0, 0.0), 0.0)
+    # up to the rim: beyond it nothing is asked but where the pupil is
+    radii = np.linspace(rim / CHECKS, rim, CHECKS)
+    h, z, half, _ = _functions(optics, film, _angles(radius, radii, angle_end), front, rear)
+    near_h, near_z, near_half, _ = found.at(radii * radii)
+    origin = np.hypot((near_h - h) * radii, near_z - z).max()
+    turned = 2 * np.abs(np.arctan(near_half * radii) - np.arctan(half * radii)).max()
+    return replace(found, errors=(float(origin), float(turned)), widest=float(2 * np.arctan(half[-1] * rim)))
+
+
+def _radii(nodes, end: float):
+    t = (nodes + 1) / 2
+    return end * np.sqrt((1 - t) * (1 + t))
+
+
+def _family(optics: Optics, film: float):
+    """Return the functions of the stop's angle: r on the film, front and rear rays; the angle at which the family ends,
+    and the one at which a rim is in the way.
+    """
+
+    def front(angle, clip=False):
+        start, zero = optics.surfaces[optics.stop].z, np.zeros_like(angle)
+        direction = zero, np.sin(angle), -np.cos(angle)
+        with np.errstate(all="ignore"):
+            return trace(optics.surfaces[: optics.stop][::-1], (zero, zero, start + zero), direction, False, clip)
+
+    def rear(angle, clip=False):
+        start, zero = optics.surfaces[optics.stop].z, np.zeros_like(angle)
+        direction = zero, -np.sin(angle), np.cos(angle)
+        with np.errstate(all="ignore"):
+            return trace(optics.surfaces[optics.stop + 1 :], (zero, zero, start + zero), direction, True, clip)
+
+    def radius(angle):
+        (_, y, z), (_, dy, dz) = rear(angle)
+        with np.errstate(all="ignore"):
+            return -(y + (film - z) * dy / dz)
+
+    def exists(angle, clip=False):
+        finite = np.isfinite(radius(angle)) & np.isfinite(front(angle)[1][1])
+        if clip:
+            finite &= np.isfinite(rear(angle, True)[1][0]) & np.isfinite(front(angle, True)[1][0])
+        return finite
+
+    angles = np.linspace(0.0, pi / 2, ANGLES)[:-1]
+    if not exists(angles[:2], clip=True).all():
+        raise InputError("no ray through the center of the stop passes the lens: check its rims and indices")
+    radii = radius(angles)
+    last = int(np.argmin(np.append(exists(angles)[1:] & (np.diff(radii) > 0), False)))
+    end = _growing(radius, *_edge(exists, angles, last))
+    passing = exists(angles, clip=True) & (angles <= end)
+    first_lost = int(np.argmin(np.append(passing, False)))
+    rim = _bisected(lambda angle: exists(angle, clip=True) & (angle <= end), angles[first_lost - 1],
+                    angles[first_lost] if first_lost < len(angles) else end)  # fmt: skip
+    return radius, front, rear, end, min(rim, end)
+
+
+def _edge(exists, angles, last: int) -> tuple[float, float]:
+    """Return two angles around the end of the family: the last knot at which r grows, and where rays cease to exist."""
+    low = float(angles[max(last - 1, 0)])
+    high = float(angles[min(last + 1, len(angles) - 1)])
+    return low, _bisected(exists, low, high)
+
+
+def _bisected(holds, low: float, high: float) -> float:
+    """Return the largest angle from low to high up to which a condition holds, which holds at low."""
+    if holds(np.array([high]))[0]:
+        return float(high)
+    for _ in range(BISECTIONS):
+        middle = (low + high) / 2
+        low, high = (middle, high) if holds(np.array([middle]))[0] else (low, middle)
+    return float(low)
+
+
+def _growing(radius, low: float, high: float) -> float:
+    """Return the angle from low to high up to which r grows: the golden section search of its largest value."""
+    share = (5**0.5 - 1) / 2
+    start, stop = low, high
+    for _ in range(BISECTIONS):
+        first, second = stop - share * (stop - start), start + share * (stop - start)
+        r = radius(np.array([first, second]))
+        start, stop = (first, stop) if r[0] < r[1] else (start, second)
+    middle = (start + stop) / 2
+    return high if radius(np.array([high]))[0] >= radius(np.array([middle]))[0] else middle
+
+
+def _angles(radius, radii, end: float):
+    """Return the angles at the stop of radii on the film, (n,): the secant method in a bracket (Illinois)."""
+    knots = np.linspace(0.0, end, ANGLES)
+    known = radius(knots)
+    place = np.clip(np.searchsorted(known, radii), 1, ANGLES - 1)
+    a, b = knots[place - 1], knots[place]
+    fa, fb = known[place - 1] - radii, known[place] - radii
+    for _ in range(BISECTIONS):
+        with np.errstate(all="ignore"):
+            angle = np.where(fb == fa, b, b - fb * (b - a) / (fb - fa))
+        angle = np.clip(angle, np.minimum(a, b), np.maximum(a, b))
+        value = radius(angle) - radii
+        same = value * fb > 0
+        a, fa = np.where(same, a, b), np.where(same, fa / 2, fb)
+        b, fb = angle, value
+        if not (np.abs(b - a) > np.spacing(end)).any() or not value.any():
+            break
+    return b
+
+
+def _functions(optics: Optics, film: float, angle, front, rear):
+    """Return h / r, z, tan(theta / 2) / r and e / r at angles of the stop other than 0."""
+    (_, y, z), (_, dy, dz) = rear(angle)
+    r = -(y + (film - z) * dy / dz)
+    crossing = -(y + (optics.exit_pupil[0] - z) * dy / dz)
+    (_, h, front_z), (_, up, ahead) = front(angle)
+    return h / r, front_z, up / (1 - ahead) / r, crossing / r
