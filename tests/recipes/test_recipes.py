@@ -194,9 +194,14 @@ class Eyes(Format):
     assert "core/library/files.py, has no eyes" in said_by(copy, "tests/core/library/test_files.py", "-k", "help")
     copy.change(f"{CORE}/library/files.py", ('"npz" or "json"', '"npz", "json" or "eyes"'))
     assert "no program of core/programs has the export eyes" in said_by(copy, "tests/core/cameras/test_readme.py")
+    program = 'PROGRAM = ProgramFiles("Eyes", "eyes.txt", lost="lenses", export=FileWriter("eyes", "Eyes", ""))'
+    imports = "from __future__ import annotations\n\nfrom .parts.program import FileWriter, ProgramFiles"
+    docs = '"""Places of cameras; ``core.exports`` writes them, of whole cameras."""'
+    copy.write(f"{CORE}/programs/eyes.py", f"{docs}\n\n{imports}\n\n{program}\n")
     copy.change(
-        f"{CORE}/programs/table.py",
-        ("\n_ROWS = (\n", '\n_ROWS = (\n    row("Eyes", "eyes.txt", export="eyes", lost="lenses"),\n'),
+        f"{CORE}/programs/__init__.py",
+        ("    euroc_trajectory,\n    gyroflow,\n", "    euroc_trajectory,\n    eyes,\n    gyroflow,\n"),
+        ("MODULES = (\n", "MODULES = (\n    eyes,\n"),
     )
     copy.follow("Add an export format")
 
