@@ -202,8 +202,8 @@ def test_cameras_of_different_sizes_are_cast_into_one_folder(blender, camera_sce
     exported = json.loads((tmp_path / "json" / "camera.json").read_text())["cameras"]
     assert {one["all_frames"]["record"]["resolution_x"] for one in exported} == {80, 50, 32}
     assert "NeRF cannot represent" in capfd.readouterr().err
-    assert commands.main("export", [str(out), "--format", "json", "--camera", "cam0"], "it") == 2
-    assert "--camera does not apply to a finished data set" in capfd.readouterr().err
+    assert commands.main("export", [str(out), "--format", "json", "--resolution", "8x6"], "it") == 2
+    assert "--resolution does not apply to a finished data set" in capfd.readouterr().err
     assert commands.main("export", [str(file), "--format", "yolo"], "it") == 2
     wanted = f"--format yolo needs a finished data set: give its folder in place of {str(file)!r}"
     assert wanted in capfd.readouterr().err

@@ -86,7 +86,7 @@ def run(arguments: Sequence[str], prog: str) -> int:
                                options.fit, partial(shown_at, options))  # fmt: skip
     for line in not_run():
         warn(prog, line)
-    _tell(said, paths)
+    _tell(said, paths, options.output)
     return 0
 
 
@@ -101,10 +101,10 @@ def _part(text: str) -> float:
     return part
 
 
-def _tell(said: Sequence[str], paths: Sequence[Path]) -> None:
+def _tell(said: Sequence[str], paths: Sequence[Path], folder: Path) -> None:
     """Print remarks, and in one line the files that were written."""
-    many = f"{len(paths)} files into {paths[0].parent}"
-    print("\n".join((*said, f"Wrote {', '.join(map(str, paths)) if len(paths) <= FEW else many}")), flush=True)
+    names = ", ".join(map(str, paths)) if 0 < len(paths) <= FEW else f"{len(paths)} files into {folder}"
+    print("\n".join((*said, f"Wrote {names}")), flush=True)
 
 
 def _of_set(options) -> int:
@@ -130,7 +130,7 @@ def _of_set(options) -> int:
     else:
         files, said = export(options.format, [view.shot for view in views], options.fit)
     paths = write(files, options.output)
-    _tell(said, paths)
+    _tell(said, paths, options.output)
     return 0
 
 
