@@ -11,7 +11,7 @@ Reference: nerfstudio documentation, Data conventions; its reader, nerfstudio_da
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from math import pi, tan
 from typing import Any
 
@@ -158,16 +158,22 @@ def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
 
 def transforms(records: Sequence[CameraRecord]) -> dict[str, Any]:
     """Return the entries of transforms.json. Raises InputError for several camera models."""
+    return {"camera_model": camera_model(records), "frames": [frame_of(record) for record in records]}
+
+
+def camera_model(records: Iterable[CameraRecord]) -> str:
+    """Return the camera model of all records. Raises InputError for several."""
     kinds: dict[str, str] = {}
     for record in records:
         kinds.setdefault(str(word_of(WRITTEN, record.lens)), record.name)
     if len(kinds) > 1:
         several = " and ".join(f"{name!r} is {kind}" for kind, name in kinds.items())
         raise InputError(f"transforms.json has one camera_model, but camera {several}: {SEPARATELY}")
-    return {"camera_model": next(iter(kinds)), "frames": [_frame(record) for record in records]}
+    return next(iter(kinds))
 
 
-def _frame(record: CameraRecord) -> dict[str, Any]:
+def frame_of(record: CameraRecord) -> dict[str, Any]:
+    """Return the entry of a picture in transforms.json."""
     terms = MODELS[str(word_of(WRITTEN, record.lens))][1]
     values = matrix_of(record.lens.settings, 0.5) + record.lens.values(terms)
     width, height = record.lens.size

@@ -7,14 +7,12 @@ numpy only.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import NamedTuple
 
 from . import bop, labels, maps, nerfstudio, sparse
-from .reading import View, chosen, read_set, views_of, with_splits
-
-Files = Iterator[tuple[str, str | bytes | Iterator[str]]]
+from .reading import Files, View, chosen, read_set, views_of, with_splits
 
 
 class SetFormat(NamedTuple):

@@ -10,7 +10,8 @@ Reference: BOP toolkit documentation, BOP dataset format.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,8 @@ from ..records import InputError, Shapes
 from ..units import MILLIMETERS, factor
 from .bop_models import diameter, model_of, ply
 from .png import png
-from .reading import View
+from .reading import Files, View
+from .streams import Waiting
 
 MOST = 65535
 STEP = 0.1
@@ -31,7 +33,7 @@ STEP = 0.1
 
 def files(
     views: list[View], shapes_at: Callable[[float], Shapes] | None = None
-) -> Iterator[tuple[str, str | bytes]]:
+) -> Files:
     """Yield the files of a set; see the package. ``shapes_at`` returns the shapes of a frame, of which models are made.
     Raises InputError for cameras that are no pinholes.
     """
@@ -65,21 +67,21 @@ def files(
     yield "models/models_info.json", json.dumps(models, indent=1)
 
 
-def _scene(folder: str, views: list[View], numbers: dict[str, int]) -> Iterator[tuple[str, str | bytes]]:
-    cameras, truth, facts = dict[str, Any](), dict[str, Any](), dict[str, Any]()
+def _scene(folder: str, views: list[View], numbers: dict[str, int]) -> Files:
+    cameras, truth, facts = Waiting(), Waiting(), Waiting()
     for view in views:
         number = f"{int(view.frame):06}"
         depth = view.planar_depth() * factor(MILLIMETERS, view.meters)
         step = STEP if depth.max(initial=0) <= MOST * STEP else float(depth.max()) / MOST
         yield f"{folder}/depth/{number}.png", png(np.round(depth / step).astype(np.uint16)[::-1])
-        if view.picture is not None:
-            yield f"{folder}/rgb/{number}.png", view.picture
+        if (picture := view.picture) is not None:
+            yield f"{folder}/rgb/{number}.png", picture
         (record,) = records("bop", [view.shot])
-        cameras[str(int(view.frame))] = image_of(record) | {"depth_scale": step}
+        cameras.add(_entry(view, image_of(record) | {"depth_scale": step}))
         seen = {one["shape_index"]: one for part in ("annotations", "hidden") for one in view.annotations[part]}
         poses = {one["shape_index"]: one for one in view.annotations["objects"]}
-        truth[str(int(view.frame))] = [_truth(view, poses[row], numbers) for row in seen if row in poses]
-        facts[str(int(view.frame))] = [_facts(one) for row, one in seen.items() if row in poses]
+        truth.add(_entry(view, [_truth(view, poses[row], numbers) for row in seen if row in poses]))
+        facts.add(_entry(view, [_facts(one) for row, one in seen.items() if row in poses]))
         for k, one in enumerate(one for row, one in seen.items() if row in poses):
             visible = unpacked(one["segmentation"]) if "segmentation" in one else None
             whole = unpacked(one["segmentation_whole"])
@@ -87,7 +89,11 @@ def _scene(folder: str, views: list[View], numbers: dict[str, int]) -> Iterator[
             yield f"{folder}/mask/{number}_{k:06}.png", png(whole.astype(np.uint8) * 255)
             yield f"{folder}/mask_visib/{number}_{k:06}.png", png(visible.astype(np.uint8) * 255)
     for name, entries in (("scene_camera", cameras), ("scene_gt", truth), ("scene_gt_info", facts)):
-        yield f"{folder}/{name}.json", json.dumps(entries)
+        yield f"{folder}/{name}.json", chain(["{"], entries, ["}"])
+
+
+def _entry(view: View, content: Any) -> str:
+    return f'"{int(view.frame)}": {json.dumps(content)}'
 
 
 def _truth(view: View, one: dict[str, Any], numbers: dict[str, int]) -> dict[str, Any]:

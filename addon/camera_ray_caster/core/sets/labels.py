@@ -7,24 +7,26 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from itertools import chain
 from typing import Any
 
 import numpy as np
 
-from ..annotations.coco import merged, unpacked
+from ..annotations.coco import Merging, unpacked
 from .png import png
-from .reading import TRAIN, VALIDATION, View
+from .reading import TRAIN, VALIDATION, Files, View
+from .streams import Waiting
 
 
-def panoptic(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
+def panoptic(views: list[View]) -> Files:
     """Yield panoptic.json and a PNG of segment ids, R + 256 G + 65536 B, for each view; 0 is no object. Each split has
     files of its own: panoptic_train.json, panoptic_val.json.
     """
-    whole = merged(view.annotations for view in views)
-    images: dict[str, list] = {f"_{view.split}" if view.split else "": [] for view in views}
-    for number, view in enumerate(views, 1):
-        own = [one for one in whole["annotations"] if one["image_id"] == number]
-        size = view.annotations["images"][0]
+    merging = Merging(view.annotations for view in views)
+    images = {f"_{view.split}" if view.split else "": (Waiting(), Waiting()) for view in views}
+    for view in views:
+        entries = merging.entries(view.annotations)
+        own, (size,) = entries["annotations"], entries["images"]
         ids = np.zeros((size["height"], size["width"]), np.uint32)
         for one in own:
             ids[unpacked(one["segmentation"])] = one["shape_index"] + 1
@@ -35,30 +37,33 @@ def panoptic(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
             {"id": one["shape_index"] + 1, "iscrowd": 0, **{key: one[key] for key in ("category_id", "bbox", "area")}}
             for one in own
         ]
-        images[end].append({"image_id": number, "file_name": f"{view.name}.png", "segments_info": segments})
-    categories = [{**one, "isthing": 1} for one in whole["categories"]]
-    for end, own in images.items():
-        files = [whole["images"][one["image_id"] - 1] for one in own]
-        said = {"info": whole["info"], "images": files, "annotations": own, "categories": categories}
-        yield f"panoptic{end}.json", json.dumps(said)
+        segmented = {"image_id": size["id"], "file_name": f"{view.name}.png", "segments_info": segments}
+        for waiting, entry in zip(images[end], (size, segmented), strict=True):
+            waiting.add(json.dumps(entry))
+    info, categories = json.dumps(merging.info), json.dumps([{**one, "isthing": 1} for one in merging.categories])
+    for end, (files, segments_of) in images.items():
+        yield f"panoptic{end}.json", chain(
+            [f'{{"info": {info}, "images": ['], files, ['], "annotations": ['], segments_of,
+            [f'], "categories": {categories}}}'],
+        )  # fmt: skip
 
 
 def yolo(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
     """Yield data.yaml, and for each view a picture and the boxes of what is visible, in parts of the picture. Each
     split has folders of its own.
     """
-    whole = merged(view.annotations for view in views)
-    names = [one["name"] for one in whole["categories"]]
+    merging = Merging(view.annotations for view in views)
+    names = [*merging.numbers]
     lines = "".join(f"  {number}: {json.dumps(name, ensure_ascii=False)}\n" for number, name in enumerate(names))
     train, validation = (f"images/{one}" if views[0].split else "images" for one in (TRAIN, VALIDATION))
     yield "data.yaml", f"path: .\ntrain: {train}\nval: {validation}\nnames:\n{lines}"
-    for number, view in enumerate(views, 1):
-        size = whole["images"][number - 1]
-        own = [one for one in whole["annotations"] if one["image_id"] == number]
+    for view in views:
+        entries = merging.entries(view.annotations)
+        own, (size,) = entries["annotations"], entries["images"]
         stem = f"{view.split}/{view.name}" if view.split else view.name
         yield f"labels/{stem}.txt", "".join(_box(one, size) for one in own)
-        if view.picture is not None:
-            yield f"images/{stem}.png", view.picture
+        if (picture := view.picture) is not None:
+            yield f"images/{stem}.png", picture
 
 
 def _box(one: dict[str, Any], size: dict[str, Any]) -> str:

@@ -23,15 +23,19 @@ def depth16(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
     """Yield NAME_depth.png for each view, 0 where nothing is hit, and depth16.json: millimeters of a step, and whether
     depths are along the viewing direction ("planar") or from the eye ("distance"), as Blender's Depth is.
     """
-    depths = {view: view.framed(np.where(np.isfinite(view.pixels("depth")), view.pixels("depth"), 0).astype(np.float64))
-              * factor(MILLIMETERS, view.meters) for view in views}  # fmt: skip
-    farthest = max(float(depth.max(initial=0)) for depth in depths.values())
+    farthest = max(float(_millimeters(view).max(initial=0)) for view in views)
     step = 1.0 if farthest <= MOST else farthest / MOST
     kinds = {}
-    for view, depth in depths.items():
-        yield f"{view.name}_depth.png", png(np.round(depth / step).astype(np.uint16)[::-1])
+    for view in views:
+        yield f"{view.name}_depth.png", png(np.round(_millimeters(view) / step).astype(np.uint16)[::-1])
         kinds[view.name] = "planar" if view.camera.model.planar else "distance"
     yield "depth16.json", json.dumps({"millimeters": step, "depth": kinds}, indent=1)
+
+
+def _millimeters(view: View) -> np.ndarray:
+    """Return the depths of a view, as files of pictures have them; 0 where nothing is hit."""
+    depth = view.pixels("depth")
+    return view.framed(np.where(np.isfinite(depth), depth, 0).astype(np.float64)) * factor(MILLIMETERS, view.meters)
 
 
 def normals(views: list[View]) -> Iterator[tuple[str, str | bytes]]:

@@ -9,25 +9,27 @@ Reference: nerfstudio documentation, Data conventions.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from itertools import chain
+from typing import Any
 
 import numpy as np
 
-from ..exports import records
-from ..programs.nerfstudio import transforms as transforms_of
+from ..programs.nerfstudio import camera_model, frame_of
 from ..records import InputError
 from .png import png
-from .reading import TRAIN, VALIDATION, View
+from .reading import TRAIN, VALIDATION, Files, View
+from .streams import Records, Waiting
 
 MOST = 65535
 
 
-def files(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
+def files(views: list[View]) -> Files:
     """Yield the files of a set; see the package. Raises InputError for cameras that nerfstudio cannot represent, and
     for depths beyond 65 m.
     """
-    transforms = transforms_of(records("nerfstudio", [view.shot for view in views]))
-    for frame, view in zip(transforms["frames"], views, strict=True):
+    each, frames = Records("nerfstudio", views), Waiting()
+    transforms: dict[str, Any] = {"camera_model": camera_model(each), "frames": [""]}
+    for frame, view in zip(map(frame_of, each), views, strict=True):
         depth = np.round(view.planar_depth() * 1000)
         if depth.max(initial=0) > MOST:
             raise InputError(f"depths of {view.name} are up to {depth.max() / 1000:.0f}: 16 bits hold 65 units")
@@ -39,11 +41,13 @@ def files(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
             frame[key] = f"{folder}/{view.name}.png"
             yield frame[key], png(pixels[::-1])
         frame["file_path"] = f"images/{view.name}.png"
-        if view.picture is not None:
-            yield frame["file_path"], view.picture
+        frames.add(json.dumps(frame, indent=1).replace("\n", "\n  "), ",\n  ")
+        if (picture := view.picture) is not None:
+            yield frame["file_path"], picture
     if views[0].split:
         names = {split: [f"images/{view.name}.png" for view in views if view.split == split]
                  for split in (TRAIN, VALIDATION)}  # fmt: skip
         parts = {"train": names[TRAIN], "val": names[VALIDATION], "test": names[VALIDATION]}
         transforms |= {f"{part}_filenames": own for part, own in parts.items()}
-    yield "transforms.json", json.dumps(transforms, indent=1)
+    before, after = json.dumps(transforms, indent=1).split('""', 1)
+    yield "transforms.json", chain([before], frames, [after])

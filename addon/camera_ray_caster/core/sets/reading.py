@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from operator import attrgetter
@@ -28,6 +28,9 @@ from . import channels
 from .common import ANNOTATIONS, COCO, DATASET, dataset_of, with_objects
 
 NO_REPORTS = COCO, DATASET, ANNOTATIONS
+
+Files = Iterator[tuple[str, str | bytes | Iterator[str]]]
+"""Names and contents of the files of an export."""
 
 TRAIN, VALIDATION = "train", "val"
 

@@ -9,15 +9,16 @@ Reference: COLMAP documentation, Output Format.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from itertools import chain
 
 import numpy as np
 
 from ..exports import export
-from ..programs.colmap import POINTS
+from ..programs.colmap import POINTS, write
 from ..records import InputError
 from .png import srgb
-from .reading import VALIDATION, View
+from .reading import VALIDATION, Files, View
+from .streams import Records, Tracks, Waiting
 
 COUNT = 10_000
 """Number of points of a set."""
@@ -26,36 +27,32 @@ BESIDE = 1.5
 """Pixels by which the neighbors of a hit tell how far its distance may differ from the one that a view has there."""
 
 
-def files(views: list[View], count: int = COUNT) -> Iterator[tuple[str, str | bytes]]:
+def files(views: list[View], count: int = COUNT) -> Files:
     """Yield the files of a model; see the package. Raises InputError for cameras that COLMAP cannot represent."""
-    made, _ = export("colmap", [view.shot for view in views])
-    told = {name: str(content) for name, content in made}
+    told, first = dict(write(Records("colmap", views))), export("colmap", [views[0].shot])[0]
+    heads = {name: "".join(f"{line}\n" for line in str(text).splitlines() if line[:1] == "#") for name, text in first}
+    cameras, images = (told[name].splitlines() for name in ("cameras.txt", "images.txt"))
     places, colors = _seeds(views, count)
-    seen = [_seen(view, places) for view in views]
-    tracks: list[list[tuple[int, int]]] = [[] for _ in places]
-    heads = [line for line in told["images.txt"].splitlines() if line and not line.startswith("#")]
-    lines = []
-    for number, (head, (rows, pixels)) in enumerate(zip(heads, seen, strict=True), 1):
-        *words, _ = head.split()
-        lines += [f"{' '.join(words)} {views[number - 1].name}.png"]
+    tracks, lines = Tracks(len(places)), Waiting()
+    for number, (view, head) in enumerate(zip(views, (line for line in images if line[:1] not in "#"), strict=True), 1):
+        rows, pixels = _seen(view, places)
+        tracks.add(number, rows)
         both = zip(rows.tolist(), pixels.tolist(), strict=True)
-        lines += [" ".join(f"{x!r} {y!r} {row + 1}" for row, (x, y) in both)]
-        for k, row in enumerate(rows.tolist()):
-            tracks[row].append((number, k))
-    comments = "".join(f"{line}\n" for line in told["images.txt"].splitlines() if line.startswith("#"))
-    yield "sparse/0/cameras.txt", told["cameras.txt"]
-    yield "sparse/0/images.txt", comments + "\n".join(lines) + "\n"
-    said = [
-        f"{row + 1} {' '.join(map(repr, place))} {' '.join(map(str, color))} 0 "
-        + " ".join(f"{image} {point}" for image, point in track)
-        for row, (place, color, track) in enumerate(zip(places.tolist(), colors.tolist(), tracks, strict=True))
-    ]
-    yield "sparse/0/points3D.txt", POINTS + "\n".join(said) + "\n"
+        lines.add(f"{head.rpartition(' ')[0]} {view.name}.png\n", "")
+        lines.add(" ".join(f"{x!r} {y!r} {row + 1}" for row, (x, y) in both) + "\n", "")
+    listed = "".join(f"{line}\n" for line in cameras if line[:1] != "#")
+    yield "sparse/0/cameras.txt", heads["cameras.txt"] + listed
+    yield "sparse/0/images.txt", chain([heads["images.txt"]], lines)
+    points = enumerate(zip(places.tolist(), colors.tolist(), tracks, strict=True), 1)
+    yield "sparse/0/points3D.txt", chain([POINTS], (
+        f"{row} {' '.join(map(repr, place))} {' '.join(map(str, color))} 0 {track}\n"
+        for row, (place, color, track) in points
+    ))  # fmt: skip
     if views[0].split:
         yield "sparse/0/test.txt", "".join(f"{view.name}.png\n" for view in views if view.split == VALIDATION)
     for view in views:
-        if view.picture is not None:
-            yield f"images/{view.name}.png", view.picture
+        if (picture := view.picture) is not None:
+            yield f"images/{view.name}.png", picture
 
 
 def _seeds(views: list[View], count: int) -> tuple[np.ndarray, np.ndarray]:

@@ -1,0 +1,102 @@
+"""What a set takes does not grow with its pictures: 400 and 6,400 pictures, stubs of 24 x 18 pixels, have one peak."""
+
+import json
+import os
+import subprocess
+import sys
+import tracemalloc
+
+import pytest
+
+from camera_ray_caster.core.annotations.coco import merged_text
+from camera_ray_caster.core.sets import SET_FORMATS
+
+from ...scripts.running import ROOT
+from . import test_sets
+
+FEW, MANY = 400, 6400
+ALLOWED = 20e6
+"""Bytes by which the peaks may differ."""
+
+
+def stubs(folder, count):
+    """A set of pictures that are all the same, but for their frames."""
+    folder.mkdir()
+    test_sets.view(folder, 1)
+    report = json.loads((folder / "PERSP_0001.json").read_text())
+    notes = json.loads((folder / "PERSP_0001_coco.json").read_text())
+    for frame in range(2, count + 1):
+        name = f"PERSP_{frame:04}"
+        for ending in ("npz", "png"):
+            os.link(folder / f"PERSP_0001.{ending}", folder / f"{name}.{ending}")
+        report |= {"frame": frame, "made": {"files": {f"{name}.npz": 1}}}
+        (folder / f"{name}.json").write_text(json.dumps(report))
+        notes["images"][0]["file_name"] = f"{name}.png"
+        (folder / f"{name}_coco.json").write_text(json.dumps(notes))
+
+
+def test_the_annotations_of_a_run_are_written_picture_by_picture(tmp_path):
+    notes = {"info": {}, "images": [{"id": 1, "file_name": "a.png"}], "categories": [{"id": 1, "name": "ball"}],
+             "annotations": [{"image_id": 1, "category_id": 1, "id": 1, "segmentation": list(range(100))}],
+             "hidden": [], "keypoints": [], "objects": [{"image_id": 1, "matrix": [[0.5] * 4] * 4}] * 4}  # fmt: skip
+
+    class Documents:
+        def __init__(self, count):
+            self.count = count
+
+        def __iter__(self):
+            return (json.loads(json.dumps(notes)) for _ in range(self.count))
+
+    peaks = []
+    for count in (100, 1600):
+        tracemalloc.start()
+        size = sum(map(len, merged_text(Documents(count), tmp_path)))
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+        assert size > 800 * count
+    assert peaks[1] - peaks[0] < 3e5  # of 1.3 MB of text, and more as objects
+
+
+MEASURED = """
+import resource, sys
+from pathlib import Path
+sys.path[:0] = [{addon!r}, {scripts!r}]
+from camera_ray_caster.core.exports import export
+from camera_ray_caster.core.exports.writing import write
+from camera_ray_caster.core.sets import SET_FORMATS, read_set
+key, folder, out = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
+if key == "check_set":
+    import measure.views
+    sys.argv[1:] = [str(folder)]
+    assert measure.views.main("") == 0
+else:
+    views = read_set(folder)
+    write(SET_FORMATS[key].files(views), out)
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024)
+"""
+
+
+@pytest.fixture(scope="module")
+def folders(tmp_path_factory):
+    """The folders of a small and of a large set."""
+    place = tmp_path_factory.mktemp("stubs")
+    patch = pytest.MonkeyPatch()
+    patch.setattr(test_sets, "SIZE", (24, 18))
+    for count in (FEW, MANY):
+        stubs(place / str(count), count)
+    patch.undo()
+    return place
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("key", [*SET_FORMATS, "check_set"])
+def test_an_export_takes_the_memory_of_a_few_pictures(folders, tmp_path, key):
+    code = MEASURED.format(addon=str(ROOT / "addon"), scripts=str(ROOT / "scripts"))
+    peaks = []
+    for count in (FEW, MANY):
+        words = [sys.executable, "-c", code, key, folders / str(count), tmp_path / str(count)]
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr[-2000:]
+        peaks.append(float(done.stdout.split()[-1]))
+    print(key, [round(peak / 1e6) for peak in peaks])
+    assert peaks[1] - peaks[0] < ALLOWED
