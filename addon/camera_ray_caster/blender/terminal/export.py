@@ -4,12 +4,14 @@ from argparse import ArgumentTypeError
 from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
 from math import pi
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
 import bpy
 
 from ...core.exports import FORMATS, export
+from ...core.exports.format import Each
 from ...core.exports.writing import write
 from ...core.records import InputError, Shapes
 from ...core.sets import SET_FORMATS, chosen, read_set, sparse, with_splits
@@ -128,7 +130,7 @@ def _of_set(options) -> int:
                 said = [RECAST]
         files = SET_FORMATS[options.format].files(views, **given)
     else:
-        files, said = export(options.format, [view.shot for view in views], options.fit)
+        files, said = export(options.format, Each(views, attrgetter("shot")), options.fit)
     paths = write(files, options.output)
     _tell(said, paths, options.output)
     return 0

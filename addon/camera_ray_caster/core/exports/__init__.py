@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 
 from ..arguments import unknown
 from ..programs import PROGRAMS
@@ -16,7 +17,7 @@ from ..units import factor, unit_name
 from . import rigid
 from .camera_json import CameraJson
 from .fitted import FIT, can_fit, with_fits, with_heads
-from .format import Content, Format, Shot
+from .format import Content, Each, Format, Shot
 from .npz import Npz
 from .of_program import ProgramFormat
 from .stmap import Stmap
@@ -80,14 +81,14 @@ def _prepared(key: str, shots: Sequence[Shot], fit: float | None):
     if chosen.unit is None and shots[0].meters != 1:
         fits.append(f"lengths are in {unit_name(None)} of {shots[0].meters:.6g} m")
         said.append(fits[-1])
-    cameras, moves = zip(*(rigid.with_rotation(shot.camera) for shot in shots), strict=True)
-    rotated = [_in_unit(chosen, replace(shot, camera=camera)) for shot, camera in zip(shots, cameras, strict=True)]
-    moved = f"poses are the nearest rotations to Blender's matrices, which moves pixels by up to {max(moves):.1e}"
-    return chosen, rotated, fits, [moved, *said]
+    most = max(rigid.with_rotation(shot.camera)[1] for shot in shots)
+    moved = f"poses are the nearest rotations to Blender's matrices, which moves pixels by up to {most:.1e}"
+    return chosen, Each(shots, partial(_rotated, chosen)), fits, [moved, *said]
 
 
-def _in_unit(chosen: Format, shot: Shot) -> Shot:
-    """Return a camera whose place is in the format's unit."""
+def _rotated(chosen: Format, shot: Shot) -> Shot:
+    """Return a camera whose axes are a rotation, and whose place is in the format's unit."""
+    shot = replace(shot, camera=rigid.near(shot.camera))
     pose = shot.camera.pose
     return replace(
         shot, camera=replace(shot.camera, pose=Pose(pose.eye * factor(chosen.unit, shot.meters), pose.basis))

@@ -8,7 +8,7 @@ contents and writes nothing: the caller writes all files of an export or none.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -22,6 +22,19 @@ from ..units import BLENDER_UNITS, Unit
 
 OWN_TIMES = "each pixel of which has its own time"
 """Reason for refusal by a format whose pictures are taken at one time."""
+
+
+class Each(Sequence):
+    """Items made of others each time that they are asked for: of cameras of a large set a few are held."""
+
+    def __init__(self, others: Sequence, make: Callable):
+        self._others, self._make = others, make
+
+    def __len__(self) -> int:
+        return len(self._others)
+
+    def __getitem__(self, number):
+        return self._make(self._others[number])
 
 
 @dataclass(frozen=True)

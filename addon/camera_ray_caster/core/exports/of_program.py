@@ -47,8 +47,14 @@ class ProgramFormat(Format):
 
     def records(self, shots) -> list[CameraRecord]:
         """Return the records of cameras that the format does not refuse."""
-        lenses = [find_lens(self.table, shot.camera) for shot in shots]
-        return [record_of(shot, lens or NO_LENS) for shot, lens in zip(shots, lenses, strict=True)]
+        found: list[CameraRecord] = []
+        known: dict[str, Lens] = {}
+        for shot in shots:
+            lens = find_lens(self.table, shot.camera) or NO_LENS
+            if all(isinstance(value, float | int | str) for value in lens.settings.values()):
+                lens = known.setdefault(repr(lens), lens)  # equal lenses are held once
+            found.append(record_of(shot, lens))
+        return found
 
     def files(self, shots):
         """See Format."""

@@ -29,11 +29,16 @@ def refusal(camera: Camera) -> str | None:
     return None
 
 
+def near(camera: Camera) -> Camera:
+    """Return the camera whose axes are the nearest rotation."""
+    return replace(camera, pose=Pose(camera.pose.eye, polar(camera.pose.basis[None])[0][0]))
+
+
 def with_rotation(camera: Camera) -> tuple[Camera, float]:
-    """Return the camera whose axes are the nearest rotation, and the largest movement of a point by it in pixels."""
-    near = replace(camera, pose=Pose(camera.pose.eye, polar(camera.pose.basis[None])[0][0]))
+    """Return ``near`` of a camera, and the largest movement of a point by it in pixels."""
+    found = near(camera)
     width, height = camera.raster.size
     rays = camera.rays_at(*np.meshgrid(np.linspace(0.5, width - 0.5, PLACES), np.linspace(0.5, height - 0.5, PLACES)))
     points = (rays.origins + rays.directions)[rays.valid]
-    moved = near.project(points) - camera.project(points)
-    return near, float(np.nanmax(np.hypot(*moved.T), initial=0.0))
+    moved = found.project(points) - camera.project(points)
+    return found, float(np.nanmax(np.hypot(*moved.T), initial=0.0))
