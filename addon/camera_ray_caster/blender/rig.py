@@ -7,7 +7,7 @@ changes from frame to frame is keyed, in float32.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -29,13 +29,16 @@ from .read.lengths import meters_of
 from .read.size import SIZE, size_of
 
 
-def add_rig(scene, paths: Iterable[str], parent=None, model: str = "") -> list:
+def add_rig(
+    scene, paths: Iterable[str], parent=None, model: str = "", say: Callable[[str], object] = lambda note: None
+) -> list:
     """Add the cameras of files to a scene, below an empty; return their objects, in the order of the files.
 
     A trajectory moves the empty, and so all cameras of the other files; without any, it moves a camera like a new one.
     ``parent``: an object below which the empty is put; below a camera, the file's frame is the camera's with y down
     and z ahead, as in OpenCV. Where each frame has one of several cameras, markers bind it. ``model`` is the key of
-    the model for files that do not name theirs. Nothing is added if a file cannot be read: InputError.
+    the model for files that do not name theirs; ``say`` takes notes on what was left out. Nothing is added if a file
+    cannot be read: InputError.
     """
     paths, rate = list(paths), frame_rate(scene)
     found = [one for path in paths for one in mounted(path, model, size_of(scene), rate, meters_of(scene))]
@@ -43,6 +46,8 @@ def add_rig(scene, paths: Iterable[str], parent=None, model: str = "") -> list:
     cameras = [one for one in found if one.lenses]
     if len(trajectories) > 1 or (trajectories and any(len(one.poses) > 1 for one in cameras)):
         raise InputError("the files have two movements: give one trajectory, or one file of images, and rigs")
+    for note in filter(None, (one.note for one in found)):
+        say(note)
     empty = bpy.data.objects.new(Path(paths[0]).stem, None)
     scene.collection.objects.link(empty)
     empty.parent = parent

@@ -95,25 +95,26 @@ def open_scene(options, say: Callable[[str], object] | None = None):
         scene.render.resolution_percentage = 100
     if options.camera is not None:
         use_camera(scene, find_camera(scene, options.camera))
+    say = say or partial(warn, options.prog)
     if options.calibration is not None:
-        _calibrate(scene, options, say or partial(warn, options.prog))
+        _calibrate(scene, options, say)
     rig = getattr(options, "rig", None)
     for option in ("calibration_camera", "model"):
         if options.calibration is None and not (rig and option == "model") and getattr(options, option):
             raise InputError(f"--{option.replace('_', '-')} needs a calibration file: add --calibration FILE")
     if rig:
-        _mount(scene, options, rig)
+        _mount(scene, options, rig, say)
     return scene
 
 
-def _mount(scene, options, paths: Sequence[str]) -> None:
+def _mount(scene, options, paths: Sequence[str], say: Callable[[str], object]) -> None:
     """Add the cameras of files, and let the options name them and the frames of their poses if they name none; see
     ``shown_at``.
     """
     parent = options.rig_parent
     if parent is not None and parent not in scene.objects:
         raise InputError(f"scene {scene.name!r} has no object {parent!r}, below which --rig-parent puts the cameras")
-    found = add_rig(scene, paths, parent and scene.objects[parent], options.model or "")
+    found = add_rig(scene, paths, parent and scene.objects[parent], options.model or "", say)
     options.cameras = options.cameras or [item.name for item in found]
     if options.frames is None and getattr(options, "frame", None) is None:
         options.frames, options.own_frames = frames_of(found) or None, True

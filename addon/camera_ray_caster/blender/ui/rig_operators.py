@@ -38,7 +38,7 @@ class AddCameras(ImportHelper, bpy.types.Operator):
         parent = context.active_object if self.below_active else None
         if self.below_active and parent is None:
             raise InputError("no object is active: select one, or switch off Below Active Object")
-        found = add_rig(context.scene, paths, parent)
+        found = add_rig(context.scene, paths, parent, say=lambda note: self.report({"WARNING"}, note))
         select_alone(context, *found)
         keyed = len(frames_of(found))
         self.report({"INFO"}, f"{len(found)} cameras" + (f" with keyframes at {keyed} frames" if keyed else ""))

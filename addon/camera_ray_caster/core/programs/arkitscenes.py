@@ -7,6 +7,7 @@ References: ARKitScenes documentation, Dataset files formats; its tenFpsDataLoad
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -17,14 +18,14 @@ from .parts.document import Document
 from .parts.lens import Lens, matrix, numbers_of
 from .parts.placed import Placed, inverted
 from .parts.program import PictureFolders, ProgramFiles
-from .parts.trajectory import rows_of
+from .parts.trajectory import columns_of, rows_of
 
 PINCAM, TRAJECTORY = ".pincam", ".traj"
 
 
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
-    return _pincam(document) is not None or rows_of(document, 7) is not None
+    return _pincam(document) is not None or bool(_rows(document))
 
 
 def read(document: Document) -> list[Lens]:
@@ -40,7 +41,21 @@ def poses(document: Document) -> list[Placed]:
     """See ProgramFiles. The camera of a .pincam stands in the frame that the trajectory moves."""
     if _pincam(document) is not None:
         return [Placed("", "", None, np.eye(4))]
-    return [_moved(document, number, row) for number, row in enumerate(rows_of(document, 7) or (), 1)]
+    rows = _rows(document)
+    if Path(document.path).suffix.lower() != TRAJECTORY:
+        times = [float(row[0]) for row in rows if numbers_of(row[:1])]
+        if any(after <= before for before, after in pairwise(times)):
+            raise document.refusal("its lines have 7 numbers, of which the first is no time that rises, and the last 4 "
+                                   "are no quaternion of length 1: name the columns in the first line")  # fmt: skip
+    return [_moved(document, number, row) for number, row in enumerate(rows, 1)]
+
+
+def _rows(document: Document) -> list[list[str]]:
+    """Return the lines of a trajectory; [] of any other file."""
+    rows = rows_of(document)
+    if not rows or len(numbers_of(rows[0])) != 7 or columns_of(document) is not None:
+        return []
+    return rows
 
 
 def _moved(document: Document, number: int, words: list[str]) -> Placed:

@@ -1,7 +1,7 @@
 """Trajectories of EuRoC's ground truth: lines of nanoseconds, x, y, z and the quaternion w, x, y, z, apart by commas.
 
-What follows in a line is not read. A pose leads from the moving frame to the world; written, from the camera, x right,
-y down, z ahead. Frame 0 is at 0 seconds.
+What follows in a line is not read. Names of the columns in the first line count: see ``parts.trajectory``. A pose leads
+from the moving frame to the world; written, from the camera, x right, y down, z ahead. Frame 0 is at 0 seconds.
 Reference: The EuRoC MAV dataset, Data format.
 """
 
@@ -12,28 +12,15 @@ from collections.abc import Iterator, Sequence
 from ..maths.rotations import quaternion
 from ..units import METERS
 from .parts.document import Document
-from .parts.placed import Placed, of_quaternion
 from .parts.program import CameraRecord, FileWriter, ProgramFiles
-from .parts.trajectory import check_commas, rows_of
+from .parts.trajectory import columns_of, has_commas_in, placed_in_lines
 
 HEAD = "#timestamp [ns],p_x,p_y,p_z,q_w,q_x,q_y,q_z\n"
 
 
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
-    return rows_of(document, 8, commas=True) is not None
-
-
-def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
-    check_commas(document)
-    placed = []
-    for number, row in enumerate(rows_of(document, 8, commas=True) or (), 1):
-        document.check()
-        time, x, y, z, *turn = document.numbers(row[:8], f"pose {number}", 8)
-        pose = of_quaternion(document, turn, [x, y, z], f"pose {number}")
-        placed.append(Placed("", "", None, pose, time / 1e9))
-    return placed
+    return has_commas_in(document) and columns_of(document) is not None
 
 
 def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
@@ -49,7 +36,7 @@ def _line(record: CameraRecord) -> str:
 
 
 PROGRAM = ProgramFiles(
-    "EuRoC trajectories", ".csv", looks, lost="lenses", poses=poses, unit=METERS,
+    "EuRoC trajectories", ".csv", looks, lost="lenses", poses=placed_in_lines, unit=METERS,
     export=FileWriter(
         "euroc", "EuRoC Trajectory", "<camera>_euroc.csv: nanoseconds, places and quaternions of any camera", write
     ),

@@ -1,14 +1,15 @@
 """Kalibr's camchain.yaml: cam0, cam1, ..., each a camera model, a distortion model and a pose.
 
-A radial-tangential distortion of five coefficients has a k3, too. T_cam_imu leads from the IMU to a camera, T_cn_cnm1
-from the camera before to the camera, x right, y down, z ahead; lengths are in meters. The center of the first pixel is
-(0, 0).
+A radial-tangential distortion of five coefficients has a k3, too. T_cam_imu leads from the IMU to a camera, T_imu_cam
+of OpenVINS from a camera to the IMU, T_cn_cnm1 from the camera before to the camera, x right, y down, z ahead; lengths
+are in meters. The center of the first pixel is (0, 0).
 References: Kalibr wiki, Supported models; YAML formats.
 """
 
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -23,6 +24,9 @@ from .parts.program import CameraRecord, FileWriter, ProgramFiles
 
 MOVED = 1e-5
 """Largest change of a pose beside another camera that counts as rounding of float32 matrices, in radians and parts."""
+
+POSE, POSES = re.compile("T_|R_|t_"), ("T_cam_imu", "T_imu_cam", "T_cn_cnm1")
+"""How names of poses begin, and those that are read."""
 
 MODELS = {
     f"{kind}-{bend}": (model, (*SHAPES[kind][1], *terms))
@@ -42,13 +46,16 @@ def read(document: Document) -> list[Lens]:
 
 
 def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles. The frame is the IMU's if each camera has a T_cam_imu, else that of the first camera."""
+    """See ProgramFiles. The frame is the IMU's if each camera has a pose in it, else that of the first camera."""
     chain = _chain(document)
-    by_imu = all(one.has("T_cam_imu") for one in chain.values())
+    by_imu = all(one.has("T_cam_imu") or one.has("T_imu_cam") for one in chain.values())
     placed, pose = [], np.eye(4)
     for number, (name, camera) in enumerate(chain.items()):
+        unread = [one for one in camera if POSE.match(one) and camera.has(one)]
+        if unread and not any(map(camera.has, POSES)):
+            raise document.refusal(f"{camera.said(unread[0])} is a pose that is not read: {', '.join(POSES)} are")
         if by_imu:
-            pose = inverted(pose_in(camera, "T_cam_imu"))
+            pose = pose_in(camera, "T_imu_cam") if camera.has("T_imu_cam") else inverted(pose_in(camera, "T_cam_imu"))
         elif number and not camera.has("T_cn_cnm1"):
             raise document.refusal(f"it has no T_cn_cnm1 of {name}, which stands beside the camera before it")
         elif number:

@@ -35,6 +35,8 @@ MODELS = {
 
 MARK = re.compile("LENSMODEL_|DISTORTION_[A-Z]")
 """What every file has; DISTORTION_ before mrcal 1.0."""
+PHOTON_VISION = "cameraIntrinsics"
+"""What the calibrations of PhotonVision have, beside the name of mrcal's model."""
 NAMES = "lensmodel", "lens_model", "distortion_model"
 
 LONGEST = 1 << 20
@@ -43,7 +45,7 @@ LONGEST = 1 << 20
 
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
-    return MARK.search(document.text) is not None
+    return MARK.search(document.text) is not None and PHOTON_VISION not in document.text
 
 
 def read(document: Document) -> list[Lens]:

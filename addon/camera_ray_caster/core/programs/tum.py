@@ -1,7 +1,8 @@
 """Trajectories of the TUM benchmarks: lines of seconds, x, y, z and the quaternion x, y, z, w, apart by spaces.
 
-A pose leads from the moving frame to the world; written, from the camera, x right, y down, z ahead. Frame 0 is at 0
-seconds.
+So are read those of TartanAir, without times, one for each frame. Names of the columns in a comment count: see
+``parts.trajectory``. A pose leads from the moving frame to the world; written, from the camera, x right, y down, z
+ahead. Frame 0 is at 0 seconds.
 Reference: TUM RGB-D benchmark, File Formats.
 """
 
@@ -12,30 +13,15 @@ from collections.abc import Iterator, Sequence
 from ..maths.rotations import quaternion
 from ..units import METERS
 from .parts.document import Document
-from .parts.placed import Placed, of_quaternion
 from .parts.program import CameraRecord, FileWriter, ProgramFiles
-from .parts.trajectory import check_commas, rows_of
+from .parts.trajectory import columns_of, has_commas_in, placed_in_lines
 
-NANOSECONDS = 1e12
-"""Times above it are in nanoseconds: as seconds it would be 30,000 years."""
 HEAD = "# timestamp tx ty tz qx qy qz qw\n"
 
 
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
-    return rows_of(document, 8, commas=False) is not None
-
-
-def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
-    check_commas(document)
-    placed = []
-    for number, row in enumerate(rows_of(document, 8, commas=False) or (), 1):
-        document.check()
-        time, x, y, z, *turn, w = document.numbers(row, f"pose {number}", 8)
-        pose = of_quaternion(document, [w, *turn], [x, y, z], f"pose {number}")
-        placed.append(Placed("", "", None, pose, time / 1e9 if time > NANOSECONDS else time))
-    return placed
+    return columns_of(document) is not None and not has_commas_in(document)
 
 
 def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
@@ -51,7 +37,7 @@ def _line(record: CameraRecord) -> str:
 
 
 PROGRAM = ProgramFiles(
-    "TUM", "trajectories .txt", looks, lost="lenses", poses=poses, unit=METERS,
+    "TUM", "trajectories .txt", looks, lost="lenses", poses=placed_in_lines, unit=METERS,
     export=FileWriter(
         "tum", "TUM Trajectory", "<camera>_tum.txt: seconds, places and quaternions of any camera", write
     ),

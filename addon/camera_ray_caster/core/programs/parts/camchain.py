@@ -69,4 +69,6 @@ def lens_of(camera: Fields, name: str) -> Lens:
         terms = (*terms, "k3")
     rest = camera.numbers(entry, len(terms)) if terms else []
     settings = dict(zip((*shape, *terms), (*first[: len(shape)], *rest), strict=True))
-    return Lens(name, model, camera.size("resolution") | matrix(*first[len(shape) :]) | settings)
+    size = camera.size("resolution")
+    document.check_sides(list(size.values()), first[-2:])
+    return Lens(name, model, size | matrix(*first[len(shape) :]) | settings)

@@ -10,7 +10,6 @@ Calibration.
 
 from __future__ import annotations
 
-import re
 from reprlib import repr as shortened
 
 from ...cameras.parts.calibration import LARGEST
@@ -28,6 +27,14 @@ TERMS = {
     "UCM": ("k1", "k2", "p1", "p2"),
 }
 """Our models and their settings, in the order of OpenCV's vector of coefficients."""
+
+BY_NUMBER = "d"
+"""What the numbers of coefficients follow in the settings of SVO: d0, d1, ..."""
+BEFORE_TERMS = "", "distortion", "dist", "radial", "tangential", "lens"
+"""What may stand before the name of a coefficient."""
+LISTS = {"radial": ("k1", "k2", "k3", "k4", "k5", "k6"), "radialdistortion": ("k1", "k2", "k3", "k4", "k5", "k6"),
+         "tangential": ("p1", "p2"), "tangentialdistortion": ("p1", "p2")}  # fmt: skip
+"""Lists of some coefficients."""
 
 NO_DISTORTION = (0.0,)
 """What an empty list of coefficients stands for."""
@@ -111,7 +118,8 @@ def _lens(document: Document, name: str, found: Spelled, key: str) -> Lens:
     else:
         (fx, fy), (cx, cy), skew = _focal(found), _center(found), 0.0
     listed = found.numbers(spelled.DISTORTION, empty=NO_DISTORTION, default=())
-    named = {} if listed else _named(document, found)
+    named = {} if any(listed) else _named(document, found)
+    listed = [] if any(named.values()) else listed
     model = _model(document, found, listed or list(named.values()), "p1" in named or "p2" in named, key)
     terms = TERMS[model]
     if model == "UCM" and len(listed) == 5 and listed[-1] == 0:  # the fifth is of OpenCV's pinhole alone
@@ -126,6 +134,8 @@ def _lens(document: Document, name: str, found: Spelled, key: str) -> Lens:
     settings = dict(zip(terms, listed, strict=False)) | {name: named[name] for name in terms if name in named}
     if model == "UCM":
         settings["unified_xi"] = found.number(("xi",))
+    if not found.has(spelled.WIDTH, spelled.HEIGHT) and found.has(spelled.SIZE):
+        document.check_sides(found.size(), (cx, cy))
     x, y, size = _region(document, found)
     width, height = (size[f"calibration_{side}"] for side in ("width", "height"))
     if 0 < cx <= 1 and 0 < cy <= 1 and max(fx, fy) < LEAST and min(width or LEAST, height or LEAST) >= LEAST:
@@ -170,13 +180,26 @@ def _center(found: Spelled) -> tuple[float, float]:
 
 
 def _named(document: Document, found: Spelled) -> dict[str, float]:
-    """Return the coefficients that have entries of their own, in the order of OpenCV's vector."""
-    unread = [own for name, (own, value) in found.found.items()
-              if isinstance(value, list | dict) and re.search("dist(?!ance)|coef", name)]  # fmt: skip
+    """Return the coefficients that have entries of their own, in the order of OpenCV's vector. Raises InputError for
+    entries that may be others.
+    """
+    terms, named = TERMS[PINHOLE], {}
+    if f"{BY_NUMBER}0" in found.found:
+        named = {term: f"{BY_NUMBER}{i}" for i, term in enumerate(terms) if f"{BY_NUMBER}{i}" in found.found}
+    for name in terms:
+        spellings = [f"{before}{plain_name(name)}" for before in BEFORE_TERMS]
+        if there := [one for one in spellings if one in found.found]:
+            named[name] = there[0]
+    lists = {name: found.numbers((name,)) for name in LISTS if found.found.get(name, ("", []))[1] != []}
+    values = {name: found.number((own,)) for name, own in named.items()}
+    for name, numbers in lists.items():
+        if len(numbers) > len(LISTS[name]) and any(numbers[len(LISTS[name]) :]):
+            raise document.refusal(f"{found.found[name][0]} has {len(numbers)} numbers: {len(LISTS[name])} are read")
+        values |= dict(zip(LISTS[name], numbers, strict=False))
+    unread = found.unread({*named.values(), *LISTS, *spelled.DISTORTION, *spelled.MATRIX})
     if unread:
         raise document.refusal(f"{unread[0]} may be its distortion: name it distortion_coefficients, or leave it out")
-    names = {name: plain_name(name) for name in TERMS[PINHOLE]}
-    return {name: found.number((plain,)) for name, plain in names.items() if plain in found.found}
+    return {name: values[name] for name in terms if name in values}
 
 
 def _region(document: Document, found: Spelled) -> tuple[float, float, dict]:

@@ -18,6 +18,9 @@ from .ray_arrays import table
 MAGIC = b"\x76\x2f\x31\x01"
 AXES = "xyz", "rgb"
 
+OFF_MIDDLE = 0.3
+"""How far the middle of an STMap may be from the picture's, as a part of its sides."""
+
 decoder: Callable[[str], Mapping[str, np.ndarray]] | None = None
 """Returns the channels of a file by name, (rows, columns) from the top: float16 those of half floats, else float32.
 Raises ValueError with the reason, in one line, for a file that cannot be read.
@@ -45,6 +48,9 @@ def lens_of(document: Document) -> Lens:
     directions = [name for name in vectors if "direction" in name]
     if len(vectors) == 1:
         directions = list(vectors)
+        if not directions[0] and _is_stmap(vectors[""]):
+            raise document.refusal("it is an STMap, with places in a picture and no directions: load the calibration "
+                                   "of the lens, or a table of rays")  # fmt: skip
     origins = [name for name in vectors if "origin" in name]
     if len(directions) != 1 or len(origins) > 1:
         raise document.refusal(
@@ -54,6 +60,16 @@ def lens_of(document: Document) -> Lens:
     ahead = vectors[directions[0]]
     ahead[(ahead == 0).all(axis=2)] = np.nan
     return table(document, ahead, vectors[origins[0]] if origins else None, np.array((0.0, 0.0, 1.0, 1.0)))
+
+
+def _is_stmap(values: np.ndarray) -> bool:
+    """Whether vectors (rows, columns, 3) are places in a picture: blue is one number, and red and green are parts of
+    its sides, whose middle is at 0.5. The middle of directions in a camera's frame is near 0.
+    """
+    places = values[np.isfinite(values).all(axis=2)]
+    if not len(places) or np.ptp(places[:, 2]):
+        return False
+    return bool((np.abs(np.median(places[:, :2], axis=0) - 0.5) < OFF_MIDDLE).all())
 
 
 def _vectors(channels: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
+from math import hypot
 from typing import Any
 
 from ...arguments import shown
 from ...cameras.parts.calibration import LARGEST
 from ...records import InputError
 from .lens import FRAME_SIZE, numbers_of
+
+FAR = 0.15
+"""Part of a picture's shorter side by which its center is near to its middle, in nearly all calibrations."""
 
 
 class FileSource:
@@ -51,3 +55,17 @@ class FileSource:
         if min(width, height) < 1 or width % 1 or height % 1:
             raise self.refusal(f"its image size is {width:g} x {height:g}: it must be of whole numbers above 0")
         return {"calibration_width": width, "calibration_height": height}
+
+    def check_sides(self, size: Sequence[float | None], center: Sequence[float]) -> None:
+        """Raise InputError if a list of two sides seems to be rows and columns: the center is far from the middle, and
+        near to that of the sides in the other order.
+        """
+        (width, height), (cx, cy) = size, center
+        if width is None or height is None or width == height:
+            return
+        apart = hypot(cx - width / 2, cy - height / 2)
+        if apart > FAR * min(width, height) and 2 * hypot(cx - height / 2, cy - width / 2) < apart:
+            raise self.refusal(
+                f"its image size is {width:g} x {height:g}, but its center, {cx:g}, {cy:g}, is near the middle of "
+                f"{height:g} x {width:g}: swap the two numbers, or name them image_width and image_height"
+            )

@@ -7,7 +7,7 @@ left_fx, or a calibration may stand in a mapping of its own, as in intrinsics: {
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from reprlib import repr as shortened
 from typing import Any
 
@@ -24,8 +24,10 @@ MATRIX = (
 DISTORTION = (
     "distortioncoefficients", "distcoeffs", "distortion", "d", "distcoeff", "dist", "distortioncoeffs",
     "distortioncoeff", "coeffs", "distcoefs", "distcoef", "distortionparameters", "distcoefficients",
-    "distortionparams",
+    "distortionparams", "kc",
 )  # fmt: skip
+LISTED = "params", "parameters", "values", "coefficients", "coeffs", "data"
+"""Names of the list of coefficients inside of a mapping of a distortion."""
 FX, FY = ("fx", "flx", "focalx", "focallengthx", "fu"), ("fy", "fly", "focaly", "focallengthy", "fv")
 CX = "cx", "ppx", "principalpointx", "centerx", "cu"
 CY = "cy", "ppy", "principalpointy", "centery", "cv"
@@ -34,7 +36,8 @@ WIDTH = "imagewidth", "width", "w", "cols", "imgwidth", "imwidth"
 HEIGHT = "imageheight", "height", "h", "rows", "imgheight", "imheight"
 SIZE = "imagesize", "resolution", "imagedimension", "size", "imsize", "imgsize"
 CONTAINERS = {
-    *MATRIX, *DISTORTION, "camera", "cameraparameters", "calibration", "projectionparameters", "cameramodelparameters",
+    *MATRIX, *DISTORTION, "radial", "tangential", "camera", "cameraparameters", "calibration", "projectionparameters",
+    "cameramodelparameters",
 }  # fmt: skip
 """Names of mappings whose entries count as if they stood beside them."""
 
@@ -44,9 +47,36 @@ SIDES = ("1", "2"), ("left", "right"), ("l", "r")
 PREFIX = re.compile(r"(.+?)[._\s-](?:fx|flx)", re.IGNORECASE)
 
 
+BEND = re.compile(r"dist(?!anc)|coef|radial|tangent|kappa|^k?[dk]c\d?$|^(lens)?param(eter)?s$|^d\d?$")
+"""What names of distortions have."""
+COEFFICIENT = re.compile(
+    r"(.*(dist(ortion)?|lens|radial|tangential|coef\w*?|cam))?(k|p|s|d|kappa|radial|tangential|coeff?)_?[0-9]"
+)
+"""Names of a distortion's coefficients."""
+
+
 def plain_name(name: str) -> str:
     """Return a name or a word in lower case, without separators."""
     return re.sub(r"[^a-z0-9]", "", name.lower())
+
+
+def _in_distortion(name: str) -> str:
+    """Return the name of an entry of a mapping of a distortion among those beside it."""
+    if name in LISTED:
+        return DISTORTION[0]
+    return f"distortion{name}" if name in ("model", "type") else name
+
+
+def _may_bend(name: str, value: Any) -> bool:
+    """Whether an entry may be a distortion that is not 0, by its name, or by the names of its entries."""
+    if isinstance(value, dict) and "data" not in value:
+        if BEND.search(name):
+            return any(_may_bend("coefficient", one) for one in value.values())
+        return any(COEFFICIENT.fullmatch(plain_name(own)) and _may_bend("coefficient", one)
+                   for own, one in value.items())  # fmt: skip
+    numbers = numbers_of(flat(value, name, ""))
+    is_one = len(numbers) == 1 and not isinstance(value, list)
+    return any(numbers) and (COEFFICIENT if is_one and name != "coefficient" else BEND).search(name) is not None
 
 
 class Spelled:
@@ -56,17 +86,20 @@ class Spelled:
         self.document = entries.document
         self.found = self._merged(entries.values)
 
-    def _merged(self, entries: Mapping[str, Any]) -> dict[str, tuple[str, Any]]:
+    def _merged(self, entries: Mapping[str, Any], depth: int = 3) -> dict[str, tuple[str, Any]]:
         found: dict[str, tuple[str, Any]] = {}
         for name, value in entries.items():
             plain = plain_name(name)
-            inside = value if isinstance(value, dict) and "data" not in value and plain in CONTAINERS else {name: value}
-            for own, one in inside.items():
-                before = found.setdefault(plain_name(own), (own, one))
-                if before[0] != own:
-                    raise self.document.refusal(f"it has {before[0]} and {own}: leave one out")
+            holds = depth and isinstance(value, dict) and "data" not in value and plain in CONTAINERS
+            own = self._merged(value, depth - 1) if holds else {plain: (name, value)}
+            if plain in DISTORTION:
+                own = {_in_distortion(inner): one for inner, one in own.items()}
+            for inner, (theirs, one) in own.items():
+                before = found.setdefault(inner, (theirs, one))
+                if before[0] != theirs:
+                    raise self.document.refusal(f"it has {before[0]} and {theirs}: leave one out")
                 if before[1] is not one:
-                    raise self.document.refusal(f"it has {own} twice, once in {name}: leave one out")
+                    raise self.document.refusal(f"it has {theirs} twice, once in {name}: leave one out")
         return found
 
     def has(self, *quantities: Sequence[str]) -> bool:
@@ -90,7 +123,8 @@ class Spelled:
         return own
 
     def _is_list(self, name: str) -> bool:
-        return name in self.found and isinstance(self.found[name][1], list | dict)
+        value = self.found[name][1] if name in self.found else None
+        return isinstance(value, list) or (isinstance(value, dict) and "data" in value)
 
     def numbers(
         self, names: Sequence[str], empty: Sequence[float] = (), default: Sequence[float] | None = None
@@ -121,16 +155,30 @@ class Spelled:
             raise self.document.refusal(f"{self.found[next(filter(self.found.get, names))][0]} is not one number")
         return found[0]
 
+    def unread(self, known: Collection[str]) -> list[str]:
+        """Return the names of entries that may be a distortion, are not known, and are not 0."""
+        return [own for name, (own, value) in self.found.items() if name not in known and _may_bend(name, value)]
+
     def size(self) -> tuple[float, float] | tuple[None, None]:
         """Return width and height of the picture; None and None if no entry tells them."""
         if self.has(WIDTH, HEIGHT):
             return self.number(WIDTH), self.number(HEIGHT)
         if not self.has(SIZE):
             return None, None
+        sides = next(self.found[name][1] for name in SIZE if name in self.found)
+        if isinstance(sides, dict) and "data" not in sides:
+            return Spelled(Fields(self.document, sides)).size()
         found = self.numbers(SIZE)
         if len(found) != 2:
             raise self.document.refusal(f"its image size has {len(found)} numbers: it must be width and height")
         return found[0], found[1]
+
+
+def unread_beside(entries: Fields, inner: str) -> str | None:
+    """Return the name of an entry that may be a distortion, beside the mapping that has a calibration; None if none is.
+    """
+    others = {name: value for name, value in entries.values.items() if name != inner and not isinstance(value, str)}
+    return next((name for name, value in others.items() if _may_bend(plain_name(name), value)), None)
 
 
 def cameras_of(entries: Fields) -> Iterator[tuple[str, Fields]]:

@@ -1,33 +1,208 @@
-"""Lines of numbers: a time and a pose each."""
+"""Lines of numbers: a pose each, with a time or without.
+
+Names of the columns in a comment, or in the first line, tell what they are: the time and its unit, the place, and the
+quaternion or axis times angle; other columns are not read. Without names, lines of spaces have seconds, x, y, z and the
+quaternion x, y, z, w, or all of that without a time; with commas nanoseconds, x, y, z, the quaternion w, x, y, z, and
+more that is not read.
+"""
 
 from __future__ import annotations
 
 import re
+from typing import NamedTuple
+
+import numpy as np
 
 from ...arguments import shown
+from ...maths.rotations import rotation
 from .document import Document
 from .lens import numbers_of
+from .placed import Placed, of_quaternion
+
+NANOSECONDS = 1e12
+"""Times above it are in nanoseconds: as seconds it would be 30,000 years."""
+LONGEST_STEP = 1000.0
+"""Seconds between poses above which whole numbers without a unit may be of another unit."""
+UNIT_LENGTH = 2e-3
+"""Departure of a quaternion's squared length from 1: files have from 3 digits on."""
+
+COLUMN = re.compile(
+    r"(?P<time>%?(?:time|timestamp|stamp|t|sec|secs|seconds|nsec|nsecs|nanoseconds)(?:_?(?:ns|nsec|us|ms|s|sec))?)|"
+    r"(?P<turn>(?:.*(?:quat|orient|rot)\w*[._]|q[a-z_]*|rot[a-z_]*|r|rvec_?))(?P<turned>[wxyz])|"
+    r"(?P<place>(?:.*(?:pos|transl)\w*[._]|p[a-z_]*|t(?:ransl[a-z_]*)?_?|))(?P<placed>[xyz])"
+)  # fmt: skip
+"""Names of columns: times, parts of rotations, and parts of places."""
+UNITS = {"ns": 1e-9, "nsec": 1e-9, "nsecs": 1e-9, "nanoseconds": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0, "sec": 1.0,
+         "secs": 1.0, "seconds": 1.0}  # fmt: skip
+"""Seconds of the units in names of times."""
+ANGLES = "roll", "pitch", "yaw"
+LEAST = 4
+"""Known names from which on a line is taken for names of columns."""
 
 
-def rows_of(document: Document, count: int, commas: bool | None = None) -> list[list[str]] | None:
-    """Return the words of the lines of a trajectory whose first line begins with a number without a sign and has
-    ``count`` numbers, or ``count`` and more apart by commas; None of any other file. ``commas``: whether lines have
-    commas, None for either.
-    """
+class Columns(NamedTuple):
+    """The numbers of the columns of a trajectory."""
+
+    time: tuple[tuple[int, float | None], ...]
+    """Columns whose sum is the time, with the seconds of their units; None of one that is not told."""
+    place: tuple[int, ...]
+    turn: tuple[int, ...]
+    """w, x, y, z of the quaternion, or the three numbers of axis times angle."""
+    head: str = ""
+    """The line that names them."""
+
+
+SPACED, TIMELESS, OF_EUROC = (
+    Columns(((0, None),), (1, 2, 3), (7, 4, 5, 6)), Columns((), (0, 1, 2), (6, 3, 4, 5)),
+    Columns(((0, 1e-9),), (1, 2, 3), (4, 5, 6, 7)),
+)  # fmt: skip
+
+
+def rows_of(document: Document) -> list[list[str]]:
+    """Return the words of the lines of numbers; [] of any other file."""
     lines = document.lines()
-    if not lines or not lines[0][0].isdigit() or commas not in (None, "," in lines[0]):
-        return None
-    words = re.split(r"[\s,]+", lines[0])
-    if len(numbers_of(words[:count])) != count or (len(words) != count and not commas):
-        return None
-    if len(lines) == 5 and len(lines[2].split()) == 2:  # a calibration of OCamCalib
-        return None
-    return [re.split(r"[\s,]+", line) for line in lines]
+    if lines and not _is_number(lines[0]) and len(lines) > 1 and _named(lines[0], lines[1]):
+        lines = lines[1:]
+    if not lines or not _is_number(lines[0]) or (len(lines) == 5 and len(lines[2].split()) == 2):  # the last: OCamCalib
+        return []
+    return [_words(line) for line in lines]
 
 
-def check_commas(document: Document) -> None:
-    """Raise InputError unless all lines have commas, or none."""
-    lines = document.lines()
+def columns_of(document: Document) -> Columns | None:
+    """Return the columns of a trajectory; None of any other file."""
+    rows = rows_of(document)
+    if not rows:
+        return None
+    named = _head(document, len(rows[0]))
+    if named is not None:
+        return named
+    count, has_commas = len(rows[0]), has_commas_in(document)
+    if count == 7 and not has_commas and _is_timeless(rows):
+        return TIMELESS
+    if count >= 8 and has_commas and len(numbers_of(rows[0][:8])) == 8:
+        return OF_EUROC
+    return SPACED if count == 8 and not has_commas and len(numbers_of(rows[0])) == 8 else None
+
+
+def has_commas_in(document: Document) -> bool:
+    """Whether the first line of numbers has commas."""
+    return "," in next(filter(_is_number, document.lines()), "")
+
+
+def placed_in_lines(document: Document) -> list[Placed]:
+    """Return the poses of a trajectory. Raises InputError."""
+    columns, rows = columns_of(document), rows_of(document)
+    if columns is None:
+        raise document.refusal("it is no trajectory")
+    _check(document, columns, rows)
+    placed = []
+    for number, row in enumerate(rows, 1):
+        document.check()
+        name = f"pose {number}"
+        used = [index for index, _ in columns.time] + [*columns.place, *columns.turn]
+        if len(row) <= max(used) or (columns is not OF_EUROC and len(row) != len(rows[0])):
+            document.numbers(row, name, len(rows[0]) if columns is not OF_EUROC else 8)  # raises
+        values = dict(zip(used, document.numbers([row[index] for index in used], name, len(used)), strict=True))
+        place, turn = [values[i] for i in columns.place], [values[i] for i in columns.turn]
+        if len(turn) == 4:
+            pose = of_quaternion(document, turn, place, name)
+        else:
+            pose = np.eye(4)
+            pose[:3, :3], pose[:3, 3] = rotation(np.array([turn]))[0], place
+        if columns.time:
+            time = sum(_seconds(values[i], unit) for i, unit in columns.time)
+            placed.append(Placed("", "", None, pose, time))
+        else:
+            placed.append(Placed("", "", float(number), pose, moves=True))
+    return placed
+
+
+def _check(document: Document, columns: Columns, rows: list[list[str]]) -> None:
+    """Raise InputError if lines differ, or if the columns are not what they would be taken for."""
+    lines = [line for line in document.lines() if _is_number(line)]
     odd = next((number for number, line in enumerate(lines, 1) if ("," in line) != ("," in lines[0])), None)
     if odd is not None:
         raise document.refusal(f"pose {odd} is {shown(lines[odd - 1])}: all lines must have commas, or none")
+    if columns.head and not (len(columns.place) == 3 and len(columns.turn) in (3, 4)):
+        raise document.refusal(
+            f"its columns are {shown(columns.head)}: they must be a time, x, y, z, and qx, qy, qz, qw or rx, ry, rz"
+        )
+    times = [row[columns.time[0][0]] for row in rows if columns.time and len(row) > columns.time[0][0]]
+    if columns is OF_EUROC and "." in times[0]:
+        raise document.refusal(
+            f"its first time is {times[0]}, and not in whole nanoseconds as in EuRoC's trajectories: name the columns "
+            "in the first line, such as #timestamp [s],x,y,z,qx,qy,qz,qw"
+        )
+    whole = columns.time and columns.time[0][1] is None and all(time.isdigit() for time in times)
+    if "," in lines[0] and whole and len(times) > 1:
+        step = (_seconds(float(times[-1]), None) - _seconds(float(times[0]), None)) / (len(times) - 1)
+        if step > LONGEST_STEP:
+            raise document.refusal(
+                f"its times are {times[0]}, {times[1]} ...: tell their unit in the first line, such as timestamp [ns]"
+            )
+
+
+def _is_timeless(rows: list[list[str]]) -> bool:
+    """Whether the last four of seven numbers are of length 1 in all lines."""
+    numbers = [numbers_of(row) for row in rows]
+    return all(len(row) == 7 and abs(sum(one * one for one in row[3:]) - 1) < UNIT_LENGTH for row in numbers)
+
+
+def _seconds(value: float, unit: float | None) -> float:
+    return value * (unit or 1.0) if unit or value <= NANOSECONDS else value / 1e9
+
+
+def _words(line: str) -> list[str]:
+    return re.split(r"\s*,\s*|\s+", line.strip(" ,\t"))
+
+
+def _is_number(line: str) -> bool:
+    return bool(numbers_of(_words(line)[:1]))
+
+
+def _named(head: str, line: str) -> list[tuple[str, str]] | None:
+    """Return name and unit of each column, if a line names those of another one."""
+    words = re.split(r"\s*,\s*", head.strip(" ,")) if "," in head else re.sub(r"\s+(?=[\[(])", "", head).split()
+    count = len(_words(line))
+    if len(words) != count or any(map(numbers_of, words)):
+        return None
+    names = []
+    for word in words:
+        name, _, unit = re.sub(r"[\])\s]", "", word.lower()).replace("(", "[").partition("[")
+        names.append((name.split("field.")[-1].removeprefix("%").removeprefix("#"), unit))
+    known = sum(COLUMN.fullmatch(name) is not None for name, _ in names)
+    return names if known >= LEAST else None
+
+
+def _head(document: Document, count: int) -> Columns | None:
+    """Return the columns that the last line before the numbers names, if it does."""
+    before: list[str] = []
+    for line in document.text.splitlines():
+        if line.strip() and _is_number(line):
+            break
+        before.append(line.strip().lstrip("#%/ "))
+    for head in reversed(before):
+        names = _named(head, ",".join("0" * count))
+        if names is not None:
+            return _by_names(names, head)
+    return None
+
+
+def _by_names(names: list[tuple[str, str]], head: str) -> Columns:
+    time: list[tuple[int, float | None]] = []
+    turns: dict[str, int] = {}
+    places: dict[str, int] = {}
+    for index, (name, unit) in enumerate(names):
+        match = COLUMN.fullmatch(name)
+        if match is None:
+            continue
+        if match["turned"] is not None:
+            turns.setdefault(match["turned"], index)
+        elif match["placed"] is not None:
+            places.setdefault(match["placed"], index)
+        elif not time or {name, names[time[-1][0]][0]} <= UNITS.keys():
+            time.append((index, UNITS.get(unit or re.split(r"[_ ]|(?<=time|tamp)", name)[-1])))
+    turn = tuple(turns[axis] for axis in ("wxyz" if "w" in turns else "xyz") if axis in turns)
+    if any(name in ANGLES for name, _ in names):
+        turn = ()
+    return Columns(tuple(time), tuple(places[axis] for axis in "xyz" if axis in places), turn, head)

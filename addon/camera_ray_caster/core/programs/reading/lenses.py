@@ -11,6 +11,7 @@ from ...records import InputError
 from .. import program_of
 from ..parts.document import Document
 from ..parts.lens import Lens
+from ..parts.spelled import unread_beside
 from .nearest import unknown
 
 DEEPEST = 3
@@ -70,13 +71,21 @@ def _inside(document: Document, depth: int, path: str) -> Iterator[tuple[str, Le
             except InputError as refusal:
                 lenses = [Lens("", "", {}, refusal)]
             if lenses is not None:
+                beside = unread_beside(document.entries, name)
+                if beside is not None and len(lenses) == 1 and not lenses[0].name:
+                    reason = f"{beside} beside {name} may be its distortion: move it there"
+                    lenses = [Lens("", "", {}, document.refusal(reason))]
                 yield from ((f"{path}{own}", lens) for lens in lenses)
             elif depth > 1:
                 yield from _inside(part, depth - 1, f"{path}{own}.")
 
 
 def _named(inside: list[tuple[str, Lens]]) -> list[Lens]:
-    """Return each lens once. Those of one name that differ are named by their entries, too."""
+    """Return each lens once. Those of one name that differ are named by their entries, too, and so are equal ones that
+    have only the names of their entries, which are no numbers as those of frames.
+    """
+    if len(inside) > 1 and not any(lens.name or entry.rpartition(".")[2].isdecimal() for entry, lens in inside):
+        return [lens._replace(name=entry) for entry, lens in inside]
     different: dict[str, dict[str, tuple[str, Lens]]] = {}
     for entry, lens in inside:
         different.setdefault(lens.name, {}).setdefault(repr(lens[1:]), (entry, lens))

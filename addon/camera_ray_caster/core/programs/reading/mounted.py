@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -38,6 +37,8 @@ class Mounted:
     frames: list[float | None] = field(default_factory=list)
     poses: list[np.ndarray] = field(default_factory=list)
     """(4, 4) float64: from Blender's camera frame to the file's, for a trajectory from the moving frame."""
+    note: str = ""
+    """What to know of it, in one line."""
 
     @property
     def lens(self) -> Lens | None:
@@ -71,8 +72,9 @@ def mounted(path: str, key: str, frame: tuple[int, int], rate: float, meters: fl
     if len(placed) > MOST:
         raise document.refusal(f"it has {len(placed):,} poses: {MOST:,} are read")
     if placed[0].moves or placed[0].time is not None:
+        placed, note = _once_each(placed)
         frames, poses = _frames(document, placed, rate), [one.pose for one in placed]
-        return [Mounted(Path(path).stem, lens_file, True, [], frames, poses)]
+        return [Mounted(Path(path).stem, lens_file, True, [], frames, poses, note and f"{path}: {note}")]
     lenses = {lens.name: lens for lens in lenses_of(lens_file, key, frame)}
     found: list[tuple[Placed, str, float | None, Lens]] = []
     for one, name, number in _named(placed):
@@ -92,16 +94,19 @@ def mounted(path: str, key: str, frame: tuple[int, int], rate: float, meters: fl
     return list(cameras.values())
 
 
+def _once_each(placed: list[Placed]) -> tuple[list[Placed], str]:
+    """Return the poses of a trajectory, of several at one time the last, and a note on those that are left out."""
+    last = {one.frame if one.time is None else one.time: one for one in placed}
+    count = len(placed) - len(last)
+    said = f"of poses at one time the last is read; {count} {'is' if count == 1 else 'are'} left out" if count else ""
+    return list(last.values()), said
+
+
 def _frames(document: Document, placed: list[Placed], rate: float) -> list[float | None]:
-    """Return the frames of a trajectory, or of its times. Raises InputError for equal times, and beyond Blender's last
-    frame.
-    """
+    """Return the frames of a trajectory, or of its times. Raises InputError beyond Blender's last frame."""
     if placed[0].moves:
         return [one.frame for one in placed]
     times = [one.time or 0.0 for one in placed]
-    if len(set(times)) < len(times):
-        twice = next(time for time, after in pairwise(sorted(times)) if time == after)
-        raise document.refusal(f"it has two poses at the time {twice!r}: leave one out")
     frames: list[float | None] = [1 + (time - times[0]) * rate for time in times]
     if max(abs(time - times[0]) for time in times) * rate >= LAST_FRAME:
         raise document.refusal(

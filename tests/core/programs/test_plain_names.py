@@ -1,0 +1,102 @@
+"""Distortion and size under the names that people give them: read, or refused by their names."""
+
+import json
+
+import numpy as np
+import pytest
+
+import camera_ray_caster as crc
+from camera_ray_caster.core.programs.parts import ray_exr
+from camera_ray_caster.core.programs.reading.lenses import lenses_of
+from camera_ray_caster.core.records import InputError
+
+K = [[400, 0, 330.0], [0, 410, 250.0], [0, 0, 1]]
+SIZE = {"image_width": 640, "image_height": 480}
+
+
+def lens(tmp_path, entries):
+    """The lens of a file with a camera matrix and these entries."""
+    file = tmp_path / "lens.json"
+    file.write_text(json.dumps({"camera_matrix": K, **SIZE, **entries}))
+    return lenses_of(str(file))[0]
+
+
+@pytest.mark.parametrize(
+    "entries",
+    [
+        {"kc": [-0.3, 0.05, 0, 0, 0]},
+        {"d0": -0.3, "d1": 0.05, "d2": 0, "d3": 0},
+        {"distortion_k1": -0.3, "distortion_k2": 0.05},
+        {"radial": [-0.3, 0.05], "tangential": [0, 0]},
+        {"distortion": {"radial": {"k1": -0.3, "k2": 0.05}, "tangential": {"p1": 0, "p2": 0}}},
+        {"distortion": {"type": "radtan", "params": [-0.3, 0.05, 0, 0]}},
+        {"type": "pinhole", "distortion": {"type": "radtan", "values": [-0.3, 0.05, 0, 0]}},
+        {"distortion": [0, 0, 0, 0, 0], "k1": -0.3, "k2": 0.05},
+    ],
+    ids=repr,
+)
+def test_a_distortion_under_another_name_is_read(entries, tmp_path):
+    found = lens(tmp_path, entries)
+    assert found.model == "OPENCV_PINHOLE"
+    assert found.values(("k1", "k2", "p1", "p2", "k3")) == [-0.3, 0.05, 0, 0, 0]
+
+
+@pytest.mark.parametrize(
+    "entries",
+    [
+        {"kappa": [-0.3, 0.05]}, {"dc": [-0.3, 0.05, 0, 0]}, {"lens": {"k1": -0.3, "k2": 0.05}}, {"kappa1": -0.3},
+        {"lens_coeffs": [-0.3, 0.05, 0, 0]}, {"params": [-0.3, 0.05, 0, 0]}, {"poly": {"a": 1, "k1": -0.3}},
+        {"radial_distortion_map": {"a": [-0.3]}}, {"k7": 0.5},
+    ],
+    ids=repr,
+)  # fmt: skip
+def test_what_may_be_a_distortion_is_refused_by_its_name(entries, tmp_path):
+    with pytest.raises(InputError, match=f"{next(iter(entries))} may be its distortion"):
+        lens(tmp_path, entries)
+    same = json.loads(json.dumps(entries).replace("0.3", "0").replace("0.05", "0").replace("0.5", "0"))
+    assert not any(lens(tmp_path, same).values(("k1", "k2")))
+
+
+def test_a_distortion_beside_the_mapping_of_a_matrix_is_refused(tmp_path):
+    file = tmp_path / "lens.json"
+    file.write_text(json.dumps({"cam": {"matrix": {"fx": 400, "fy": 400, "cx": 320, "cy": 240}, "bent": {"k1": 0.1}}}))
+    with pytest.raises(InputError, match="bent beside matrix may be its distortion"):
+        crc.load_calibration(file, size=(640, 480))
+
+
+@pytest.mark.parametrize("sides", [{"width": 640, "height": 480}, {"rows": 480, "cols": 640}, [640, 480]], ids=repr)
+def test_a_size_is_a_mapping_or_two_numbers(sides, tmp_path):
+    file = tmp_path / "lens.json"
+    file.write_text(json.dumps({"camera_matrix": K, "dist_coeffs": [0.01, 0, 0, 0, 0], "resolution": sides}))
+    assert lenses_of(str(file))[0].size == (640, 480)
+
+
+@pytest.mark.parametrize("entries", [{"camera_matrix": K, "imageSize": [480, 640]}, {"cam0": {
+    "camera_model": "pinhole", "intrinsics": [400, 410, 330, 250], "resolution": [480, 640]}}])  # fmt: skip
+def test_rows_before_columns_are_refused(entries, tmp_path):
+    file = tmp_path / "lens.json"
+    file.write_text(json.dumps(entries))
+    with pytest.raises(InputError, match="its image size is 480 x 640, but its center, 330, 250, is near"):
+        crc.load_calibration(file)
+
+
+def test_equal_cameras_keep_their_names(tmp_path):
+    file = tmp_path / "rig.json"
+    file.write_text(json.dumps({name: {"K": K, "distortion": [0] * 5, **SIZE} for name in ("left", "right")}))
+    assert [one.name for one in lenses_of(str(file))] == ["left", "right"]
+    assert crc.load_calibration(file, camera="right").settings["fx"] == 400
+    with pytest.raises(InputError, match=r"has 2 cameras: set .* to one of left, right"):
+        crc.load_calibration(file)
+
+
+def test_an_stmap_is_no_table_of_rays(tmp_path, monkeypatch):
+    (tmp_path / "map.exr").write_bytes(ray_exr.MAGIC)
+    v, u = np.mgrid[0.95:0.05:9j, 0.05:0.95:13j].astype(np.float32)
+    for blue, says in ((np.ones_like(u), "it is an STMap"), (u - v, "")):
+        channels = dict(zip("RGB", (u, v, blue), strict=True))
+        monkeypatch.setattr(ray_exr, "decoder", lambda path, channels=channels: channels)
+        if says:
+            with pytest.raises(InputError, match=says):
+                lenses_of(str(tmp_path / "map.exr"))
+        else:
+            assert lenses_of(str(tmp_path / "map.exr"))[0].model == "RAY_TABLE"

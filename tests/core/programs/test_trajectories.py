@@ -1,0 +1,60 @@
+"""Trajectories: the columns that a file names, and those of files that name none."""
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.programs.reading.mounted import mounted
+from camera_ray_caster.core.records import InputError
+
+TURN = [[0.0, -1, 0], [1, 0, 0], [0, 0, 1]]
+"""By a right angle about z; its quaternion is half of the root of 2 in w and z."""
+H = np.sqrt(0.5)
+
+
+def read(tmp_path, text, name="path.txt"):
+    """The trajectory of a text."""
+    file = tmp_path / name
+    file.write_text(text)
+    return mounted(str(file), "", (640, 480), 10.0)[0]
+
+
+@pytest.mark.parametrize(
+    ("text", "frames"),
+    [
+        (f"# time x y z qw qx qy qz\n5 1 2 3 {H} 0 0 {H}\n5.5 1 2 3 {H} 0 0 {H}\n", [1, 6]),
+        (f"# made by a program\n# timestamp tx ty tz qx qy qz qw\n5 1 2 3 0 0 {H} {H}\n", [1]),
+        (f"#timestamp,tx,ty,tz,qx,qy,qz,qw\n158383.25,1,2,3,0,0,{H},{H}\n158384.25,1,2,3,0,0,{H},{H}\n", [1, 11]),
+        (f"timestamp [ms],q_w [],q_x,q_y,q_z,p_x [m],p_y,p_z\n500,{H},0,0,{H},1,2,3\n1000,{H},0,0,{H},1,2,3\n", [1, 6]),
+        (f"#sec,nsec,x,y,z,qx,qy,qz,qw\n7,600000000,1,2,3,0,0,{H},{H}\n8,100000000,1,2,3,0,0,{H},{H}\n", [1, 6]),
+        (f"# timestamp_us, x, y, z, rx, ry, rz\n0,1,2,3,0,0,{np.pi / 2}\n500000,1,2,3,0,0,{np.pi / 2}\n", [1, 6]),
+        (f"%time,field.header.seq,field.header.stamp,field.pose.position.x,field.pose.position.y,field.pose.position.z,"
+         f"field.pose.orientation.x,field.pose.orientation.y,field.pose.orientation.z,field.pose.orientation.w\n"
+         f"1500000000500000000,7,1500000000500000000,1,2,3,0,0,{H},{H}\n", [1]),
+        (f"1 2 3 0 0 {H} {H}\n1 2 3 0 0 {H} {H}\n", [1, 2]),
+        (f"5 1 2 3 0 0 {H} {H}\n5 9 9 9 0 0 0 1\n5 1 2 3 0 0 {H} {H}\n6 1 2 3 0 0 {H} {H}\n", [1, 11]),
+    ],
+)  # fmt: skip
+def test_a_line_is_what_its_columns_are_named(text, frames, tmp_path):
+    camera = read(tmp_path, text)
+    np.testing.assert_allclose(camera.frames, frames, rtol=0, atol=1e-6)
+    for pose in camera.poses:
+        np.testing.assert_allclose(pose[:3], np.c_[TURN, [1, 2, 3]], rtol=0, atol=1e-12)
+    assert ("2 are left out" in camera.note) == (text.count("\n5 ") == 2)
+
+
+def test_a_place_may_be_negative(tmp_path):
+    assert read(tmp_path, "-1 2 3 0 0 0 1\n-2 2 3 0 0 0 1\n").poses[1][0, 3] == -2
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("# time x y z roll pitch yaw\n1 2 3 4 0 0 0\n", "its columns are 'time x y z roll pitch yaw': they must be"),
+        ("1 2 3 0.5 0.6 0.7 0.8\n0 2 3 0.5 0.6 0.7 0.8\n", "the first is no time that rises"),
+        ("1583836591.25,1,2,3,0,0,0,1\n", "not in whole nanoseconds as in EuRoC's"),
+        ("# timestamp,x,y,z,rx,ry,rz\n0,4,0,0,0,0,1\n12500,4,0,0,0,0,1\n", "tell their unit in the first line"),
+    ],
+)
+def test_other_columns_are_refused_in_one_line(text, says, tmp_path):
+    with pytest.raises(InputError, match=says):
+        read(tmp_path, text)
