@@ -23,9 +23,12 @@ SCENE := blend_scenes/spheres_and_planes.blend
 cast: $(VENV)/ready  ## render the example scene into out/ and print the report
 	$(VENV)/bin/python scripts/cast.py $(SCENE) --output out
 
+# One worker more than processors, since tests wait for processes that they start.
+WORKERS ?= $(shell $(PYTHON) -c "import os; print(os.cpu_count() + 1)")
+
 # The tests of a file stay together, since they share fixtures, and one window. A worker that dies, or a test that hangs,
 # ends the run.
-PYTEST := $(VENV)/bin/python -m pytest --numprocesses auto --max-worker-restart 0 --timeout 600
+PYTEST = $(VENV)/bin/python -m pytest --numprocesses $(WORKERS) --max-worker-restart 0 --timeout 600
 
 test: $(VENV)/ready  ## run the tests with this Python, on all cores: each thing once, in two to three minutes
 	$(PYTEST) --dist loadfile
