@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from .core.library.join import join
     from .core.library.models import models
     from .core.library.poses import look_at, pose_from_opencv
+    from .core.library.rigs import load_rig
     from .core.library.shapes import mesh, planes, spheres
     from .core.records import Cancelled, InputError, Shapes
     from .core.scene import Scene
@@ -88,6 +89,7 @@ _MODULES = {
     "fit": ".core.library.fitting",
     "join": ".core.library.join",
     "load_calibration": ".core.library.cameras",
+    "load_rig": ".core.library.rigs",
     "look_at": ".core.library.poses",
     "mesh": ".core.library.shapes",
     "models": ".core.library.models",
@@ -129,6 +131,7 @@ __all__ = [
     "fit",
     "join",
     "load_calibration",
+    "load_rig",
     "look_at",
     "mesh",
     "models",

@@ -231,7 +231,7 @@ def test_points_are_where_the_formula_has_them(name, tmp_path):
 REFUSED = {
     "Metashape, k4": (standalone("frame", k4=1e-3), "its k4 of a frame camera is not 0"),
     "Metashape, kind": (standalone("cylindrical"), "projection is 'cylindrical': it must be one of frame"),
-    "Metashape, cut": (standalone("frame")[:80], "is not XML"),
+    "Metashape, cut": (standalone("frame")[:80], "of no format that is read"),
     "Metashape, f": (standalone("frame", f="wide"), "f is 'wide': it must be 1 finite number"),
     "Meshroom, kind": (sfm(type="3deanamorphic4"), "type of 7 is '3deanamorphic4': it must be one of pinhole"),
     "Meshroom, ratio": (sfm(pixelRatio="2"), "pixelRatio of 7 is 2: only square pixels"),

@@ -14,7 +14,7 @@ from .test_other_programs import EGO, ISAAC, MATRIX, OKVIS, K, basalt, flat, len
     ("text", "says"),
     [
         ('{"weights": [1, 2], "epoch": 3}', "of no format that is read: these are OpenCV.* or ray tables$"),
-        ('{"rig_of": {"sensors": 1, "properties": "ftheta"}}', "the nearest is NVIDIA .f-theta, Isaac.*has no"),
+        ('{"rig_of": {"sensors": 1, "properties": "ftheta", "polynomial": 2}}', "the nearest is NVIDIA .*has no"),
         (vins("SPLINE", {}, {}), "model_type is 'SPLINE': it must be one of PINHOLE"),
         (basalt("spline"), "camera_type of cam0 is 'spline': it must be one of ds"),
         (basalt("ds", xi=0.1), "it has no alpha"),
@@ -34,6 +34,10 @@ from .test_other_programs import EGO, ISAAC, MATRIX, OKVIS, K, basalt, flat, len
         ("<!DOCTYPE a [<!ENTITY b 'c'>]><opencv_storage><K>&b;</K></opencv_storage>", "has a document type"),
         ("<opencv_storage>" + 40 * "<a>" + 40 * "</a>" + "</opencv_storage>", "nested deeper than 32"),
         ("<html><body>Not found</body></html>", "of no format that is read"),
+        ("# Notes\n\nThe lens was lent: see below.\n", "of no format that is read: .* or ray tables$"),
+        ("[general]\nfps = 30\nname = a\n", "of no format that is read: .* or ray tables$"),
+        ('{"rig_of": {"sensors": 1, "properties": "ftheta"}}', "of no format that is read: .* or ray tables$"),
+        ("camera_matrix: [1\ndistortion_coefficients: 2\nimage_width: 5 5\nimage_height: 2", "not closed"),
     ],
 )
 def test_what_is_wrong_is_said_in_one_line(tmp_path, text, says):

@@ -18,6 +18,7 @@ from ..cameras.parts.aperture import DEPTH_OF_FIELD
 from ..cameras.parts.calibration import FILE, SIZE
 from ..cameras.parts.pose import pose_matrix
 from ..cameras.parts.settings import RECORD_FIELDS, Line
+from ..programs.parts.lens import FRAME_SIZE, Lens
 from ..records import BlenderCamera, InputError
 from .file_poses import pose_in_file
 from .left_out import completed
@@ -69,7 +70,7 @@ def camera(model: str, size, pose=None, **settings: Any) -> Camera:
     known = models()
     if not isinstance(model, str) or model not in known:
         raise unknown("model", model, known)
-    width, height = _size(size)
+    width, height = pair_of_pixels(size)
     name = a_name(settings.pop("name", "Camera"))
     frame = number(settings.pop("frame", 0.0), "frame", pixel_time.LAST_FRAME)
     mode = settings.pop(pixel_time.MODE.name, pixel_time.NONE)
@@ -122,30 +123,47 @@ def load_calibration(
 
     Raises InputError, in one line, for a file that cannot be read, has no such camera, or does not state its size.
     """
-    try:
-        file = str(os.fspath(path))
-    except TypeError as error:
-        raise InputError(f"path is {shown(path)}: it must be the path of a calibration file") from error
-    if model and model not in models():
-        raise unknown("model", model, models())
+    file = checked_path(path, model)
     chosen = "" if camera is None else word(camera, "camera")
-    lens = chosen_lens(file, model, chosen, None if size is None else _size(size))
-    if size is None:
-        size = tuple(int(lens.settings.get(side.name, 0)) for side in SIZE)
-        if SIZE[0].name not in lens.settings and FILE in models()[lens.model].SETTINGS:  # the tables tell it
-            size = _of_model(lens.model, (1, 1), **lens.settings).model.size or (0, 0)
-        if not all(size):
-            raise InputError(f"calibration file {file!r} does not tell the size of its pictures: give size=")
-    linked = {"calibration_file": file, "calibration_camera": chosen}
-    settings = linked if FILE in models()[lens.model].SETTINGS else lens.settings
+    lens = chosen_lens(file, model, chosen, None if size is None else pair_of_pixels(size))
+    size = size_of(file, lens) if size is None else size
     pose = pose_in_file(file, lens, model, tuple(size)) if pose is None else pose
-    return _of_model(lens.model, size, pose, name=lens.name or "Camera", **settings)
+    return of_lens(file, lens, chosen, size, pose)
 
 
 _of_model = camera  # where an argument has the name of the function
 
 
-def _size(size) -> tuple[int, int]:
+def of_lens(file: str, lens: Lens, chosen: str, size, pose, name: str = "") -> Camera:
+    """Return the camera with a lens of a file, in which it is ``chosen`` by this name. Raises InputError."""
+    settings: dict[str, Any] = {"calibration_file": file, "calibration_camera": chosen}
+    if FILE not in models()[lens.model].SETTINGS:  # its picture is the frame
+        settings = {key: value for key, value in lens.settings.items() if key not in FRAME_SIZE}
+    return _of_model(lens.model, size, pose, name=name or lens.name or "Camera", **settings)
+
+
+def size_of(file: str, lens: Lens) -> tuple[int, int]:
+    """Return the size of the calibrated picture. Raises InputError if the file does not tell it."""
+    size = lens.size
+    if SIZE[0].name not in lens.settings and FILE in models()[lens.model].SETTINGS:  # the tables tell it
+        size = _of_model(lens.model, (1, 1), **lens.settings).model.size or (0, 0)
+    if not all(size):
+        raise InputError(f"calibration file {file!r} does not tell the size of its pictures: give size=")
+    return size
+
+
+def checked_path(path: str | os.PathLike[str], model: str) -> str:
+    """Return the path of a file as text. Raises InputError for anything else, and for an unknown model's key."""
+    if model and model not in models():
+        raise unknown("model", model, models())
+    try:
+        return str(os.fspath(path))
+    except TypeError as error:
+        raise InputError(f"path is {shown(path)}: it must be the path of a calibration file") from error
+
+
+def pair_of_pixels(size) -> tuple[int, int]:
+    """Return width and height. Raises InputError for anything but two whole numbers above 0."""
     try:
         width, height = size
     except (TypeError, ValueError) as error:

@@ -93,7 +93,7 @@ def poses(document: Document) -> list[Placed]:
     """See ProgramFiles. The order is that of the ids."""
     images = _images(document)
     if images is None:
-        raise document.refusal("it should have COLMAP's lenses: the poses are in the file images beside it")
+        raise document.refusal("it has no poses: COLMAP's are in the file images beside it")
     placed = []
     for number, numbers, camera, name in sorted(images):
         document.check()

@@ -88,6 +88,8 @@ def _lens(document: Document, name: str, calibration: Element) -> Lens:
 def poses(document: Document) -> list[Placed]:
     """See ProgramFiles: those of the aligned cameras in the order of the file."""
     root = document.xml
+    if root.name == "calibration":
+        return []
     names = {id(sensor): name for name, sensor in _named_sensors(root)}
     placed: list[Placed] = []
     georeferenced = False

@@ -51,6 +51,11 @@ class Document(FileSource):
         return self.entries.values
 
     @property
+    def is_text(self) -> bool:
+        """Whether it is text in UTF-8."""
+        return not isinstance(self._text, InputError)
+
+    @property
     def has_entries(self) -> bool:
         """Whether it is a JSON, YAML or XML file."""
         return not isinstance(self._entries, InputError)

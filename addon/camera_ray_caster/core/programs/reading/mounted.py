@@ -54,7 +54,7 @@ class Mounted:
         return (width, height) if width and height else None
 
 
-def mounted(path: str, key: str, frame: tuple[int, int], rate: float, meters: float = 1.0) -> list[Mounted]:
+def mounted(path: str, key: str, frame: tuple[int, int] | None, rate: float, meters: float = 1.0) -> list[Mounted]:
     """Return the cameras of a file, or of the model in a folder, in the file's order; or one trajectory.
 
     ``key`` and ``frame`` are those of ``lenses_of``; ``rate`` is the number of frames in a second, for files with
@@ -116,7 +116,7 @@ def _frames(document: Document, placed: list[Placed], rate: float) -> list[float
     return frames
 
 
-def _of_folder(path: str, key: str, frame: tuple[int, int], rate: float, meters: float) -> list[Mounted]:
+def _of_folder(path: str, key: str, frame: tuple[int, int] | None, rate: float, meters: float) -> list[Mounted]:
     """Return the cameras of a folder with a file for each picture; equal lenses are one."""
     pictures = pictures_in(Path(path))
     moves = [] if pictures.trajectory is None else placed_in(Document(str(pictures.trajectory), frame), meters)

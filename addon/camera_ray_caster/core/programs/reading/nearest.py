@@ -11,33 +11,52 @@ from ..parts.document import Document
 from ..parts.lens import numbers_of
 
 WORDS = re.compile(r"[A-Za-z_][\w.]*")
+ENTRIES = ".yaml", ".yml", ".json", ".xml"
+"""Ends of the names of files that have entries."""
 READ_UP_TO = 1 << 16
 """Number of characters in which words are looked for: files name their entries at the begin."""
 
 
 def unknown(document: Document) -> InputError:
-    """Return the refusal of a file that no program recognizes."""
-    if not document.has_entries:
-        ending = Path(document.path).suffix.lower()
-        hints = [program.hint(document) for program in PROGRAMS if ending in program.endings]
-        if document.data.strip() and any(hints):
-            return document.refusal("; or ".join(filter(None, hints)))
-        if document.is_binary:
-            return document.refusal("it is not a text file, and of no binary format that is read")
-        words = next(iter(document.lines()), "").split()
-        if words and len(words) == len(numbers_of(words)):
-            return document.refusal(f"its lines have {len(words)} numbers: those of TUM's trajectories have 8, of "
-                                    "ARKitScenes 7, of KITTI 12, of EuRoC at least 8 apart by commas")  # fmt: skip
-        try:
-            return document.refusal(f"it has {len(document.entries)} entries")
-        except InputError as refusal:
-            return refusal
+    """Return the refusal of a file that no program recognizes. What is wrong with YAML, JSON or XML is told if the file
+    is called so, or has half of the words of a program; any other text is of no format.
+    """
+    if not document.is_text:
+        return document.refusal(_by_name(document) or "it is not a text file, and of no binary format that is read")
     there = {word.lower() for word in WORDS.findall(document.text[:READ_UP_TO])}
     marks = {one.name: one.marks.lower().split() for one in PROGRAMS if one.marks}
-    found = {name: [word for word in words if word in there] for name, words in marks.items()}
-    nearest = max(found, key=lambda name: (len(found[name]) / len(marks[name]), len(found[name])))
-    near = ""
-    if found[nearest]:
-        lost = [word for word in marks[nearest] if word not in there]
-        near = f"; the nearest is {nearest}, " + (f"but it has no {', '.join(lost[:2])}" if lost else "by its words")
-    return document.refusal(f"it is of no format that is read: these are {READ}{near}")
+    lost = {name: [word for word in words if word not in there] for name, words in marks.items()}
+    nearest = min(lost, key=lambda name: (len(lost[name]) / len(marks[name]), -len(marks[name])))
+    is_near = 2 * len(lost[nearest]) <= len(marks[nearest])
+    if not document.has_entries:
+        reason = document.data.strip() and (_by_name(document) or _by_numbers(document))
+        if reason:
+            return document.refusal(reason)
+        if is_near or not document.data.strip() or Path(document.path).suffix.lower() in ENTRIES:
+            return _of_text(document)
+    near = f"; the nearest is {nearest}, but it has no {', '.join(lost[nearest][:2])}" if lost[nearest] else ""
+    return document.refusal(f"it is of no format that is read: these are {READ}{near if is_near else ''}")
+
+
+def _by_name(document: Document) -> str:
+    """Return what is wrong with a file that has the name of a program's; "" of any other file."""
+    ending = Path(document.path).suffix.lower()
+    hints = [program.hint(document) for program in PROGRAMS if ending in program.endings]
+    return "; or ".join(filter(None, hints))
+
+
+def _by_numbers(document: Document) -> str:
+    """Return what is wrong with lines of numbers; "" of any other file."""
+    words = next(iter(document.lines()), "").split()
+    if not words or len(words) != len(numbers_of(words)):
+        return ""
+    return (f"its lines have {len(words)} numbers: those of TUM's trajectories have 8, of ARKitScenes 7, of KITTI 12, "
+            "of EuRoC at least 8 apart by commas")  # fmt: skip
+
+
+def _of_text(document: Document) -> InputError:
+    """Return why a document has no entries."""
+    try:
+        return document.refusal(f"it has {len(document.entries)} entries")
+    except InputError as refusal:
+        return refusal

@@ -1,0 +1,99 @@
+"""The cameras of files with their poses, without Blender."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..arguments import number, shown
+from ..camera.camera import Camera
+from ..maths.rotations import polar
+from ..programs.reading.mounted import Mounted, mounted
+from ..records import InputError
+from .cameras import checked_path, of_lens, pair_of_pixels, size_of
+
+
+@dataclass(frozen=True, eq=False)
+class RigCamera(Camera):
+    """A camera of a rig at its first frame. It is also the sequence of its cameras, one for each of its ``frames``."""
+
+    others: tuple[Camera, ...] = ()
+    """The cameras at its frames, in their order in the file."""
+
+    @property
+    def frames(self) -> tuple[float, ...]:
+        """Return the frames at which the file has a pose; () of a camera that stands still."""
+        return tuple(float(one.record.settings["frame"]) for one in self.others) if self.others else ()
+
+    def __len__(self) -> int:
+        return max(1, len(self.others))
+
+    def __iter__(self) -> Iterator[Camera]:
+        return iter(self.others or (self,))
+
+    def __getitem__(self, index: int) -> Camera:
+        return (self.others or (self,))[index]
+
+    def at(self, frame: float) -> Camera:
+        """Return the camera at one of its frames. Raises InputError for a frame at which the file has no pose."""
+        if not self.others:
+            return super().at(frame)
+        found = next((one for one, own in zip(self.others, self.frames, strict=True) if own == frame), None)
+        if found is None:
+            nearest = min(self.frames, key=lambda own: abs(own - frame))
+            raise InputError(f"camera {self.name!r} has no pose at frame {frame:g}: the nearest is {nearest:g}")
+        return found
+
+
+def load_rig(
+    path: str | os.PathLike[str], size=None, *, model: str = "", frame_rate: float = 24.0
+) -> dict[str, RigCamera]:
+    """Return the cameras of a file or folder by name, each with its lens and its pose at its frames: of COLMAP,
+    nerfstudio, Kalibr, Metashape and others, which the table of programs lists.
+
+    A camera that moves is the camera at its first frame; ``camera.frames`` are all of them, ``camera.at(frame)`` is the
+    camera at another one, and ``for one in camera`` goes through them. Blender units are meters; the world is the
+    file's, or the body of a rig. Rotations are the nearest ones to the file's.
+
+    size: (width, height) of the pictures; default that which the file tells.
+    model: key of the model of a file that does not name its own, such as "OPENCV_FISHEYE" for one of OpenCV.
+    frame_rate: frames in a second, for files with times, the first of which is frame 1.
+
+    Raises InputError, in one line, for a file that cannot be read, has no poses or no lenses, or does not state the
+    size of its pictures.
+    """
+    file = checked_path(path, model)
+    frame = None if size is None else pair_of_pixels(size)
+    rate = number(frame_rate, "frame_rate", 1e6)
+    if rate <= 0:
+        raise InputError(f"frame_rate is {shown(frame_rate)}: it must be above 0")
+    found = mounted(file, model, frame, rate)
+    if not all(one.lenses for one in found):
+        raise InputError(f"file {file!r} is a trajectory, which has no lens: give a file with lenses and poses")
+    return {one.name: _of(one, frame) for one in found}
+
+
+def _of(one: Mounted, frame: tuple[int, int] | None) -> RigCamera:
+    by_lens: dict[int, Camera] = {}
+    cameras = []
+    for lens, time, pose in zip(one.lenses, one.frames, one.poses, strict=True):
+        if id(lens) not in by_lens:
+            size, chosen = frame or size_of(one.file, lens), "" if one.alone else lens.name
+            by_lens[id(lens)] = of_lens(one.file, lens, chosen, size, None, one.name)
+        camera = by_lens[id(lens)].with_pose(rigid(pose))
+        if time is not None:
+            settings = {**camera.record.settings, "frame": float(time)}
+            camera = replace(camera, record=replace(camera.record, settings=settings))
+        cameras.append(camera)
+    first = {name: getattr(cameras[0], name) for name in Camera.__dataclass_fields__}
+    return RigCamera(**first, others=() if one.frames == [None] else tuple(cameras))
+
+
+def rigid(pose: np.ndarray) -> np.ndarray:
+    """Return a pose, (4, 4), whose axes are the nearest rotation."""
+    turned = pose.copy()
+    turned[:3, :3] = polar(pose[None, :3, :3])[0][0]
+    return turned
