@@ -88,7 +88,7 @@ def _lens(document: Document, name: str, calibration: Element) -> Lens:
 def poses(document: Document) -> list[Placed]:
     """See ProgramFiles: those of the aligned cameras in the order of the file."""
     root = document.xml
-    if root.name == "calibration":
+    if root.name == "calibration" or not any(chunk.child("cameras") for chunk in root.all("chunk")):
         return []
     names = {id(sensor): name for name, sensor in _named_sensors(root)}
     placed: list[Placed] = []
