@@ -34,7 +34,7 @@ With any model each pixel may have its own time: `time_mode` is one of these.
 FILES = """\
 # Files of cameras
 
-Made by `python scripts/make_docs.py` from [their files](.).
+Made by `python scripts/make_docs.py` from [their files](__init__.py).
 
 ## Calibrations
 
