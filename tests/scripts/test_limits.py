@@ -57,14 +57,13 @@ def test_an_error_of_another_kind_is_none_of_these(command, scene, tmp_path, mon
 
 def test_workers_that_have_all_ended_are_not_waited_for(monkeypatch):
     """Under little memory they end as they import Blender, and Dask gives up to start them again."""
-    pytest.importorskip("distributed")
-    from camera_ray_caster.blender.terminal import farm
+    from camera_ray_caster.blender.terminal import tasks
     from camera_ray_caster.core.records import InputError
 
-    runs = iter([{"a worker": 1}, {}, {"the worker, started again": 1}, {}, {}])
     waiting = SimpleNamespace(done=lambda: False)
-    client = SimpleNamespace(map=lambda *words, **more: [waiting], nthreads=lambda: next(runs))
-    monkeypatch.setattr(farm, "CHECK", 0)
+    nobody = {"nthreads": dict, "scheduler_info": lambda: {"workers": {}}}
+    client = SimpleNamespace(submit=lambda *words, **more: waiting, **nobody)
+    monkeypatch.setattr(tasks, "CHECK", 0)
+    made = tasks.Tasks(client, list, iter(["a job"]), lambda job: None)
     with pytest.raises(InputError, match=r"all workers have ended; .*give fewer --workers"):
-        list(farm.outcomes(client, SimpleNamespace(workers=1), {}, {}, ["a job"]))
-    assert list(runs) == []
+        list(made.outcomes())

@@ -16,9 +16,12 @@ from .time_scene import PASSES, coordinates, disc, key, same
 def counted(monkeypatch):
     """The frames at which shapes are read, in order."""
     frames, read = [], evaluated.shapes_record
-    monkeypatch.setattr(
-        evaluated, "shapes_record", lambda depsgraph: frames.append(depsgraph.scene.frame_current) or read(depsgraph)
-    )
+
+    def record(depsgraph, *words):
+        frames.append(depsgraph.scene.frame_current)
+        return read(depsgraph, *words)
+
+    monkeypatch.setattr(evaluated, "shapes_record", record)
     return frames
 
 
