@@ -29,7 +29,7 @@ CONTENTS = {
         "tutorials/strange_camera_in_cycles",
     ),
     "Look up": (
-        "cameras/index", "conventions", "python", "terminal", "api/index", "formats",
+        "cameras/index", "conventions", "python", "terminal", "live", "api/index", "formats",
         "/addon/camera_ray_caster/core/programs/README", "/addon/camera_ray_caster/blender/read/README",
         "/blend_scenes/README",
     ),

@@ -23,7 +23,7 @@ FILES = {"core.programs", "core.text_forms"}
 RAYS = LOW | {"core.lenses", "core.cameras", "core.camera"} | FILES
 HITS = RAYS | {"core.scene", "core.motion", "core.shapes", "core.errors", "core.casting"}
 READ = {"core", "blender.properties", "blender.process", "blender.read"}
-RENDER = READ | {"blender.cycles", "blender.verification", "blender.output"}
+RENDER = READ | {"blender.cycles", "blender.faces", "blender.verification", "blender.output"}
 DOOR = RENDER | {"blender.engine", "blender.rig"}
 MAY_IMPORT = {
     "core.conventions": set(),
@@ -72,6 +72,7 @@ MAY_IMPORT = {
     "blender.process": {"core", "blender.process"},
     "blender.read": READ,
     "blender.cycles": READ | {"blender.cycles"},
+    "blender.faces": READ | {"blender.cycles", "blender.faces"},
     "blender.verification": READ | {"blender.cycles", "blender.verification"},
     "blender.output": READ | {"blender.output"},
     "blender.engine": RENDER | {"blender.engine"},

@@ -113,6 +113,39 @@ def live_ends(user, scenes):
     yield from user.wait(0.5)
 
 
+def live_shadings(user, scenes):
+    """Material Preview, and Rendered with EEVEE and Workbench, are drawn through the model, too."""
+    yield from load(user, scenes, "toys")
+    scene, space, view = bpy.context.scene, user.area().spaces.active, user.region("WINDOW")
+    scene.camera.data.camera_ray_caster.model, space.overlay.show_overlays = "DOME_MASTER", False
+    scene.camera.data.camera_ray_caster.tilt = 1.2
+    yield from user.wait(0.5)
+    yield from user.press(f"{BUTTON}see_through(")
+    yield from user.wait(0.5)
+    (region,) = addon("view3d.live")._live[space.as_pointer()].values()
+    eevee = "BLENDER_EEVEE" if bpy.app.version >= (5, 0) else "BLENDER_EEVEE_NEXT"
+    for shading, engine in (("RENDERED", "BLENDER_WORKBENCH"), ("MATERIAL", eevee), ("RENDERED", eevee)):
+        began, count = time.process_time(), region.count
+        scene.render.engine, space.shading.type = engine, shading
+        yield from user.until(lambda count=count: region.count > count, "it is drawn", 200)
+        first = time.process_time() - began
+        yield from user.wait(0.5)
+        count, began = region.count, time.process_time()
+        for _ in range(3):
+            scene.camera.location.y += 0.02
+            user.area().tag_redraw()
+            yield from user.until(lambda count=count: region.count > count, "it is drawn again", 60)
+            count = region.count
+        again = (time.process_time() - began) / 3
+        print(f"{shading}, {scene.render.engine}: {first:.1f} s of processor time at first, then {1e3 * again:.0f} ms")
+        yield from user.wait(0.5)
+        shown = user.cut(user.picture(f"live_{shading}_{scene.render.engine}".lower()), view)
+        assert not region.camera[2]
+        assert shown[view.height // 2 - 100 : view.height // 2 + 100, 450:650, :3].std() > 0.02
+    yield from user.press(f"{BUTTON}see_through(")
+    space.overlay.show_overlays = True
+
+
 def said(user):
     """What the notice of the view says."""
     with bpy.context.temp_override(window=user.window, area=user.area(), region=user.region("WINDOW")):
@@ -157,4 +190,4 @@ def live_redraws(user, scenes):
         yield from user.press(f"{BUTTON}see_through(")
 
 
-LIVE_SCENARIOS = (live_picture, live_ends, live_redraws)
+LIVE_SCENARIOS = (live_picture, live_ends, live_redraws, live_shadings)

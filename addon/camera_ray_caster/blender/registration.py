@@ -48,6 +48,7 @@ from .ui import (
     see_through,
     select_seen,
     show_result,
+    through_model,
     verify_panels,
 )
 from .view3d import lesson, live, mouse_gizmo, notice, overlay, points
@@ -61,7 +62,7 @@ CLASSES = (
     *cameras_list.CLASSES, *show_result.CLASSES, *cast_panels.CLASSES, *verify_panels.CLASSES,
     *left_out_panels.CLASSES, *lesson_operators.CLASSES, *point_operators.CLASSES, *gallery_operators.CLASSES,
     *open_lesson.CLASSES, *lesson_panels.CLASSES, *facts_panels.CLASSES, *overlay_panels.CLASSES,
-    *cloud_operators.CLASSES, *object_panels.CLASSES,
+    *cloud_operators.CLASSES, *object_panels.CLASSES, *through_model.CLASSES,
 )  # fmt: skip
 """Blender types in registration order: a panel comes after its parent panel."""
 

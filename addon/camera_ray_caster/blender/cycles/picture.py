@@ -51,6 +51,8 @@ class CyclesPicture:
     made_by: Mapping[str, object]
     """Engine, device and samples, for the report."""
     seconds: float
+    step = "cycles"
+    """Name of its seconds in the report."""
 
     @property
     def warnings(self) -> tuple[str, ...]:

@@ -21,6 +21,7 @@ from ...core.motion.evaluations import UNRESOLVED
 from ...core.records import BlenderCamera, Cancelled, InputError
 from ...core.report.report import Report
 from ..cycles.picture import CyclesPicture
+from ..faces.picture import FacesPicture
 from ..output import reports
 from ..process import signals
 from ..properties.declared import ENGINE
@@ -50,7 +51,7 @@ _ending: list[bool] = []
 class RenderCall:
     """What is handed to the engine for one render, and what it hands back. A render that Blender starts has none."""
 
-    picture: CyclesPicture | None = None
+    picture: CyclesPicture | FacesPicture | None = None
     """Another engine's picture, which replaces the combined pass; None for our own."""
     images: dict[tuple[str, str], Images] | None = None
     """Images of the render, by layer and view; None if they are not kept."""

@@ -22,6 +22,7 @@ from ...core.report.report import Report, as_json
 from ..cycles.picture import CyclesPicture
 from ..cycles.renderer import changed
 from ..engine.engine import RenderCall
+from ..faces.picture import FacesPicture
 from ..output import arrays, file_outputs
 from ..output.annotations import ENDING, annotated
 from ..output.points import PointFiles
@@ -74,7 +75,7 @@ def rendering(
     half: bool = False,
     shown: bool = True,
     file_output: bool = False,
-    picture: CyclesPicture | None = None,
+    picture: CyclesPicture | FacesPicture | None = None,
     stamp: Mapping[str, Any] | None = None,
     keypoints: Sequence[str] | None = None,
     points: PointFiles | None = None,
@@ -105,7 +106,7 @@ def rendering(
         report = yield from _composited(scene, call, file_output)
         if picture is not None:
             report = replace(report, warnings=(*report.warnings, *picture.warnings))
-            report = report.with_seconds(cycles=picture.seconds)
+            report = report.with_seconds(**{picture.step: picture.seconds})
         started = perf_counter()
         if shown:
             _save(scene, temporary / f"{name}.png", PICTURE)

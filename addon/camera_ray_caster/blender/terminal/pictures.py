@@ -26,6 +26,8 @@ from ..cycles.device import device_notes, use_device
 from ..cycles.picture import CyclesPicture, picture_of
 from ..cycles.shader import check_cycles
 from ..engine.engine import CameraRayCaster
+from ..faces.picture import EEVEE, WORKBENCH, FacesPicture
+from ..faces.picture import picture_of as faces_picture
 from ..output.points import PointFiles, add_points, check_points
 from ..output.stamps import file_hash, finished, stamp_of
 from ..process import signals
@@ -43,7 +45,8 @@ from .options import go_to, open_scene, stem, use_camera
 from .words import Parser, add_cameras, check_cameras, pass_names, sample_count
 
 CYCLES = "CYCLES"
-ENGINES = CameraRayCaster.bl_idname, CYCLES
+OWN = CameraRayCaster.bl_idname
+ENGINES = OWN, CYCLES, EEVEE, WORKBENCH
 
 DEFAULT_PASSES = ("combined", "depth", "normal", "position", "object_index")
 """Passes that are cast if a view layer has only the combined pass enabled."""
@@ -70,7 +73,7 @@ def add_words(parser) -> None:
                         help="engine that renders the combined pass; the add-on casts the other passes; "
                              "default: %(default)s")  # fmt: skip
     parser.add_argument(
-        "--samples", type=sample_count, metavar="N", help="samples per pixel of Cycles; default: the file's"
+        "--samples", type=sample_count, metavar="N", help="samples of Cycles or EEVEE per pixel; default: the file's"
     )
     parser.add_argument("--device", type=str.upper, metavar="KIND", help=
         "kind of device that Cycles renders on, such as CPU or OPTIX; default: the file's and the Preferences'")
@@ -92,8 +95,10 @@ def parsed(parser: Parser, arguments: Sequence[str]) -> Namespace:
     """Return the options of a command line. Raises InputError for options that cannot be combined."""
     options = parser.parse_args(arguments)
     check_cameras(options)
-    if options.samples and options.engine != CYCLES:
-        raise InputError(f"--samples applies to --engine {CYCLES} only: the samples of the add-on are set in the file")
+    if options.samples and options.engine not in (CYCLES, EEVEE):
+        raise InputError(
+            f"--samples applies to --engine {CYCLES} and {EEVEE} only: the samples of the others are set in the file"
+        )
     if options.device and options.engine != CYCLES:
         raise InputError(f"--device applies to --engine {CYCLES} only: the add-on casts on the processor")
     if options.shard and options.frames is None:
@@ -217,7 +222,7 @@ class Pictures:
         if ray_map is not None and ray_maps.digest_of(camera) == ray_map.digest:
             left_out, beside = ray_maps.PASSES, [self.options.output / ray_map.file]
         self.tick(lambda key: key not in left_out)
-        picture = self._by_cycles(prog) if self.options.engine == CYCLES else None
+        picture = self._by_engine(prog) if self.options.engine != OWN else None
         of = of_job(stamp, job, ray_map)
         report, paths = yield from self.rendering(
             job, of, shown=self.options.pictures, picture=picture, beside=beside, keypoints=self.keypoints,
@@ -264,11 +269,13 @@ class Pictures:
             tick(self.scene, layer, own)
             layer.use_freestyle = name in self.drawn and "combined" in own
 
-    def _by_cycles(self, prog: str) -> CyclesPicture:
-        """Render the current frame with Cycles, which a Python signal handler cannot interrupt."""
+    def _by_engine(self, prog: str) -> CyclesPicture | FacesPicture:
+        """Render the current frame with another engine, which a Python signal handler cannot interrupt."""
         files.check(self.scene)
         with signals.leaving(f"{prog}: {signals.STOPPED}"):
-            return picture_of(self.scene)
+            if self.options.engine == CYCLES:
+                return picture_of(self.scene)
+            return faces_picture(self.scene, self.options.engine, self.options.samples or 0)
 
 
 def of_job(stamp: Mapping[str, Any], job: PictureJob, ray_map: RayMap | None) -> dict[str, Any]:

@@ -16,6 +16,7 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 from ...core.file_set import clear_up
 from ...core.records import InputError
 from ..cycles.renderer import changed
+from ..faces.picture import EEVEE, WORKBENCH
 from ..properties.declared import ENGINE
 from ..read.camera import ALL, find_cameras
 from ..terminal import files
@@ -102,9 +103,10 @@ class CastAll(bpy.types.Operator):
         description="Engine that renders the combined pass",
         items=[
             (ENGINE, "Camera Ray Caster", "The colors that the rays hit"),
-            ("CYCLES", "Cycles", "A picture of Cycles, through the camera's model; the other passes are cast"),
+            *((name, label, f"A picture of {label}, through the camera's model; the other passes are cast")
+              for name, label in (("CYCLES", "Cycles"), (EEVEE, "EEVEE"), (WORKBENCH, "Workbench"))),
         ],
-    )
+    )  # fmt: skip
     skip_existing: BoolProperty(
         name="Skip Existing",
         description="Skip pictures that are already finished, from the same file and settings",

@@ -17,11 +17,12 @@ from .point_operators import EmptyAtHit, PixelOfPoint
 from .rig_operators import AddCameras
 from .see_through import SeeThrough
 from .show_result import ResultsMenu
+from .through_model import RenderThroughModel
 
 LISTED = (
-    SeeThrough, Cast, Verify, StepThrough, PixelOfPoint, EmptyAtHit, CopySteps, ClearSteps, SetFrame, LoadCalibration,
-    AddCameras, AddGradient, FollowTimeline, UseThisEngine, UseInCycles, FitLens, BackToBlender, CopyFacts, CopyK,
-    CopyWorldToCamera, WriteReport,
+    SeeThrough, RenderThroughModel, Cast, Verify, StepThrough, PixelOfPoint, EmptyAtHit, CopySteps, ClearSteps,
+    SetFrame, LoadCalibration, AddCameras, AddGradient, FollowTimeline, UseThisEngine, UseInCycles, FitLens,
+    BackToBlender, CopyFacts, CopyK, CopyWorldToCamera, WriteReport,
 )  # fmt: skip
 MENUS = (ModelMenu, TimeMenu, ResultsMenu, ExportMenu, ExamplesMenu, CamerasMenu)
 

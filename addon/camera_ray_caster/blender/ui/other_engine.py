@@ -10,10 +10,12 @@ from bpy.app.handlers import persistent
 from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
 from ..properties.labels import label_of
 from ..read.camera import shader_mark
+from ..view3d import live
 from .cycles_operators import UseInCycles
 from .model_settings import blender_type
 from .needs import OfScene
 from .notes import Note
+from .through_model import RenderThroughModel
 
 CYCLES = "CYCLES"
 SHOWN = 10.0
@@ -65,11 +67,13 @@ def engine_label(engine: str) -> str:
 def engine_note(scene, camera) -> Note | None:
     """Return a note on what the scene's engine does not support, with buttons for the alternatives, or None."""
     said = ignored(scene, camera)
-    return Note(said, _draw_buttons) if said else None
+    return Note(said, partial(_draw_buttons, scene.render.engine in live.ENGINES)) if said else None
 
 
-def _draw_buttons(row) -> None:
+def _draw_buttons(can_warp: bool, row) -> None:
     row.operator(UseThisEngine.bl_idname, text="Ray Caster")
+    if can_warp:
+        row.operator(RenderThroughModel.bl_idname, text="Through Model")
     row.operator(UseInCycles.bl_idname).set_engine = True
 
 

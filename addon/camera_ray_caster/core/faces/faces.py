@@ -65,17 +65,6 @@ class Face:
         left, right, bottom, top = map(atan, self.window)
         return degrees(right - left), degrees(top - bottom)
 
-    def widened(self, share: float) -> Face:
-        """Return the face with a border of this share of its size on each side, in texels of the same size."""
-        border = [max(1, round(share * side)) for side in self.size]
-        left, right, bottom, top = self.window
-        x, y = (
-            (high - low) / side * more
-            for low, high, side, more in zip((left, bottom), (right, top), self.size, border, strict=True)
-        )
-        size = self.size[0] + 2 * border[0], self.size[1] + 2 * border[1]
-        return replace(self, window=(left - x, right + x, bottom - y, top + y), size=size)
-
     def places(self, directions: np.ndarray) -> np.ndarray:
         """Return where directions (..., 3) in the frame of the faces meet the picture, (..., 2) in texels from its
         bottom left corner; of no meaning for directions that lead behind it.

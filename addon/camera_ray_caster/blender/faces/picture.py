@@ -1,0 +1,199 @@
+"""EEVEE's or Workbench's picture of a scene through its camera: float pixels that coincide with those of a cast.
+
+Blender renders a few perspective faces from the camera's eye, which the model's formula resamples (``core.faces``).
+Each face has a camera of its own, a child of the scene's camera, so that motion blur follows it. EEVEE renders beyond
+the edges of faces, so that screen-space effects have what lies there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager, redirect_stdout
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from ...core.camera.build import camera_from
+from ...core.camera.camera import Camera
+from ...core.camera.stereo import eye_record
+from ...core.casting.needs import image_bytes
+from ...core.faces.faces import Face, faces_of, refusal, turn_of
+from ...core.faces.resample import FINER, resampled
+from ...core.memory import of_pixels, require
+from ...core.records import InputError
+from ..cycles.renderer import changed, only_engine
+from ..process.opening import reported
+from ..process.signals import raise_if_stopping
+from ..read.camera import camera_record, view_names
+from ..read.scene import evaluated_camera
+from .driver import check_driver
+
+EEVEE, WORKBENCH = "EEVEE", "WORKBENCH"
+NAMES = {EEVEE: ("BLENDER_EEVEE_NEXT", "BLENDER_EEVEE"), WORKBENCH: ("BLENDER_WORKBENCH",)}
+"""Blender's names of the engines, which depend on its version."""
+OVERSCAN = 10.0
+"""Percent of a face by which EEVEE renders beyond its edges."""
+SENSOR = 36.0
+IMAGE = {
+    "media_type": "IMAGE", "file_format": "OPEN_EXR", "color_mode": "RGBA", "color_depth": "32",
+    "color_management": "FOLLOW_SCENE",
+}  # fmt: skip
+"""Settings of the files of faces, in the order in which they can be set; Blender before 5.0 has no media_type."""
+FAILED = "{} did not render a face: {}"
+MATCAP = "A MatCap turns with each face of the picture, so that brightness jumps: choose Studio or Flat lighting"
+NO_BLUR = "Depth of field is left out: the picture is rendered from the center of the lens"
+
+
+@dataclass(frozen=True)
+class FacesPicture:
+    """The combined pass of every view layer and view."""
+
+    pixels: Mapping[tuple[str, str], np.ndarray]
+    """Pixels (rows, columns, 4) float32 of the render window, row 0 at the bottom, by names of view layer and view."""
+    made_by: Mapping[str, object]
+    """Engine and faces, for the report."""
+    seconds: float
+    warnings: tuple[str, ...] = ()
+    step = "faces"
+    """Name of its seconds in the report."""
+
+
+def engine_name(engine: str) -> str:
+    """Return Blender's name of an engine, EEVEE or WORKBENCH."""
+    return NAMES[engine][-1 if bpy.app.version >= (5, 0) else 0]
+
+
+def picture_of(scene, engine: str, samples: int = 0) -> FacesPicture:
+    """Render a scene's current frame with EEVEE or WORKBENCH, with the file's settings and the rays of its camera.
+
+    samples: of EEVEE for each texel; 0 for the file's. Raises InputError for a camera that cannot be cast or whose
+    picture is no warp of faces, and if Blender cannot render; Cancelled if stopped between two faces.
+    """
+    check_driver(engine)
+    started, pixels, sizes = perf_counter(), {}, []
+    warnings: list[str] = []
+    eyes = {view: _eye(scene, view, engine) for view in view_names(scene)}
+    with _prepared(scene, engine, samples):
+        for view, (active, camera) in eyes.items():
+            if camera.aperture is not None:
+                warnings.append(NO_BLUR)
+            raster = camera.raster
+            faces = faces_of(camera, 1 / FINER, part=(raster.x0, raster.y0, raster.x1, raster.y1))
+            sizes += [face.size for face in faces]
+            require(image_bytes(raster.shape, ["combined"], np.float32), of_pixels("the picture", raster.shape))
+            for layer in [layer for layer in scene.view_layers if layer.use]:
+                rendered = [_rendered(scene, active, camera, face, layer, engine) for face in faces]
+                pixels[layer.name, view] = resampled(camera, faces, rendered)
+    if engine == WORKBENCH and scene.display.shading.light == "MATCAP":
+        warnings.append(MATCAP)
+    texels = sum(width * height for width, height in sizes)
+    made_by: dict[str, object] = {"engine": engine, "faces": len(sizes), "texels": texels}
+    if engine == EEVEE:
+        made_by["samples"] = samples or scene.eevee.taa_render_samples
+    return FacesPicture(pixels, made_by, perf_counter() - started, tuple(dict.fromkeys(warnings)))
+
+
+def _eye(scene, view: str, engine: str) -> tuple[bpy.types.Object, Camera]:
+    """Return the camera object and the camera of a view. Raises InputError if the engine cannot render its picture."""
+    with evaluated_camera(scene, view=view) as (active, depsgraph):
+        camera = camera_from(eye_record(camera_record(active, depsgraph), view))
+    reason = refusal(camera)
+    if not reason and camera.pixel_time is not None:
+        reason = f"each pixel of camera {camera.name!r} has its own time"
+    if reason:
+        raise InputError(f"{reason}: {engine} cannot render that; cast it, or use --engine CYCLES")
+    return active, camera
+
+
+@contextmanager
+def _prepared(scene, engine: str, samples: int) -> Iterator[None]:
+    """Set the scene up for renders of faces until the context is left."""
+    render = scene.render
+    with ExitStack() as stack:
+        only_engine(stack, scene)
+        changed(stack, scene, camera=scene.camera)
+        own = ("filepath", "use_border", "use_multiview", "use_single_layer", "resolution_percentage", "resolution_x")
+        own += ("resolution_y", "pixel_aspect_x", "pixel_aspect_y", "use_overwrite", "use_placeholder")
+        changed(stack, render, **{name: getattr(render, name) for name in own})
+        changed(stack, render, use_border=False, use_multiview=False, resolution_percentage=100)
+        image = {name: value for name, value in IMAGE.items() if hasattr(render.image_settings, name)}
+        before = {name: getattr(render.image_settings, name) for name in image}
+        stack.callback(lambda: [setattr(render.image_settings, name, value) for name, value in before.items()])
+        for name, value in image.items():
+            setattr(render.image_settings, name, value)
+        for layer in scene.view_layers:
+            changed(stack, layer, use=layer.use)
+        if engine == EEVEE:
+            eevee = scene.eevee
+            changed(stack, eevee, use_overscan=True, overscan_size=max(eevee.overscan_size, OVERSCAN),
+                    taa_render_samples=samples or eevee.taa_render_samples)  # fmt: skip
+        changed(stack, render, engine=engine_name(engine))
+        shading = scene.display.shading
+        if engine == WORKBENCH and shading.light == "STUDIO":
+            changed(stack, shading, use_world_space_lighting=True)
+        yield
+
+
+def _rendered(scene, active, camera: Camera, face: Face, layer, engine: str) -> np.ndarray:
+    """Return the pixels of a face, (height, width, 4) float32, row 0 at the bottom."""
+    raise_if_stopping()
+    used = [other for other in scene.view_layers if other.use]
+    path = Path(bpy.app.tempdir) / "face.exr"
+    with ExitStack() as stack:
+        item = _camera_of(stack, scene, active, camera, face)
+        for other in used:
+            changed(stack, other, use=other == layer)
+        (left, right, bottom, top), (width, height) = face.window, face.size
+        across, up = (right - left) / width, (top - bottom) / height
+        scene.camera, scene.render.filepath = item, str(path)
+        scene.render.resolution_x, scene.render.resolution_y = width, height
+        scene.render.pixel_aspect_x, scene.render.pixel_aspect_y = max(across / up, 1.0), max(up / across, 1.0)
+        try:
+            with redirect_stdout(None):
+                bpy.ops.render.render(scene=scene.name, write_still=True)
+        except RuntimeError as error:
+            raise InputError(FAILED.format(engine, reported(error))) from error
+    raise_if_stopping()
+    return _read(path, face, engine)
+
+
+def _camera_of(stack: ExitStack, scene, active, camera: Camera, face: Face):
+    """Return a camera object that sees a face, a child of the scene's camera, until the stack is closed."""
+    data = bpy.data.cameras.new("Face")
+    stack.callback(bpy.data.cameras.remove, data)
+    item = bpy.data.objects.new("Face", data)
+    stack.callback(bpy.data.objects.remove, item)
+    scene.collection.objects.link(item)
+    stack.callback(setattr, scene, "camera", active)
+    left, right, bottom, top = face.window
+    width = right - left
+    data.sensor_fit, data.sensor_width, data.lens = "HORIZONTAL", SENSOR, SENSOR / width
+    data.shift_x, data.shift_y = (left + right) / 2 / width, (bottom + top) / 2 / width
+    data.clip_start, data.clip_end = camera.clip_start / face.reach, camera.clip_end
+    world = np.eye(4)
+    world[:3, :3], world[:3, 3] = turn_of(camera) @ face.axes.T, camera.pose.eye
+    item.parent = active
+    item.matrix_basis = Matrix(np.linalg.inv(np.array(active.matrix_world)) @ world)
+    return item
+
+
+def _read(path: Path, face: Face, engine: str) -> np.ndarray:
+    """Return the pixels of a file, which is removed."""
+    if not path.is_file():
+        raise InputError(FAILED.format(engine, "see Blender's messages"))
+    image = bpy.data.images.load(str(path))
+    try:
+        image.colorspace_settings.is_data = True
+        width, height = image.size
+        pixels = np.empty(width * height * 4, np.float32)
+        image.pixels.foreach_get(pixels)
+    finally:
+        bpy.data.images.remove(image)
+        path.unlink()
+    if (width, height) != face.size:
+        raise InputError(f"Blender rendered {width} x {height} pixels in place of {face.size}")
+    return pixels.reshape(height, width, 4)

@@ -1,0 +1,44 @@
+"""Render Through Model: F12 with EEVEE or Workbench through the camera's model, beside the passes of a cast."""
+
+import bpy
+
+from ..engine.engine import RenderCall
+from ..faces.picture import EEVEE, NAMES, WORKBENCH, picture_of
+from ..output.restored import restored
+from ..properties.declared import ENGINE
+from .needs import OfScene, reporting
+
+
+class RenderThroughModel(OfScene, bpy.types.Operator):
+    """Render the frame with EEVEE or Workbench through the camera's model, whatever it is, and cast the other passes.
+    EEVEE renders if the scene has another engine"""
+
+    bl_idname = "camera_ray_caster.render_through_model"
+    bl_label = "Render Through Model"
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context):
+        """Gray out the operator without a camera, and during a render."""
+        if not super().poll(context):
+            return False
+        cls.poll_message_set("Blender is rendering: wait until it has ended")
+        return not bpy.app.is_job_running("RENDER")
+
+    @reporting
+    def execute(self, context):
+        """Render the faces, then the frame, and show it."""
+        scene = context.scene
+        engine = WORKBENCH if scene.render.engine in NAMES[WORKBENCH] else EEVEE
+        picture = picture_of(scene, engine)
+        with restored(scene), RenderCall(picture).handed():
+            scene.camera_ray_caster.exact_shapes, scene.render.engine = False, ENGINE
+            bpy.ops.render.render(scene=scene.name)
+        for line in picture.warnings:
+            self.report({"INFO"}, line)
+        if not bpy.app.background:
+            bpy.ops.render.view_show("INVOKE_DEFAULT")
+        return {"FINISHED"}
+
+
+CLASSES = (RenderThroughModel,)

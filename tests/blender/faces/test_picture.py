@@ -1,0 +1,152 @@
+"""EEVEE's and Workbench's pictures through camera models, beside the cast of the same scene.
+
+They need a GPU or Mesa's software OpenGL; where Blender has neither, its message is the reason for which a test is
+skipped.
+"""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from camera_ray_caster import InputError, cast, read_camera, read_shapes
+from camera_ray_caster.blender.faces.driver import check_driver
+from camera_ray_caster.blender.faces.picture import EEVEE, WORKBENCH, picture_of
+
+ROOT = Path(__file__).parents[3]
+COLORS = [(1.0, 0.0, 0.0, 1.0), (0.0, 1.0, 0.0, 1.0), (0.0, 0.0, 1.0, 1.0), (1.0, 1.0, 0.0, 1.0), (0.0, 1.0, 1.0, 1.0)]
+PLACES = [(0, 0, -3), (3, 0.5, -1), (-3, -0.5, 0.5), (0.5, 3, 0.5), (0, -3, -1.5)]
+"""Cubes before the camera, to its right and left, above and below it."""
+
+
+@pytest.fixture
+def cubes(blender, camera_scene):
+    """Cubes of one color each around the camera, which Workbench draws as they are."""
+    for place, color in zip(PLACES, COLORS, strict=True):
+        blender.ops.mesh.primitive_cube_add(size=1.6, location=place, rotation=(0.3, 0.4, 0.5))
+        blender.context.object.color = color
+    scene, shading = camera_scene, camera_scene.display.shading
+    shading.light, shading.color_type = "FLAT", "OBJECT"
+    shading.show_cavity = shading.show_object_outline = shading.show_shadows = False
+    scene.display.render_aa, scene.render.film_transparent = "OFF", True
+    scene.camera.location = scene.camera.rotation_euler = 0, 0, 0
+    scene.render.resolution_x, scene.render.resolution_y = 64, 48
+    return scene
+
+
+@pytest.fixture(autouse=True)
+def driver():
+    """Something that draws."""
+    try:
+        check_driver("Blender")
+    except InputError as error:
+        pytest.skip(str(error))
+
+
+def picture(scene, engine=WORKBENCH, **options):
+    """The picture of the only view layer and view."""
+    return next(iter(picture_of(scene, engine, **options).pixels.values()))
+
+
+def is_far_from_edges(index, pixels=1):
+    """Where all pixels around have the same index."""
+    around = np.pad(index, pixels, mode="constant" if index.dtype == bool else "edge")  # no ray beyond the frame
+    rows, columns = index.shape
+    shifts = [(i, j) for i in range(2 * pixels + 1) for j in range(2 * pixels + 1)]
+    return np.all([around[i : i + rows, j : j + columns] == index for i, j in shifts], axis=0)
+
+
+def check_colors(scene, pixels):
+    """A pixel one pixel or more from an edge has the color of the object that is cast, and its alpha."""
+    camera, shapes = read_camera(scene), read_shapes(scene)
+    images = cast(camera, shapes, ("shape_index", "valid"))
+    index, valid = images["shape_index"], images["valid"]
+    assert pixels.shape == (*index.shape, 4)
+    assert (pixels[~valid] == 0).all()
+    names = [shapes.names[shapes.name_index[k]] for k in range(len(shapes.center))]
+    colors = np.array([scene.objects[name].color for name in names] + [(0.0, 0.0, 0.0, 0.0)])
+    flat = is_far_from_edges(index) & is_far_from_edges(valid) & valid
+    assert flat.mean() > 0.2
+    assert pixels[flat] == pytest.approx(colors[index[flat]], abs=2e-3)
+
+
+@pytest.mark.parametrize("model", ["DOME_MASTER", "CYLINDRICAL", "FISHEYE_STEREOGRAPHIC", "FISHEYE_ORTHOGRAPHIC"])
+def test_each_pixel_has_the_color_of_the_object_that_is_cast(cubes, model):
+    cubes.camera.data.camera_ray_caster.model = model
+    check_colors(cubes, picture(cubes))
+
+
+def test_a_panorama_a_border_and_a_frame_of_other_pixels(cubes):
+    render = cubes.render
+    cubes.camera.data.type, cubes.camera.data.panorama_type = "PANO", "EQUIRECTANGULAR"
+    render.use_border, render.border_min_x, render.border_max_x, render.border_max_y = True, 0.25, 0.8, 0.9
+    render.pixel_aspect_x = 1.5
+    before = {name: getattr(render, name) for name in ("resolution_x", "filepath", "engine", "pixel_aspect_x")}
+    cameras = len(cubes.objects)
+    check_colors(cubes, picture(cubes))
+    assert {name: getattr(render, name) for name in before} == before
+    assert len(cubes.objects) == cameras
+    assert cubes.camera.name == "Camera"
+    assert render.use_border
+
+
+def test_eyes_of_a_stereo_camera_and_view_layers(cubes):
+    cubes.camera.data.camera_ray_caster.model = "DOME_MASTER"
+    cubes.render.use_multiview, cubes.camera.data.stereo.interocular_distance = True, 0.5
+    cubes.view_layers.new("Second")
+    found = picture_of(cubes, WORKBENCH).pixels
+    assert sorted(found) == [(layer, view) for layer in ("Second", "ViewLayer") for view in ("left", "right")]
+    images = cast(read_camera(cubes, view="right"), read_shapes(cubes), ("shape_index", "valid"))
+    index = images["shape_index"]
+    flat = is_far_from_edges(index) & is_far_from_edges(images["valid"]) & (index >= 0)
+    wanted = np.array(COLORS)[index[flat]]
+    assert found["ViewLayer", "right"][flat] == pytest.approx(wanted, abs=2e-3)
+    assert np.abs(found["ViewLayer", "left"] - found["ViewLayer", "right"]).max() > 0.5
+
+
+@pytest.mark.parametrize(("model", "time", "why"), [
+    ("GENERAL_LINEAR", "NONE", "many origins"), ("DOME_MASTER", "ROWS", "its own time"),
+])  # fmt: skip
+def test_what_cannot_be_rendered_is_refused_in_a_line(cubes, model, time, why):
+    own = cubes.camera.data.camera_ray_caster
+    own.model, own.time_mode, own.time_end = model, time, 5
+    with pytest.raises(InputError, match=why):
+        picture_of(cubes, WORKBENCH)
+
+
+def test_the_button_renders_the_passes_beside_the_picture(blender, cubes, tmp_path):
+    cubes.camera.data.camera_ray_caster.model = "DOME_MASTER"
+    cubes.render.engine, cubes.view_layers[0].use_pass_z = "BLENDER_WORKBENCH", True
+    expected = picture(cubes)
+    assert blender.ops.camera_ray_caster.render_through_model() == {"FINISHED"}
+    assert cubes.render.engine == "BLENDER_WORKBENCH"
+    cubes.render.image_settings.file_format = "OPEN_EXR"
+    path = tmp_path / "picture.exr"
+    blender.data.images["Render Result"].save_render(str(path), scene=cubes)
+    image = blender.data.images.load(str(path))
+    pixels = np.array(image.pixels[:], np.float32).reshape(*expected.shape)
+    assert pixels == pytest.approx(expected, abs=1e-3)  # half floats
+
+
+@pytest.mark.full
+@pytest.mark.cases(1)
+def test_eevee_has_the_edges_of_the_cast_too(cubes):
+    cubes.camera.data.camera_ray_caster.model, cubes.world = "DOME_MASTER", None
+    pixels = picture(cubes, EEVEE, samples=4)
+    index = cast(read_camera(cubes), read_shapes(cubes), ("shape_index",))["shape_index"]
+    flat = is_far_from_edges(index)
+    assert (pixels[..., 3] > 0.5)[flat].tolist() == (index >= 0)[flat].tolist()
+
+
+def test_without_a_driver_it_says_so_in_a_line():
+    """In a process of its own, whose EGL has no drivers: Blender would end the process."""
+    words = [sys.executable, str(ROOT / "scripts" / "cast.py"), str(ROOT / "blend_scenes" / "toys.blend")]
+    no_drivers = {"__EGL_VENDOR_LIBRARY_FILENAMES": os.devnull, "LIBGL_DRIVERS_PATH": os.devnull}
+    made = subprocess.run(
+        [*words, "--engine", WORKBENCH], env=os.environ | no_drivers, capture_output=True, text=True, timeout=100
+    )
+    assert made.returncode == 2
+    assert made.stderr.splitlines()[-1].startswith("cast.py: WORKBENCH renders on a GPU, and this machine")
