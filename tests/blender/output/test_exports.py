@@ -1,5 +1,7 @@
 """Exports of a scene: which cameras and frames, and files that appear together or not at all."""
 
+import json
+
 import bpy
 import numpy as np
 import pytest
@@ -155,3 +157,23 @@ def test_every_format_of_a_scene_appears_whole(scene, tmp_path, key):
     if key in ("npz", "mrcal"):
         assert names(tmp_path) == [f"{name}_000{frame}.{paths[0].suffix[1:]}" for name in ("Moving", "Still_one")
                                    for frame in (1, 2)]  # fmt: skip
+
+
+def test_a_rolling_shutter_has_blenders_poses_at_its_first_and_last_row(scene, tmp_path):
+    """The shutter of half a frame about frame 5 exposes a row for a tenth of it; the rows are read within the rest. The
+    times are those of the middle of their exposure.
+    """
+    first, last = (-0.25 + 0.5 * (0.05 + 0.9 * row / 60) for row in (1, 60))
+    scene.camera.data.camera_ray_caster.time_mode = "ROLLING_SHUTTER"
+    scene.render.motion_blur_shutter = 0.5
+    scene.render.resolution_x, scene.render.resolution_y = 80, 60
+    _, (path,) = exports.write(scene, "nerfstudio", [scene.camera], [5], tmp_path)
+    (frame,) = json.loads(path.read_text())["frames"]
+    assert frame["rolling_shutter"] == "ROLLING_TOP_TO_BOTTOM"
+    np.testing.assert_allclose(np.array(frame["rolling_shutter_offsets"]) * 24, (first, last), atol=1e-7)
+    for name, time in (("transform_matrix", 5 + first), ("transform_matrix_rs", 5 + last)):
+        scene.frame_set(int(time), subframe=time % 1)
+        place = scene.camera.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world.translation
+        assert np.array(frame[name])[:3, 3] == pytest.approx(np.array(place), abs=1e-5)
+    with pytest.raises(InputError, match=r"own time: choose one of nerfstudio, npz, json$"):
+        exports.write(scene, "colmap", [scene.camera], [5], tmp_path / "colmap")

@@ -10,6 +10,7 @@ from dataclasses import replace
 from functools import partial
 
 from ..arguments import unknown
+from ..camera.camera import Camera
 from ..programs import PROGRAMS
 from ..programs.parts.program import CameraRecord
 from ..records import InputError, Pose
@@ -81,6 +82,7 @@ def _prepared(key: str, shots: Sequence[Shot], fit: float | None):
     if chosen.unit is None and shots[0].meters != 1:
         fits.append(f"lengths are in {unit_name(None)} of {shots[0].meters:.6g} m")
         said.append(fits[-1])
+    shots = Each(shots, chosen.at_ends)
     most = max(rigid.with_rotation(shot.camera)[1] for shot in shots)
     moved = f"poses are the nearest rotations to Blender's matrices, which moves pixels by up to {most:.1e}"
     return chosen, Each(shots, partial(_rotated, chosen)), fits, [moved, *said]
@@ -88,11 +90,12 @@ def _prepared(key: str, shots: Sequence[Shot], fit: float | None):
 
 def _rotated(chosen: Format, shot: Shot) -> Shot:
     """Return a camera whose axes are a rotation, and whose place is in the format's unit."""
-    shot = replace(shot, camera=rigid.near(shot.camera))
-    pose = shot.camera.pose
-    return replace(
-        shot, camera=replace(shot.camera, pose=Pose(pose.eye * factor(chosen.unit, shot.meters), pose.basis))
-    )
+
+    def rotated(camera: Camera) -> Camera:
+        camera = rigid.near(camera)
+        return replace(camera, pose=Pose(camera.pose.eye * factor(chosen.unit, shot.meters), camera.pose.basis))
+
+    return replace(shot, camera=rotated(shot.camera), last=shot.last and rotated(shot.last))
 
 
 def _refusal(chosen: Format, shot: Shot) -> str | None:

@@ -58,6 +58,11 @@ class Shot:
     fit: str = ""
     """Remark on a lens that was fitted to the camera's; empty for the camera's own lens."""
 
+    last: Camera | None = None
+    """Of a rolling shutter the camera at the last row that is read; ``camera`` is that at the first one."""
+    offsets: tuple[float, float] = (0.0, 0.0)
+    """Times of these rows, in seconds from the frame's."""
+
     @property
     def remark(self) -> dict[str, str]:
         """Return the entry of JSON with the remark on a fitted lens; none for the camera's own lens."""
@@ -108,6 +113,10 @@ class Format(ABC):
 
         The reason is a clause ("whose k3 is not 0"), or "" if the reason is the model itself.
         """
+
+    def at_ends(self, shot: Shot) -> Shot:
+        """Return what the format writes of a shot: of a rolling shutter its ends, if the format has them."""
+        return shot
 
     def omissions(self, shot: Shot) -> list[str]:
         """Return lines on what the files omit of a camera without the format refusing it."""

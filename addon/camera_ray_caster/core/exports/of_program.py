@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..camera.camera import Camera
+from ..camera.pixel_time import MODE, READOUT, ROLLING_SHUTTER
+from ..camera.times import LinearTime
 from ..programs.parts.lens import Lens, Models, beyond, word_of
-from ..programs.parts.program import CameraRecord, ProgramFiles
+from ..programs.parts.program import CameraRecord, ProgramFiles, Rolling
 from .format import OWN_TIMES, Format, Shot
 from .lenses import calibrations
 
@@ -27,7 +31,7 @@ class ProgramFormat(Format):
 
     def refusal(self, shot):
         """See Format."""
-        if shot.camera.pixel_time is not None:
+        if shot.camera.pixel_time is not None and not self._rolls(shot.camera):
             return OWN_TIMES
         if not self.table:
             return None
@@ -40,6 +44,18 @@ class ProgramFormat(Format):
                 names = min((beyond(lens, terms) for key, terms in self.table.values() if key == lens.model), key=len)
                 return f"whose {', '.join(names)} {'is' if len(names) == 1 else 'are'} not 0"
         return ""
+
+    def _rolls(self, camera: Camera) -> bool:
+        return self.export.rolling and MODE.read(camera.record) == ROLLING_SHUTTER
+
+    def at_ends(self, shot):
+        """See Format."""
+        times = shot.camera.pixel_time
+        if not isinstance(times, LinearTime) or not self._rolls(shot.camera):
+            return shot
+        first, last = (shot.camera.at(frame) for frame in (times.first, times.last))
+        offsets = (times.first - shot.frame) / shot.rate, (times.last - shot.frame) / shot.rate
+        return replace(shot, camera=first, last=last, offsets=offsets)
 
     def omissions(self, shot):
         """See Format."""
@@ -69,6 +85,14 @@ def find_lens(models: Models, camera: Camera) -> Lens | None:
 
 def record_of(shot: Shot, lens: Lens) -> CameraRecord:
     """Return a camera at a frame as a plain record."""
-    pose, own = np.eye(4), shot.camera.pose
-    pose[:3, :3], pose[:3, 3] = own.basis * (1, -1, -1), own.eye
-    return CameraRecord(shot.name, shot.stem, lens, pose, shot.frame, shot.seconds, shot.meters, shot.fit)
+    rolling = None
+    if shot.last is not None:
+        rolling = Rolling(READOUT.read(shot.camera.record), shot.offsets, _pose(shot.last))
+    times = shot.frame, shot.seconds, shot.meters
+    return CameraRecord(shot.name, shot.stem, lens, _pose(shot.camera), *times, shot.fit, rolling)
+
+
+def _pose(camera: Camera) -> np.ndarray:
+    pose = np.eye(4)
+    pose[:3, :3], pose[:3, 3] = camera.pose.basis * (1, -1, -1), camera.pose.eye
+    return pose

@@ -5,7 +5,9 @@ Entries of the whole file count before those of a frame; if it has one coefficie
 Without w and h the pictures are as large as the frame, as in the files of NeRF, which have camera_angle_x alone.
 EQUIRECTANGULAR is the whole sphere; an ORTHOPHOTO's rays are parallel. Poses are from Blender's camera frame to the
 world. Written, all frames are of one camera model, and distortion is stored per frame, because readers do not agree on
-the order of p1 and p2 in the head of the file.
+the order of p1 and p2 in the head of the file. A frame of a rolling shutter has the pose at the first row that is read,
+transform_matrix_rs at the last one, which are gsplat's viewmats and viewmats_rs (from the world, with y down), their
+times in seconds from the frame's, and the order by gsplat's name.
 Reference: nerfstudio documentation, Data conventions; its reader, nerfstudio_dataparser.py.
 """
 
@@ -179,7 +181,14 @@ def frame_of(record: CameraRecord) -> dict[str, Any]:
     width, height = record.lens.size
     size = {"file_path": record.image, "w": width, "h": height}
     lens = dict(zip(("fl_x", "fl_y", "cx", "cy", *terms), values, strict=True))
-    return size | lens | {"transform_matrix": record.blenders.tolist()} | record.remark
+    pose = {"transform_matrix": record.blenders.tolist()}
+    if record.rolling is not None:
+        pose |= {
+            "transform_matrix_rs": (record.rolling.pose @ FROM_BLENDER).tolist(),
+            "rolling_shutter": f"ROLLING_{record.rolling.readout}",
+            "rolling_shutter_offsets": list(record.rolling.offsets),
+        }
+    return size | lens | pose | record.remark
 
 
 PROGRAM = ProgramFiles(
@@ -188,6 +197,6 @@ PROGRAM = ProgramFiles(
     reads="OPENCV, PINHOLE, OPENCV_FISHEYE, FISHEYE624, EQUIRECTANGULAR, ORTHOPHOTO",
     lost="several camera models in one file; k4 to k6 of a pinhole", read=read, poses=poses,
     export=FileWriter(
-        "nerfstudio", "nerfstudio", "transforms.json: pinholes and fisheyes, and poses", write, WRITTEN
+        "nerfstudio", "nerfstudio", "transforms.json: pinholes and fisheyes, and poses", write, WRITTEN, rolling=True
     ),
 )  # fmt: skip

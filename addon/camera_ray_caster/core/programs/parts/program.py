@@ -30,6 +30,17 @@ SEPARATELY = "export them separately, each by its name (--cameras NAME)"
 """What to do if lenses do not fit into one file."""
 
 
+class Rolling(NamedTuple):
+    """A rolling shutter, from the first row or column that is read to the last."""
+
+    readout: str
+    """Order in which they are read: TOP_TO_BOTTOM, BOTTOM_TO_TOP, LEFT_TO_RIGHT or RIGHT_TO_LEFT."""
+    offsets: tuple[float, float]
+    """Times of the first and the last one, in seconds from that of the frame."""
+    pose: np.ndarray
+    """(4, 4): the pose at the last one."""
+
+
 @dataclass(frozen=True, eq=False)
 class CameraRecord:
     """A camera to write, at a time."""
@@ -48,6 +59,8 @@ class CameraRecord:
     """Length of a Blender unit in meters."""
     fit: str = ""
     """Remark on a lens that was fitted to the camera's; empty for the camera's own lens."""
+    rolling: Rolling | None = None
+    """Of a rolling shutter, whose ``pose`` is that of the first row that is read."""
 
     @property
     def image(self) -> str:
@@ -90,6 +103,8 @@ class FileWriter:
     """Returns why a camera cannot be written, as a clause ("whose frame is not a whole number"); None if it can."""
     rigid: bool = True
     """Whether a pose is stored as a rotation."""
+    rolling: bool = False
+    """Whether a rolling shutter is written, by its first and last pose."""
 
 
 class PictureFolders(NamedTuple):
