@@ -9,6 +9,7 @@
     python scripts/benchmark.py --casts         whole casts beside writing their arrays; one thread and two
     python scripts/benchmark.py --renders --size 3840x2160    F12 beside the cast alone, and beside Blender's own share
     python scripts/benchmark.py --dataset       a data set of meshes: cost against writing alone, and two processes
+    python scripts/benchmark.py --sets          sets of 100, 400 and 1,600 small pictures: processor time, memory, bytes
     python scripts/benchmark.py --against v0.1.0    this checkout against a commit: casts and the rays of each model
     python scripts/benchmark.py --against v0.1.0 --same    whether the pictures of the example scenes are the same
     python scripts/benchmark.py --scaling --picture FILE.png    cost against pixels, shapes and triangles

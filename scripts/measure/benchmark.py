@@ -40,6 +40,9 @@ def main(description: str) -> int:
         "--dataset", action="store_true", help="measure pictures of a data set, with one process and with two"
     )
     parser.add_argument(
+        "--sets", action="store_true", help="measure sets of many small pictures: processor time, memory and bytes"
+    )
+    parser.add_argument(
         "--against", metavar="COMMIT", help="compare the processor time of this checkout with that of another commit"
     )
     parser.add_argument(
@@ -95,6 +98,10 @@ def main(description: str) -> int:
         from . import dataset_speed
 
         figures = dataset_speed.run(8 if options.quick else 100)
+    elif options.sets:
+        from . import sets
+
+        figures = sets.run(sets.COUNTS[:1] if options.quick else sets.COUNTS)
     elif options.scaling:
         from . import scaling
 

@@ -18,7 +18,7 @@ from ..scripts.running import ROOT, complaints, left, script, small, start
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
 
-KILLS = 20
+KILLS = 50
 """Moments for a worker, and as many for the whole run."""
 FEW = 1
 """Moments of each that ``make test`` tries."""

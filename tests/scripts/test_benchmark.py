@@ -116,3 +116,13 @@ def test_a_checkout_is_timed_against_a_commit_and_a_wrong_one_is_refused(tmp_pat
     refused = script("benchmark", "--against", "nothing")
     assert refused.returncode == 2
     assert "there is no commit 'nothing'" in refused.stderr
+
+
+def test_sets_are_measured(monkeypatch, capsys):
+    from measure import sets
+
+    few, many = sets.run((1, 3))[:2]
+    assert few["cpu"] < many["cpu"]
+    assert 50 < few["peak"] < 5000
+    assert 5e3 < many["json"] < 20e3  # report and annotations; 63 kB before what is common was in dataset.json
+    assert "each further picture" in capsys.readouterr().out
