@@ -33,7 +33,7 @@ CONTENTS = {
         "/addon/camera_ray_caster/core/programs/README", "/addon/camera_ray_caster/blender/read/README",
         "/blend_scenes/README",
     ),
-    "Measured": ("accuracy", "/scripts/README"),
+    "Measured": ("accuracy", "scale", "/scripts/README"),
     "How it is built": ("/addon/README", "/CONTRIBUTING", "/CHANGELOG", "README <../README>"),
 }  # fmt: skip
 """The pages in the sidebar, by caption, as the start page names them."""

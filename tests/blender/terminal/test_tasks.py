@@ -1,5 +1,7 @@
 """The tasks of a farm on a simulated cluster: nothing is lost or doubled, whatever ends, and how far it scales."""
 
+import re
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -9,6 +11,8 @@ from camera_ray_caster.blender.terminal.jobs import Outcome
 from camera_ray_caster.core.records import InputError
 
 from .simulated import Cluster
+
+PAGE = Path(__file__).parents[3] / "docs" / "scale.md"
 
 
 class Job(SimpleNamespace):
@@ -109,3 +113,5 @@ def test_workers_scale_until_the_scheduler_is_busy(monkeypatch):
     assert rates[100] > 80 * rates[1]
     assert rates[400] < 300 * rates[1]
     assert rates[400] > 0.7 * 4000
+    told = re.findall(r"^\| (\d+) \| (\d+) \| \d+ % \|$", PAGE.read_text(), re.MULTILINE)
+    assert [(int(workers), int(rate)) for workers, rate in told] == [(one, round(rate)) for one, rate in rates.items()]
