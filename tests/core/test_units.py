@@ -121,7 +121,9 @@ def test_poses_of_a_sequence_are_in_meters():
 UNITS = {
     "COLMAP": "", "nerfstudio": "", "Kalibr": "m", "EuRoC": "m", "OKVIS": "m", "Basalt": "m", "BOP": "mm",
     "Project Aria": "m", "maplab": "m", "HOT3D": "m", "Metashape": "", "Meshroom": "", "Polycam": "m",
-    "ARKitScenes": "m", "KITTI": "m", "this add-on": "", "TUM": "m", "EuRoC trajectories": "m",
+    "ARKitScenes": "m", "OpenCV": "", "mrcal": "", "OpenSfM": "m", "RealityCapture": "", "openMVG": "",
+    "Bundler": "", "NVM": "", "Gaussian splatting": "", "nerfstudio camera paths": "", "LLFF": "", "Open3D": "m",
+    "KITTI": "m", "this add-on": "", "TUM": "m", "EuRoC trajectories": "m",
 }  # fmt: skip
 """Units of lengths by the formats' documentation; "" for those that have none, of reconstructions."""
 

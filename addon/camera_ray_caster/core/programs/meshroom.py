@@ -27,12 +27,17 @@ MODELS = {
     "brown": ("OPENCV_PINHOLE", ("k1", "k2", "k3", "p1", "p2")),
     "fisheye4": ("OPENCV_FISHEYE", ("k1", "k2", "k3", "k4")),
     "fisheye": ("OPENCV_FISHEYE", ("k1", "k2", "k3", "k4")),
+    "equidistant": ("OPENCV_FISHEYE", ()),
+    "equirectangular": ("EQUIRECTANGULAR", ()),
     "fisheye1": ("FOV", ("fov_omega",)),
 }
 """Our model for a type, or for the distortionType of a pinhole, and its coefficients."""
 
 CENTERED = [1.0, 2.0, 1.0]
 """The version of files from which on principal points are measured from the middle."""
+
+PIXELS = [1.0, 2.0, 5.0]
+"""The version from which on pixelRatio is the width of a pixel over its height, and not the inverse."""
 
 
 def looks(document: Document) -> bool:
@@ -44,9 +49,9 @@ def looks(document: Document) -> bool:
 def read(document: Document) -> list[Lens]:
     """See ProgramFiles."""
     entries = document.entries
-    centered = entries.numbers("version", default=CENTERED) >= CENTERED
+    version = entries.numbers("version", default=PIXELS)
     cameras = [one.labeled(one.text("intrinsicId")) for one in entries.parts("intrinsics")]
-    return [one_of_several(camera.label, _lens, camera, centered) for camera in cameras]
+    return [one_of_several(camera.label, _lens, camera, version) for camera in cameras]
 
 
 def poses(document: Document) -> list[Placed]:
@@ -80,20 +85,27 @@ def _pose(transform: Fields) -> np.ndarray:
     return checked(transform.document, pose, transform.said("rotation"))
 
 
-def _lens(camera: Fields, centered: bool) -> Lens:
+def _lens(camera: Fields, version: list[float]) -> Lens:
     kind = camera.text("type", "pinhole").lower()
+    if kind in ("equidistant", "equirectangular") and camera.text("distortionType", "none").lower() != "none":
+        raise camera.document.refusal(f"{camera.said('distortionType')} of an {kind} camera is not read")
     kind = camera.text("distortionType", kind).lower() if kind == "pinhole" else kind
+    if kind not in MODELS and not any(camera.numbers("distortionParams", default=[0.0])):
+        kind = "none"
     model, terms = MODELS[camera.document.one_of(kind, camera.said("type"), MODELS)]
     width, height = camera.number("width"), camera.number("height")
+    if model == "EQUIRECTANGULAR":
+        return Lens(camera.label, model, camera.document.size(width, height))
     ratio = camera.number("pixelRatio", 1.0)
-    if ratio != 1:
-        raise camera.document.refusal(f"{camera.said('pixelRatio')} is {ratio}: only square pixels are read")
+    if ratio <= 0:
+        raise camera.document.refusal(f"{camera.said('pixelRatio')} is {ratio:g}: it must be above 0")
     if camera.has("pxFocalLength"):
         focal = camera.numbers("pxFocalLength")
     else:
         focal = [camera.number("focalLength") / camera.number("sensorWidth") * width]
+        focal.append(focal[0] * (ratio if version >= PIXELS else 1 / ratio))
     x, y = camera.numbers("principalPoint", 2)
-    if centered:
+    if version >= CENTERED:
         x, y = x + width / 2, y + height / 2
     coefficients = camera.numbers("distortionParams", default=[0.0] * len(terms))
     if len(coefficients) != len(terms) and any(coefficients):
@@ -106,6 +118,6 @@ def _lens(camera: Fields, centered: bool) -> Lens:
 PROGRAM = ProgramFiles(
     "Meshroom", ".sfm of AliceVision", looks,
     marks="intrinsicId pxFocalLength principalPoint distortionParams sensorWidth",
-    reads="pinhole, radial1, radial3, brown, fisheye4, fisheye1",
-    lost="views without a pose; anamorphic lenses are refused", read=read, poses=poses,
+    reads="pinhole, radial1, radial3, brown, fisheye4, fisheye1, equidistant, equirectangular",
+    lost="views without a pose; the distortions of 3DE are refused", read=read, poses=poses,
 )  # fmt: skip

@@ -30,6 +30,8 @@ MODELS = {"frame": "OPENCV_PINHOLE", "fisheye": "THIN_PRISM_FISHEYE", "equidista
 TERMS = {"k1": "k1", "k2": "k2", "k3": "k3", "k4": "k4", "p1": "p2", "p2": "p1"}
 """Our settings for Metashape's coefficients."""
 
+SPHERE = "spherical"
+"""The type of a sensor whose pictures are panoramas: it needs no calibration."""
 GEOGRAPHIC = "GEOGCS", "PROJCS", "COMPD_CS", "GEOCCS"
 """Begins of the coordinate systems of the Earth, in OGC's words."""
 
@@ -48,8 +50,8 @@ def read(document: Document) -> list[Lens]:
 
 
 def _named_sensors(root: Element) -> list[tuple[str, Element]]:
-    """Return the sensors that have a calibration, with names of their own."""
-    sensors = [one for one in root.all("sensor") if one.child("calibration") is not None]
+    """Return the sensors that have a calibration, or are spheres, with names of their own."""
+    sensors = [one for one in root.all("sensor") if one.child("calibration") is not None or _is_sphere(one)]
     labels = [one.attributes.get("label") or one.attributes.get("id", "") for one in sensors]
     total, count = Counter(labels), Counter[str]()
     named = []
@@ -59,7 +61,13 @@ def _named_sensors(root: Element) -> list[tuple[str, Element]]:
     return named
 
 
+def _is_sphere(element: Element) -> bool:
+    return SPHERE in (element.attributes.get("type"), element.texts().get("projection"))
+
+
 def _of_sensor(document: Document, sensor: Element, name: str) -> Lens:
+    if _is_sphere(sensor):
+        return _lens(document, name, sensor)
     own = [child for child in sensor.children if child.name == "calibration"]
     adjusted = [one for one in own if one.attributes.get("class") == "adjusted"]
     return _lens(document, name, (adjusted or own)[0])
@@ -68,6 +76,8 @@ def _of_sensor(document: Document, sensor: Element, name: str) -> Lens:
 def _lens(document: Document, name: str, calibration: Element) -> Lens:
     entries, resolution = Fields(document, calibration.texts()), calibration.child("resolution")
     sides = entries if resolution is None else Fields(document, dict(resolution.attributes))
+    if _is_sphere(calibration):
+        return Lens(name, "EQUIRECTANGULAR", sides.sides("width", "height"))
     kind = calibration.attributes.get("type") or entries.text("projection") or "frame"
     model = MODELS[document.one_of(kind, "projection", MODELS)]
     width, height = sides.number("width"), sides.number("height")
@@ -163,6 +173,6 @@ def _moved(document: Document, transform: Element, pose: np.ndarray) -> np.ndarr
 
 PROGRAM = ProgramFiles(
     "Metashape", "calibrations, and cameras of projects, as .xml", looks,
-    marks="document chunk sensors sensor resolution adjusted", reads="frame, fisheye; slave cameras",
+    marks="document chunk sensors sensor resolution adjusted", reads="frame, fisheye, spherical; slave cameras",
     lost="cameras that are not aligned; k4 of a frame camera, p3 and p4 are refused", read=read, poses=poses,
 )  # fmt: skip

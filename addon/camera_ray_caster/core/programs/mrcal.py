@@ -16,12 +16,15 @@ from math import pi
 from typing import Any
 from warnings import catch_warnings
 
+import numpy as np
+
 from ..cameras.parts.settings import LIMIT_ROUNDING
-from ..maths.rotations import half_turn_vector
+from ..maths.rotations import half_turn_vector, rotation
 from ..records import InputError
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import ANGLES, Lens, matrix, matrix_of, word_of
+from .parts.placed import Placed, inverted
 from .parts.program import CameraRecord, FileWriter, ProgramFiles
 
 TERMS = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4")
@@ -62,6 +65,17 @@ def read(document: Document) -> list[Lens]:
         return [Lens("", model, size | matrix(2 * fx, 2 * fy, cx, cy) | {"unified_xi": 1.0})]
     first, rest = (numbers := entries.numbers("intrinsics", len(terms) + 4))[:4], numbers[4:]
     return [Lens("", model, size | matrix(*first) | dict(zip(terms, rest, strict=True)))]
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles."""
+    entries = _entries(document)
+    if not entries.has("extrinsics"):
+        return []
+    numbers = entries.numbers("extrinsics", 6)
+    to_camera = np.eye(4)
+    to_camera[:3, :3], to_camera[:3, 3] = rotation(np.array([numbers[:3]]))[0], numbers[3:]
+    return [Placed("", "", None, inverted(to_camera))]
 
 
 def _entries(document: Document) -> Fields:
@@ -141,7 +155,7 @@ def _intrinsics(lens: Lens) -> list[float]:
 PROGRAM = ProgramFiles(
     "mrcal", ".cameramodel", looks, marks="lensmodel intrinsics extrinsics imagersize",
     reads="PINHOLE, OPENCV4 to OPENCV12, STEREOGRAPHIC, LONLAT", lost="CAHVOR and splined models are refused",
-    models=MODELS, read=read,
+    models=MODELS, read=read, poses=poses,
     export=FileWriter(
         "mrcal", "mrcal",
         "<camera>_<frame>.cameramodel: OpenCV's lenses, panoramas and stereographic fisheyes, and poses",

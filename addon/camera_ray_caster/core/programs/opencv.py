@@ -2,7 +2,8 @@
 
 A pinhole is written with as few of OpenCV's 14 coefficients as it needs. fisheye_model is 1 for cv2.fisheye and 0 for a
 pinhole; a file with xi is for cv2.omnidir. extrinsic_parameters has one row per frame: the rotation vector and the
-translation from the world to the camera. The center of the first pixel is (0, 0).
+translation from the world to the camera; R and T of a pair lead from the first camera to the second. The center of the
+first pixel is (0, 0).
 References: OpenCV documentation, Camera Calibration and 3D Reconstruction; Fisheye camera model; Omnidirectional Camera
 Calibration.
 """
@@ -13,18 +14,56 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ..maths.rotations import half_turn_vector
+from ..maths.rotations import half_turn_vector, rotation
+from .parts.document import Document
 from .parts.lens import Lens, matrix_of, word_of
+from .parts.placed import Placed, checked, inverted
 from .parts.plain import TERMS, has_plain, plain_lenses
 from .parts.program import CameraRecord, FileWriter, ProgramFiles, by_lens
+from .parts.spelled import Spelled
 
 PINHOLE = TERMS["OPENCV_PINHOLE"]
 MODELS = {f"pinhole {count}": ("OPENCV_PINHOLE", PINHOLE[:count]) for count in (5, 8, 12, 14)} | {
     "fisheye": ("OPENCV_FISHEYE", TERMS["OPENCV_FISHEYE"]),
     "omnidir": ("UCM", (*TERMS["UCM"], "unified_xi", "skew")),
 }
+ROTATION = "r", "rotation", "rotationmatrix", "rmat", "rotmatrix"
+TRANSLATION = "t", "translation", "translationvector", "tvec", "transvec"
+"""What leads from the first camera of a pair to the second."""
+EXTRINSICS = "extrinsic_parameters"
 PLAIN = "fisheye_model: 0\n"
 EXTRA = {"fisheye": "fisheye_model: 1\n", "omnidir": "xi: {unified_xi!r}\n"}
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles: of a pair's cameras in the frame of the first one, or of a camera beside the patterns of its
+    pictures; none of other files.
+    """
+    entries = Spelled(document.entries)
+    cameras = [lens.name for lens in plain_lenses(document) or []]
+    if len(cameras) == 2 and entries.has(ROTATION) and entries.has(TRANSLATION):
+        turn, place = entries.numbers(ROTATION), entries.numbers(TRANSLATION)
+        if len(turn) not in (3, 9) or len(place) != 3:
+            raise document.refusal(f"R and T have {len(turn)} and {len(place)} numbers: they must have 9 and 3")
+        other = inverted(_pose(document, turn, place))
+        return [Placed(cameras[0], "", None, np.eye(4)), Placed(cameras[1], "", None, other)]
+    if len(cameras) != 1 or not document.entries.has(EXTRINSICS):
+        return []
+    numbers = document.entries.matrix(EXTRINSICS)
+    rows = [numbers[i : i + 6] for i in range(0, len(numbers), 6)]
+    frames = document.entries.numbers("frames", len(rows), default=[*range(1, len(rows) + 1)])
+    if len(numbers) % 6:
+        raise document.refusal(f"{EXTRINSICS} has {len(numbers)} numbers: a picture has 6")
+    return [Placed("", "", frame, inverted(_pose(document, row[:3], row[3:])))
+            for frame, row in zip(frames, rows, strict=True)]  # fmt: skip
+
+
+def _pose(document: Document, turn: list[float], place: list[float]) -> np.ndarray:
+    """Return the matrix (4, 4) of a rotation, as a vector or by rows, and a translation."""
+    pose = np.eye(4)
+    pose[:3, :3] = rotation(np.array([turn]))[0] if len(turn) == 3 else np.reshape(turn, (3, 3))
+    pose[:3, 3] = place
+    return checked(document, pose, "R")
 
 
 def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
@@ -63,7 +102,7 @@ PROGRAM = ProgramFiles(
     "OpenCV", ".yml, .xml, .json of FileStorage, also .gz", has_plain, general=True,
     marks="camera_matrix distortion_coefficients image_width image_height opencv_storage",
     reads="pinhole with 4, 5, 8, 12 or 14 coefficients, fisheye, omnidir; stereo pairs",
-    lost="of four coefficients without a model's name: which model they are of", read=plain_lenses,
+    lost="of four coefficients without a model's name: which model they are of", read=plain_lenses, poses=poses,
     export=FileWriter(
         "opencv", "OpenCV", "<camera>.yml for FileStorage: pinhole, fisheye and omnidir, and poses", write, MODELS
     ),

@@ -1,14 +1,21 @@
-"""OpenSfM's camera_models.json: cameras by name, whose lengths are parts of the longer side of the picture.
+"""OpenSfM's and ODM's camera_models.json and cameras.json: cameras by name, whose lengths are parts of the longer side
+of the picture; and reconstruction.json: these cameras, and shots with poses.
 
-The center of the first pixel is (0, 0), and the middle of the picture is the center unless c_x and c_y move it.
-Reference: OpenSfM documentation, Geometric Models.
+A shot's rotation is an axis times an angle, from the world to the camera, x right, y down, z ahead. The center of the
+first pixel is (0, 0), and the middle of the picture is the center unless c_x and c_y move it.
+Reference: OpenSfM documentation, Geometric Models; Reconstruction file format.
 """
 
 from __future__ import annotations
 
+import numpy as np
+
+from ..maths.rotations import rotation
+from ..units import METERS
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens, one_of_several
+from .parts.placed import Placed, inverted
 from .parts.program import ProgramFiles
 
 RADIAL, EQUIDISTANT = ("k1", "k2"), ("k1", "k2", "k3", "k4")
@@ -27,13 +34,41 @@ MODELS = {
 
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
-    cameras = document.entries.named()
-    return len(cameras) == len(document.entries) and all(one.has("projection_type") for one in cameras.values())
+    parts = document.entries.named()
+    if len(parts) < len(document.entries):
+        return False
+    return all(one.has("projection_type") for one in parts.values()) or bool(_reconstructions(document))
 
 
 def read(document: Document) -> list[Lens]:
     """See ProgramFiles."""
-    return [one_of_several(name, _lens, camera, name) for name, camera in document.entries.named().items()]
+    cameras: dict[str, Fields] = {}
+    for one in _reconstructions(document) or [Fields(document, {"cameras": document.entries.values})]:
+        cameras |= one.part("cameras").named()
+    return [one_of_several(name, _lens, camera, name) for name, camera in cameras.items()]
+
+
+def _reconstructions(document: Document) -> list[Fields]:
+    """Return the parts of a reconstruction.json; [] of any other file."""
+    parts = list(document.entries.named().values())
+    return parts if all(one.has("cameras", "shots") for one in parts) else []
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles: those of the shots. Raises InputError for reconstructions with frames of their own."""
+    parts = [one for one in _reconstructions(document) if len(one.part("shots"))]
+    if len(parts) > 1:
+        raise document.refusal(
+            f"it has {len(parts)} reconstructions, each in a frame of its own: give a file of one of them"
+        )
+    placed = []
+    for name, shot in parts[0].part("shots").named().items() if parts else ():
+        document.check()
+        to_camera = np.eye(4)
+        to_camera[:3, :3] = rotation(np.array([shot.numbers("rotation", 3)]))[0]
+        to_camera[:3, 3] = shot.numbers("translation", 3)
+        placed.append(Placed(shot.text("camera"), name, None, inverted(to_camera)))
+    return placed
 
 
 def _lens(camera: Fields, name: str) -> Lens:
@@ -50,7 +85,8 @@ def _lens(camera: Fields, name: str) -> Lens:
 
 
 PROGRAM = ProgramFiles(
-    "OpenSfM", "camera_models.json", looks, marks="projection_type focal focal_x width height k1",
+    "OpenSfM", "camera_models.json, reconstruction.json, of ODM, too", looks,
+    marks="projection_type focal focal_x width height k1",
     reads="perspective, brown, radial, fisheye, fisheye_opencv, spherical",
-    lost="poses; other projections are refused", models=MODELS, read=read,
+    lost="other projections are refused", models=MODELS, read=read, poses=poses, unit=METERS,
 )  # fmt: skip

@@ -67,6 +67,18 @@ def one_of_several(name: str, read: Callable[..., Lens], *given) -> Lens:
         return Lens(name, "", {}, refusal.with_traceback(None))
 
 
+def once_each(lenses: Iterable[Lens]) -> list[Lens]:
+    """Return the lens of each picture; equal ones are one, by the name of its first picture."""
+    first: dict[str, Lens] = {}
+    return [first.setdefault(repr(lens[1:]), lens) for lens in lenses]
+
+
+def different(lenses: Iterable[Lens]) -> list[Lens]:
+    """Return the lenses of pictures without repetition; an only one has no name."""
+    found = list({lens.name: lens for lens in once_each(lenses)}.values())
+    return [found[0]._replace(name="")] if len(found) == 1 else found
+
+
 def numbers_of(value) -> list[float]:
     """Return a number or a list of numbers as floats; empty if an entry is not a number, as True and words are not."""
     items = value if isinstance(value, list | tuple) else [value]

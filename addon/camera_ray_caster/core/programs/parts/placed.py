@@ -74,6 +74,16 @@ def of_quaternion(document: FileSource, quaternion, translation, name: str) -> n
     return pose
 
 
+def of_camera(document: FileSource, rotation, center, name: str) -> np.ndarray:
+    """Return the pose of a rotation by rows, 9 numbers, from the world to the camera, and the camera's place. Raises
+    InputError, with a name.
+    """
+    pose = np.eye(4)
+    pose[:3, :3] = np.reshape(document.numbers(rotation, f"rotation of {name}", 9), (3, 3)).T
+    pose[:3, 3] = document.numbers(center, f"center of {name}", 3)
+    return checked(document, pose, f"rotation of {name}")
+
+
 def checked(document: FileSource, pose: np.ndarray, name: str) -> np.ndarray:
     """Return the pose. Raises InputError unless its axes are those of a rotation, up to NOT_TURNED."""
     axes = pose[:3, :3]

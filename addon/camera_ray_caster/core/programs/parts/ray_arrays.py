@@ -8,6 +8,7 @@ NPY holds directions, or (rows, columns, 6): origins, then directions.
 
 from __future__ import annotations
 
+import re
 import zipfile
 from collections.abc import Mapping
 from io import BytesIO
@@ -29,7 +30,20 @@ KEY = "RAY_TABLE"
 
 def looks(document: Document) -> bool:
     """Whether it is a file of numpy."""
-    return document.data.startswith((ZIP, NPY))
+    return document.data.startswith((ZIP, NPY)) and not is_poses_bounds(document)
+
+
+def is_poses_bounds(document: Document) -> bool:
+    """Whether it is an array of numpy with rows of 17 numbers, as LLFF's poses_bounds.npy."""
+    return document.data.startswith(NPY) and re.search(rb"'shape': \(\d+, 17\)", document.data[:256]) is not None
+
+
+def array_of(document: Document) -> np.ndarray:
+    """Return the array of an .npy as float64. Raises InputError."""
+    try:
+        return _arrays(document)["directions"]
+    except DAMAGED as error:
+        raise _damage(document, error) from error
 
 
 def lens_of(document: Document) -> Lens:
@@ -37,8 +51,7 @@ def lens_of(document: Document) -> Lens:
     try:
         arrays = _arrays(document)
     except DAMAGED as error:
-        damage = "" if isinstance(error, InputError) else "it is no array of numpy, or damaged: "
-        raise document.refusal(damage + (" ".join(str(error).split()) or type(error).__name__)) from error
+        raise _damage(document, error) from error
     if "time" in arrays:
         raise document.refusal(
             "its pixels have their own times, which a table of rays has not: export a camera without pixel times"
@@ -58,6 +71,11 @@ def lens_of(document: Document) -> Lens:
     if area.shape != (4,) or not (area[2:] > area[:2]).all():
         raise document.refusal("area must be left, bottom, right, top, 0 to 1 over the frame")
     return table(document, directions, origins, area, arrays.get("pose"))
+
+
+def _damage(document: Document, error: Exception) -> InputError:
+    damage = "" if isinstance(error, InputError) else "it is no array of numpy, or damaged: "
+    return document.refusal(damage + (" ".join(str(error).split()) or type(error).__name__))
 
 
 def pose_in(document: Document) -> np.ndarray | None:

@@ -1,0 +1,59 @@
+"""cameras.json of 3D Gaussian splatting: a pinhole for each picture, with its place and its rotation to the world.
+
+The center is the middle of the picture. x is right, y down, z ahead.
+Reference: 3D Gaussian Splatting for Real-Time Radiance Field Rendering, its code: camera_to_JSON.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .parts.document import Document
+from .parts.fields import Fields
+from .parts.lens import Lens, different, matrix, once_each
+from .parts.placed import Placed, checked
+from .parts.program import ProgramFiles
+
+
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    pictures = list(document.entries.named().values())
+    return bool(pictures) and all(one.has("position", "rotation", "fx") for one in pictures)
+
+
+def _pictures(document: Document) -> list[Fields]:
+    pictures = document.entries.named()
+    return [one.labeled(one.text("img_name", name)) for name, one in pictures.items()]
+
+
+def _lens(picture: Fields) -> Lens:
+    width, height, fx = picture.number("width"), picture.number("height"), picture.number("fx")
+    picture.document.check()
+    size = picture.document.size(width, height)
+    return Lens(picture.label, "OPENCV_PINHOLE",
+                size | matrix(fx, picture.number("fy", fx), width / 2, height / 2, 0.5))  # fmt: skip
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    return different(map(_lens, _pictures(document)))
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles."""
+    pictures = _pictures(document)
+    lenses = once_each(map(_lens, pictures))
+    placed = []
+    for picture, lens in zip(pictures, lenses, strict=True):
+        pose = np.eye(4)
+        pose[:3, :3] = np.reshape(picture.matrix("rotation", 9), (3, 3))
+        pose[:3, 3] = picture.numbers("position", 3)
+        pose = checked(document, pose, picture.said("rotation"))
+        placed.append(Placed(lens.name, picture.label, None, pose))
+    return placed
+
+
+PROGRAM = ProgramFiles(
+    "Gaussian splatting", "cameras.json of 3D Gaussian splatting", looks,
+    marks="img_name position rotation fx fy width height", reads="pinhole", read=read, poses=poses,
+)  # fmt: skip

@@ -1,0 +1,131 @@
+"""RealityCapture's and RealityScan's cameras: an .xmp for each picture, or a .csv of internal and external parameters.
+
+Focal lengths are those of a picture whose longer side is 36 mm; the principal point is measured from the middle of the
+picture in parts of its longer side. The size of the pictures is that of the frame. The rotation of an .xmp leads by
+rows from the world to the camera, x right, y down, z ahead. Heading, pitch and roll of a .csv are in degrees: a camera
+that looks down, with its upper side to the north, is turned about its axes y by the roll, x by the pitch, and z by the
+heading, clockwise.
+References: RealityCapture, XMP Camera Math; nerfstudio, realitycapture_utils.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from ..maths.rotations import rotation
+from ..text_forms.xml_subset import Element
+from .parts.document import Document
+from .parts.fields import Fields
+from .parts.lens import FRAME_SIZE, Lens, different, matrix, once_each
+from .parts.placed import FROM_BLENDER, Placed, of_camera
+from .parts.program import PictureFolders, ProgramFiles
+
+PREFIX, DESCRIPTION = "xcr:", "rdf:Description"
+SPLIT = {"Rotation", "Position", "DistortionCoeficients"}
+"""Entries of an .xmp that are lists of numbers."""
+MODELS = {"perspective": 0, "brown3": 3, "brown3t2": 3, "brown4": 3, "brown4t2": 3}
+"""Number of radial coefficients that are read, by the distortion model."""
+FILM = 36.0
+"""Millimeters of a picture's longer side."""
+HEAD = ("x", "y", "alt", "heading", "pitch", "roll", "f")
+COEFFICIENTS = ("k1", "k2", "k3", "k4", "t1", "t2")
+
+
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    if document.text.lstrip()[:1] == "<":
+        return any(one.has("FocalLength35mm") or one.has("Rotation", "Position") for one in _of_xmp(document))
+    return document.text.lstrip()[:1] == "#" and set(HEAD) <= set(_words(document.text.lstrip("#").split("\n", 1)[0]))
+
+
+def _words(line: str) -> list[str]:
+    return [word.strip() for word in line.strip().split(",")]
+
+
+def _of_xmp(document: Document) -> list[Fields]:
+    """Return the entries of each description in an .xmp: those of attributes and elements with their prefix."""
+    found = []
+    for one in document.xml.all(DESCRIPTION):
+        texts = dict(one.attributes) | _texts(one.children)
+        names = {name.removeprefix(PREFIX): text for name, text in texts.items() if name.startswith(PREFIX)}
+        values = {name: text.split() if name in SPLIT else text for name, text in names.items()}
+        found.append(Fields(document, values))
+    return found
+
+
+def _texts(elements: Iterable[Element]) -> dict[str, str]:
+    return {one.name: one.text for one in elements}
+
+
+def _pictures(document: Document) -> list[Fields]:
+    """Return the entries of each picture: of an .xmp, or of the lines of a .csv, labeled by the picture's name."""
+    if document.text.lstrip()[:1] == "<":
+        return _of_xmp(document)[:1]
+    head, *lines = [line for line in document.text.splitlines() if line.strip()]
+    names = _words(head.lstrip("# "))
+    pictures = []
+    for number, line in enumerate(lines, 1):
+        document.check()
+        words = _words(line)
+        if len(words) != len(names):
+            raise document.refusal(f"line {number} has {len(words)} entries: it must have {len(names)}")
+        pictures.append(Fields(document, dict(zip(names, words, strict=True)), words[0]))
+    return pictures
+
+
+def _lens(document: Document, picture: Fields) -> Lens:
+    width, height = document.frame or (1, 1)
+    longer = max(width, height)
+    if picture.has("f"):
+        coefficients = [picture.number(name, 0.0) for name in COEFFICIENTS]
+        focal, center, count = picture.number("f"), ("px", "py"), 3
+    else:
+        focal, center = picture.number("FocalLength35mm"), ("PrincipalPointU", "PrincipalPointV")
+        count = MODELS[picture.word("DistortionModel", MODELS, "perspective")]
+        coefficients = picture.numbers("DistortionCoeficients", 6, default=[0.0] * 6) if count else [0.0] * 6
+        if picture.number("Skew", 0.0) or picture.number("AspectRatio", 1.0) != 1:
+            raise document.refusal("its Skew is not 0, or its AspectRatio not 1: undistort the pictures first")
+    if any(coefficients[count:]):
+        raise document.refusal(
+            f"{COEFFICIENTS[3]} or the tangential distortion of {picture.label or 'the picture'} is not 0: choose the "
+            "distortion model Brown3 in RealityCapture"
+        )
+    x, y = (side / 2 + picture.number(name, 0.0) * longer for side, name in zip((width, height), center, strict=True))
+    pixels = focal / FILM * longer
+    settings = matrix(pixels, pixels, x, y, 0.5) | dict(zip(COEFFICIENTS[:3], coefficients, strict=False))
+    return Lens(picture.label, "OPENCV_PINHOLE", FRAME_SIZE | settings)
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    return different(_lens(document, picture) for picture in _pictures(document))
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles: none of an .xmp that has only a lens."""
+    pictures = [one for one in _pictures(document) if one.has("f") or one.has("Rotation", "Position")]
+    lenses = once_each(_lens(document, picture) for picture in pictures)
+    return [Placed(lens.name, picture.label, None, _pose(picture))
+            for picture, lens in zip(pictures, lenses, strict=True)]  # fmt: skip
+
+
+def _pose(picture: Fields) -> np.ndarray:
+    if picture.has("Rotation"):
+        rows, center = picture.numbers("Rotation", 9), picture.numbers("Position", 3)
+        return of_camera(picture.document, rows, center, picture.label or "the picture")
+    heading, pitch, roll = np.radians([picture.number(name) for name in ("heading", "pitch", "roll")])
+    about_z, about_x, about_y = rotation(np.array([[0, 0, -heading], [pitch, 0, 0], [0, roll, 0]]))
+    pose = np.eye(4)
+    pose[:3, :3] = about_z @ about_x @ about_y
+    pose[:3, 3] = [picture.number(name) for name in ("x", "y", "alt")]
+    return pose @ FROM_BLENDER
+
+
+PROGRAM = ProgramFiles(
+    "RealityCapture", "an .xmp for each picture; .csv of internal and external camera parameters", looks,
+    marks="DistortionModel FocalLength35mm PrincipalPointU DistortionCoeficients Rotation Position",
+    reads="perspective, brown3, brown4", lost="the size of the pictures; k4 and tangential distortion are refused",
+    read=read, poses=poses, pictures=PictureFolders("*.xmp"),
+)  # fmt: skip

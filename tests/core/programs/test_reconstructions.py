@@ -1,0 +1,162 @@
+"""Cameras of reconstructions: the lens, the place and the axes of each, from numbers that are seen in the files."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.programs.parts.placed import FROM_BLENDER
+from camera_ray_caster.core.programs.reading.lenses import lenses_of
+from camera_ray_caster.core.programs.reading.mounted import mounted
+from camera_ray_caster.core.records import InputError
+
+SAMPLES = Path(__file__).parent / "samples"
+SIZE = (800, 600)
+PINHOLE = "fx", "fy", "cx", "cy", "k1", "k2"
+BY_Z = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
+UPRIGHT = np.eye(3)
+"""Axes of a camera, x right, y down, z ahead, by columns."""
+
+
+def cameras(path):
+    """The name of the camera, the frame, the lens, and the matrix of right, down, ahead and place of each pose."""
+    return [(one.name, frame, lens, pose @ FROM_BLENDER) for one in mounted(str(path), "", SIZE, 10.0)
+            for frame, lens, pose in zip(one.frames, one.lenses or [None] * 9, one.poses, strict=False)]  # fmt: skip
+
+
+def check(camera, numbers, axes, place):
+    """Check the numbers of a lens, and a pose."""
+    np.testing.assert_allclose(camera[2].values(PINHOLE), numbers, rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(camera[3][:3], np.c_[axes, place], rtol=0, atol=1e-12)
+
+
+def test_realitycapture():
+    """Its frame is 800 pixels wide, and the picture's longer side 36 mm."""
+    lens = [600, 600, 399.5 + 10, 299.5 - 20, -0.125, 0.0625]
+    (camera,) = cameras(SAMPLES / "realitycapture.xmp")
+    check(camera, lens, [[0, 0, -1], [1, 0, 0], [0, -1, 0]], (4, 5, 6))
+    level, rolled = cameras(SAMPLES / "realitycapture.cameras.csv")
+    check(level, lens, [[0, 0, 1], [-1, 0, 0], [0, -1, 0]], (4, 5, 6))  # to the east
+    check(rolled, lens, [[0, 0, -1], [0, -1, 0], [-1, 0, 0]], (4, 5, 7))
+    assert (level[1], rolled[1]) == (1, 2)
+
+
+def test_a_folder_of_xmp_is_a_camera_with_frames(tmp_path):
+    text = (SAMPLES / "realitycapture.xmp").read_text()
+    for number in (7, 8):
+        (tmp_path / f"IMG_{number}.xmp").write_text(text.replace(">4 5 6<", f">4 5 {number}<"))
+    assert [(frame, pose[2, 3]) for _, frame, _, pose in cameras(tmp_path)] == [(1, 7), (2, 8)]
+
+
+def test_bundler_and_nvm():
+    first, third = cameras(SAMPLES / "bundler.out")
+    check(first, [480, 480, 399.5, 299.5, -0.125, 0.0625], [[1, 0, 0], [0, 0, 1], [0, -1, 0]], (-1, 3, -2))
+    check(third, [500, 500, 399.5, 299.5, 0, 0], np.diag((1, -1, -1)), (-1, -2, -3))
+    assert (first[1], third[1]) == (1, 3)
+    left, right = cameras(SAMPLES / "nvm.nvm")
+    check(left, [480, 480, 399.5, 299.5, 0, 0], np.transpose(BY_Z), (4, 5, 6))
+    check(right, [500, 500, 399.5, 299.5, 0, 0], UPRIGHT, (4, 5, 7))
+
+
+def test_gaussian_splatting_and_llff():
+    left, right = cameras(SAMPLES / "gaussian_splatting.json")
+    check(left, [510, 500, 319.5, 239.5, 0, 0], BY_Z, (4, 5, 6))
+    check(right, [520, 500, 319.5, 239.5, 0, 0], UPRIGHT, (4, 5, 7))
+    first, second = cameras(SAMPLES / "llff.npy")
+    check(first, [500, 500, 319.5, 239.5, 0, 0], BY_Z, (4, 5, 6))
+    check(second, [500, 500, 319.5, 239.5, 0, 0], UPRIGHT, (4, 5, 7))
+
+
+def test_camera_path():
+    first, second = cameras(SAMPLES / "camera_path.json")
+    check(first, [240, 240, 319.5, 239.5, 0, 0], BY_Z @ np.diag((1, -1, -1)), (4, 5, 6))
+    check(second, [240, 240, 319.5, 239.5, 0, 0], np.diag((1, -1, -1)), (4, 5, 7))
+
+
+def test_open3d():
+    first, second = cameras(SAMPLES / "open3d.json")
+    check(first, [500, 510, 319.5, 239.5, 0, 0], BY_Z, (5, -4, -6))
+    check(second, [500, 510, 319.5, 239.5, 0, 0], UPRIGHT, (-4, -5, -6))
+    (log,) = mounted(str(SAMPLES / "open3d.log"), "", SIZE, 10.0)
+    assert log.frames == [1, 2]
+    np.testing.assert_array_equal(log.poses[0], [[0, -1, 0, 4], [1, 0, 0, 5], [0, 0, 1, 6], [0, 0, 0, 1]])
+
+
+def test_openmvg():
+    left, right = cameras(SAMPLES / "openmvg.json")
+    check(left, [500, 500, 321, 238, -0.125, 0.0625], BY_Z, (4, 5, 6))
+    check(right, [510, 510, 320, 240, 0.25, 0], UPRIGHT, (4, 5, 7))
+    assert left[2].values(("p1", "p2")) == [0.001, -0.002]
+    assert [one[0] for one in (left, right)] == ["left", "right"]
+
+
+def test_opensfm():
+    left, right = cameras(SAMPLES / "opensfm.reconstruction.json")
+    check(left, [480, 480, 319.5, 239.5, -0.125, 0], np.transpose(BY_Z), (-5, 4, -6))
+    assert right[2].model == "EQUIRECTANGULAR"
+    np.testing.assert_array_equal(right[3][:3], np.c_[UPRIGHT, (-4, -5, -6)])
+
+
+def test_opencv_stereo_and_its_patterns(tmp_path):
+    first, second = cameras(SAMPLES / "opencv.stereo.yml")
+    check(first, [500, 510, 320, 240, -0.125, 0.0625], UPRIGHT, (0, 0, 0))
+    check(second, [520, 530, 320, 240, -0.25, 0.0625], UPRIGHT, (0.125, 0, 0))
+    rows = [[0, 0, np.pi / 2, 1, 2, 3], [0, 0, 0, 1, 2, 4]]
+    file = tmp_path / "lens.json"
+    file.write_text(json.dumps({"camera_matrix": [[9, 0, 4], [0, 9, 4], [0, 0, 1]], "extrinsic_parameters": rows}))
+    turned, upright = cameras(file)
+    check(turned, [9, 9, 4, 4, 0, 0], np.transpose(BY_Z), (-2, 1, -3))
+    assert (turned[1], upright[1]) == (1, 2)
+
+
+def test_mrcal():
+    (camera,) = cameras(SAMPLES / "mrcal.cameramodel")
+    np.testing.assert_array_equal(camera[3][:3], np.c_[UPRIGHT, (-1, -2, -3)])
+
+
+def test_a_sphere_of_metashape(tmp_path):
+    (tmp_path / "a.xml").write_text(
+        '<document><chunk><sensors><sensor id="0" label="ball" type="spherical"><resolution width="640" height="320"/>'
+        '</sensor></sensors><cameras><camera id="0" sensor_id="0" label="a"><transform>'
+        "1 0 0 4 0 1 0 5 0 0 1 6 0 0 0 1</transform></camera></cameras></chunk></document>"
+    )
+    ((_, _, lens, pose),) = cameras(tmp_path / "a.xml")
+    assert (lens.model, lens.size) == ("EQUIRECTANGULAR", (640, 320))
+    np.testing.assert_array_equal(pose[:3], np.c_[UPRIGHT, (4, 5, 6)])
+
+
+@pytest.mark.parametrize(
+    ("version", "changes", "model", "focal"),
+    [
+        ([1, 2, 12], {"pixelRatio": "2", "distortionType": "radialk3"}, "OPENCV_PINHOLE", [500, 1000]),
+        ([1, 2, 4], {"pixelRatio": "2", "distortionType": "none"}, "OPENCV_PINHOLE", [500, 250]),
+        ([1, 2, 12], {"type": "equidistant", "distortionType": "none"}, "OPENCV_FISHEYE", [500, 500]),
+        ([1, 2, 12], {"distortionType": "3deradial4", "distortionParams": ["0"] * 6}, "OPENCV_PINHOLE", [500, 500]),
+    ],
+)
+def test_lenses_of_meshroom(version, changes, model, focal, tmp_path):
+    lens = {"intrinsicId": "7", "width": "640", "height": "480", "sensorWidth": "32", "focalLength": "25",
+            "type": "pinhole", "principalPoint": ["2", "-3"], "distortionParams": []}  # fmt: skip
+    (tmp_path / "a.sfm").write_text(json.dumps({"version": version, "intrinsics": [lens | changes]}))
+    (found,) = lenses_of(str(tmp_path / "a.sfm"))
+    assert found.model == model
+    assert found.values(PINHOLE)[:4] == [*focal, 322, 237]
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "says"),
+    [
+        ("realitycapture.xmp", ("0.0625 0 0 0 0", "0.0625 0 0 0.001 0"), "k4 or the tangential distortion"),
+        ("nvm.nvm", ("6\t0 0", "6\t0.01 0"), "the radial distortion of left.jpg is 0.01"),
+        ("opensfm.reconstruction.json", ('"points": {}}', '"points": {}}, {"cameras": {"a": {}}, "shots": {"x": {}}}'),
+         "it has 2 reconstructions, each in a frame of its own"),
+        ("openmvg.json", ("pinhole_brown_t2", "pinhole_other"), "polymorphic_name of intrinsic 0 is 'pinhole_other'"),
+    ],
+)  # fmt: skip
+def test_what_is_not_read_is_refused_in_one_line(name, change, says, tmp_path):
+    text = (SAMPLES / name).read_text()
+    assert change[0] in text
+    (tmp_path / name).write_text(text.replace(*change))
+    with pytest.raises(InputError, match=says):
+        cameras(tmp_path / name)
