@@ -1,5 +1,6 @@
 """Shares of a data set that become the set that one run makes; folders; pictures that fail."""
 
+import errno
 import json
 
 import numpy as np
@@ -122,3 +123,20 @@ def test_folders_hold_a_few_files_each_and_are_one_set(command, scene, whole, tm
     assert (out / found["images"][0].get("file_name", "Side_0000/Side_0001.png")).is_file()
     again = command("dataset", scene, *WORDS, "--folders", "10", "--output", out)
     assert again.stdout.startswith("Wrote 0 of 6 pictures")
+
+
+def test_a_full_disk_leaves_the_set_as_it_was(command, whole, monkeypatch):
+    from camera_ray_caster.core.annotations import coco
+
+    def full(*words, **options):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    expected = {path.name: path.read_bytes() for path in whole.iterdir()}
+    (whole / "annotations.json").unlink()
+    before = left(whole)
+    monkeypatch.setattr(coco, "TemporaryFile", full)
+    assert "No space left on device" in refused(command("dataset", whole, "--complete"))
+    assert left(whole) == before
+    monkeypatch.undo()
+    assert command("dataset", whole, "--complete").returncode == 0
+    assert {path.name: path.read_bytes() for path in whole.iterdir()} == expected

@@ -50,8 +50,8 @@ class Tasks:
     """Returns a client of another scheduler, once there is one; None if that cannot be."""
     again: list[list] = field(default_factory=list)
     """Chunks that have to be done once more."""
-    waiting: dict[Any, list] = field(default_factory=dict)
-    """The chunk of each task."""
+    waiting: list[tuple[Any, list]] = field(default_factory=list)
+    """Tasks that workers have, and the chunk of each."""
     crashes: Counter = field(default_factory=Counter)
     """How often the workers of a job have ended."""
 
@@ -84,11 +84,12 @@ class Tasks:
                     break
                 self.again.append(chunk)
                 task = self.client.submit(self.work, chunk, pure=False)
-                self.waiting[task] = self.again.pop()
+                self.waiting.append((task, self.again.pop()))
             if not self.waiting:
                 return
-            for task in [task for task in self.waiting if task.done()]:
-                yield from self._result(task)
+            for one in [one for one in self.waiting if one[0].done()]:
+                yield from self._result(*one)
+                self.waiting.remove(one)
             time.sleep(POLL)
 
     def _chunk(self) -> Generator[Outcome, None, list]:
@@ -106,14 +107,13 @@ class Tasks:
                 break
         return chunk
 
-    def _result(self, task) -> Iterator[Outcome]:
+    def _result(self, task: Any, chunk: list) -> Iterator[Outcome]:
         """Yield the outcomes of a task that is done. If it has killed its workers, its jobs are tried one by one."""
         try:
             made = task.result()
         except Exception as error:
             if type(error).__name__ != KILLED:
                 raise
-            chunk = self.waiting.pop(task)
             self.crashes.update(job.name for job in chunk)
             job = chunk[0]
             if len(chunk) > 1 or self.crashes[job.name] < 2 + self.retries:
@@ -123,14 +123,13 @@ class Tasks:
             else:
                 raise InputError(f"this picture crashed several workers in turn: {job.name}") from error
             return
-        del self.waiting[task]
         yield from made
 
     def _reconnected(self) -> bool:
         """Wait for another scheduler at the address of one that has ended; return whether there is one. Jobs that
         workers had are done again, unless their pictures are there.
         """
-        self.again += self.waiting.values()
+        self.again += (chunk for _, chunk in self.waiting)
         self.waiting.clear()
         with suppress(Exception):  # it may not be able to say goodbye
             self.client.close(timeout=1)
