@@ -29,7 +29,7 @@ from ..maths.recording import NotRecordable, is_recorded
 from ..maths.speed import lazy
 from ..maths.vector import components
 from ..records import BlenderCamera, InputError, Pose, Raster
-from .model import Step, WindowModel
+from .model import IN_RAYS, Step, WindowModel
 from .parts.aperture import F_STOP, FOCUS_DISTANCE, Aperture, focus_of, thin_lens
 from .parts.chief_search import ChiefSearch
 from .parts.differences import varied_by
@@ -73,6 +73,7 @@ class RealLens(WindowModel):
     group = "Real Lens"
     number = 28
     central = False
+    polynomials = IN_RAYS  # 0.1 of the time of a whole picture's rays
     SETTINGS = (
         LENS_FILE, LENS, FOCUS, FOCUS_DISTANCE, F_STOP, STATE, WAVELENGTH, VIGNETTING, FALLOFF, *FILM,
     )  # fmt: skip

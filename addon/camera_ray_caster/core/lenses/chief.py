@@ -31,8 +31,16 @@ all lenses have one formula, whose coefficients follow the focus and can be exch
 ANGLES = 2049
 """Places at which the family is searched for its ends."""
 
-FARTHEST_END = 3.0
-"""Largest R over the radius at which a rim stops the chief ray: beyond it nothing is asked."""
+ENDS = 3.0, 2.0, 1.6, 1.3, 1.15, 1.05, 1.01
+"""Largest R over the radius at which a rim stops the chief ray, tried in turn: beyond R there is no light of the
+aperture either, and close to grazing refraction the functions are steep.
+"""
+
+GOOD = 1e-11
+"""Error in mm and radians up to which the first of ENDS is taken; if none is as good, the best."""
+
+BEFORE_END = 1 - 1e-3
+"""Share of the family's last angle up to which rays are used: where r stops growing, it does not tell them apart."""
 
 CHECKS = 257
 """Places at which the polynomials are compared with the trace."""
@@ -74,10 +82,20 @@ def clenshaw(t, series):
 @lru_cache(maxsize=16)
 def chief_rays(optics: Optics, film: float) -> ChiefRays:
     """Return the chief rays of a film at z = film. Raises InputError if no ray passes the lens near its axis."""
-    radius, front, rear, angle_end, rim_angle = _family(optics, film)
-    end, rim = float(radius(angle_end)), float(radius(rim_angle))
-    if end > FARTHEST_END * rim:
-        end = FARTHEST_END * rim
+    family = _family(optics, film)
+    radius, _, _, angle_end, rim_angle = family
+    last, rim = (float(radius(np.array([angle]))[0]) for angle in (angle_end, min(rim_angle, BEFORE_END * angle_end)))
+    tried = []
+    for end in dict.fromkeys(min(last, factor * rim) for factor in ENDS):
+        tried.append(_polynomials(optics, film, family, end, rim))
+        if max(tried[-1].errors) <= GOOD:
+            break
+    return min(tried, key=lambda chief: max(chief.errors))
+
+
+def _polynomials(optics: Optics, film: float, family, end: float, rim: float) -> ChiefRays:
+    """Return the polynomials on the radii from 0 to ``end``, with their errors up to ``rim``."""
+    radius, front, rear, angle_end, _ = family
     nodes = np.cos((np.arange(DEGREE + 1) + 0.5) * pi / (DEGREE + 1))
     functions = _functions(optics, film, _angles(radius, _radii(nodes, end), angle_end), front, rear)
     weights = 2 / (DEGREE + 1) * chebvander(nodes, DEGREE)

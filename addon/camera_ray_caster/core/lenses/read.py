@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ..records import InputError
 from .files import READERS
+from .optics import Optics
 from .prescription import Prescription, checked
 
 LIBRARY = Path(__file__).with_name("library")
@@ -34,24 +35,28 @@ def read_lens(file: str) -> Prescription:
     path = known.get(file or DEFAULT, Path(file))
     try:
         state = os.stat(path)
-        return _read(str(path), state.st_mtime_ns, state.st_size)
     except OSError as error:
         names = "" if os.sep in file else f", and no lens of the library: {', '.join(known)}"
         raise InputError(f"lens file {file!r} cannot be read ({error.strerror}){names}") from error
     except ValueError as error:
         raise InputError(f"lens file {file!r} has no name of a file") from error
+    return _read(str(path), state.st_mtime_ns, state.st_size)
 
 
 @lru_cache(maxsize=16)
 def _read(path: str, modified: int, size: int) -> Prescription:
     if size > LARGEST_FILE:
         raise InputError(f"lens file {path!r} has {size} bytes: a lens has a few thousand")
-    data = Path(path).read_bytes()
-    text = _text(data)
+    try:
+        text = _text(Path(path).read_bytes())
+    except OSError as error:
+        raise InputError(f"lens file {path!r} cannot be read ({error.strerror})") from error
     try:
         for recognizes, read in READERS:
             if recognizes(text, path):
-                return checked(read(text, Path(path).stem))
+                lens = checked(read(text, Path(path).stem))
+                Optics.of(lens.in_state(0.0))  # refused here if it does not focus
+                return lens
         raise InputError("it is none of the known formats: pbrt, Optical Bench, ISETCam, Zemax")
     except InputError as error:
         raise InputError(f"lens file {path!r}: {error}") from error

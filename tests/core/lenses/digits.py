@@ -1,0 +1,40 @@
+"""Rays through spheres and planes with 60 digits, by quadratic equations and Snell's law: the witness of the trace."""
+
+from mpmath import mp, mpf, sqrt
+
+mp.dps = 60
+
+
+def traced(surfaces, origin, direction):
+    """The ray behind the last of some surfaces, from the scene to the film: origin and unit direction."""
+    point, ahead = [mpf(part) for part in origin], [mpf(part) for part in direction]
+    for surface in surfaces:
+        z, curvature = mpf(surface.z), mpf(surface.curvature)
+        if curvature:
+            point = on_sphere(point, ahead, z + 1 / curvature, 1 / curvature)
+            normal = [point[0] * curvature, point[1] * curvature, (point[2] - z) * curvature - 1]
+        else:
+            t = (z - point[2]) / ahead[2]
+            point, normal = [p + t * d for p, d in zip(point, ahead, strict=True)], [mpf(0), mpf(0), mpf(-1)]
+        before, behind = mpf(surface.before), mpf(surface.behind)
+        ahead = refracted(ahead, normal, before / behind)
+    return point, ahead
+
+
+def on_sphere(point, ahead, middle, radius):
+    """Where a ray meets the half of a sphere with the vertex."""
+    off = [point[0], point[1], point[2] - middle]
+    half = sum(o * d for o, d in zip(off, ahead, strict=True))
+    root = sqrt(half * half - sum(o * o for o in off) + radius * radius)
+    vertex = middle - radius
+    found = [[p + t * d for p, d in zip(point, ahead, strict=True)] for t in (-half - root, -half + root)]
+    return min(found, key=lambda place: abs(place[2] - vertex))
+
+
+def refracted(ahead, normal, ratio):
+    """Snell's law for a unit normal of either sign."""
+    cosine = -sum(a * n for a, n in zip(ahead, normal, strict=True))
+    if cosine < 0:
+        normal, cosine = [-part for part in normal], -cosine
+    along = ratio * cosine - sqrt(1 - ratio * ratio * (1 - cosine * cosine))
+    return [ratio * a + along * n for a, n in zip(ahead, normal, strict=True)]

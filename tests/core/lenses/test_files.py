@@ -1,0 +1,146 @@
+"""Lens files: each format, what its files get wrong, and refusals that name the file and the surface."""
+
+import json
+from contextlib import suppress
+
+import pytest
+
+import camera_ray_caster as crc
+from camera_ray_caster.core.lenses.optics import Optics
+from camera_ray_caster.core.lenses.read import read_lens
+
+# radius, distance behind, index, diameter of a doublet with its stop behind it
+ROWS = [(60.0, 6.0, 1.52, 24.0), (-40.0, 2.0, 1.62, 24.0), (-150.0, 5.0, 1.0, 22.0), (0.0, 3.0, 1.0, 12.0)]
+
+
+def optical_bench(rows=ROWS, extra=""):
+    lines = ["[lens data]"]
+    for place, (radius, gap, index, diameter) in enumerate(rows):
+        name = "AS" if radius == 0 else str(place + 1)
+        lines.append(f"{name}\t{radius or 'Infinity'}\t{gap}\t{index if index > 1 else ''}\t{diameter}\t")
+    return "\n".join(lines) + "\n" + extra
+
+
+def isetcam(rows=ROWS):
+    keys = "radius", "thickness", "ior", "semi_aperture"
+    surfaces = [dict(zip(keys, (*row[:3], row[3] / 2), strict=True)) for row in rows]
+    return json.dumps({"name": "doublet", "surfaces": surfaces})
+
+
+def zemax(rows=ROWS, unit="MM", size=1.0):
+    lines = ["VERS 1", f"UNIT {unit} X W X CM MR CPMM", "SURF 0", "  TYPE STANDARD", "  DISZ INFINITY"]
+    for place, (radius, gap, index, diameter) in enumerate(rows, 1):
+        lines += [f"SURF {place}", "  TYPE STANDARD", f"  CURV {size / radius if radius else 0.0!r} 0 0"]
+        lines += ["  STOP"] if radius == 0 else []
+        lines += [f"  DISZ {gap / size!r}", f"  DIAM {diameter / 2 / size!r} 1 0 0"]
+        lines += [f"  GLAS ___BLANK 1 0 {index} 60.0"] if index > 1 else []
+    return "\n".join([*lines, f"SURF {len(rows) + 1}", "  DISZ 0"])
+
+
+def pbrt(rows=ROWS):
+    return "\n".join("  ".join(map(str, row)) for row in rows) + "\n"
+
+
+def kolb(rows=ROWS):
+    """The distance BEFORE each surface; the last reaches the stop."""
+    gaps = [0.0, *(row[1] for row in rows[:-1])]
+    return "\n".join(f"{row[0]} {gap} {row[2]} {row[3]}" for row, gap in zip(rows, gaps, strict=True))
+
+
+def lens_of(folder, text, name="lens.txt"):
+    path = folder / name
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return read_lens(str(path))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [pbrt(), kolb(), optical_bench(), isetcam(), zemax(), zemax(unit="IN", size=25.4), zemax().encode("utf-16")],
+    ids=["pbrt", "kolb", "optical_bench", "isetcam", "zemax", "zemax-inches", "zemax-utf16"],
+)
+def test_a_lens_is_the_same_in_each_format(tmp_path, text):
+    lens = lens_of(tmp_path, text)
+    optics = Optics.of(lens)
+    expected = Optics.of(lens_of(tmp_path, pbrt(), "other.dat"))
+    assert [row.curvature for row in lens.rows] == pytest.approx([1 / r if r else 0 for r, *_ in ROWS])
+    assert [row.index for row in lens.rows] == [row[2] for row in ROWS]
+    assert [row.rim for row in lens.rows] == pytest.approx([row[3] / 2 for row in ROWS])
+    assert lens.stop == 3
+    assert optics.focal_length == pytest.approx(expected.focal_length, rel=1e-12)
+
+
+def test_columns_of_a_zoom_are_its_configurations(tmp_path):
+    text = optical_bench().replace("\t5.0\t", "\td3\t") + "[variable distances]\nd3\t5\t9\nFocal Length\t83\t83\n"
+    lens = lens_of(tmp_path, text)
+    assert [gaps for _, gaps in lens.states] == [((2, 5.0),), ((2, 9.0),)]
+    assert lens.claims == {"focal_length": 83.0}
+
+
+@pytest.mark.parametrize(
+    ("constants", "powers"),
+    [("", (4, 6)), ("[constants]\nAsphericalA2\n", (2, 4)), ("[constants]\nAsphericalOddCount\n", (3, 4))],
+)
+def test_coefficients_of_aspheres_have_the_powers_that_the_file_says(tmp_path, constants, powers):
+    lens = lens_of(tmp_path, optical_bench(extra=constants + "[aspherical data]\n1\t60\t-0.5\t1e-5\t2e-8\n"))
+    assert lens.rows[0].conic == -0.5
+    assert lens.rows[0].asphere == ((powers[0], 1e-5), (powers[1], 2e-8))
+
+
+def test_a_placeholder_is_not_the_index_of_a_catalog_glass(tmp_path):
+    glass = zemax().replace("GLAS ___BLANK 1 0 1.52 60.0", "GLAS N-BK7 0 0 1.5 40.0")
+    assert lens_of(tmp_path, glass).rows[0].index == 1.5168
+    with pytest.raises(crc.InputError, match="surface 1 has the glass 'J-LAK14' without its index"):
+        lens_of(tmp_path, glass.replace("N-BK7", "J-LAK14"))
+
+
+def test_a_lens_in_water_keeps_the_medium_of_the_last_row(tmp_path):
+    rows = [*ROWS[:2], (-150.0, 5.0, 1.336, 22.0), (0.0, 3.0, 1.336, 12.0)]
+    assert Optics.of(lens_of(tmp_path, isetcam(rows))).rear.behind == 1.336
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "none of the known formats"),
+        ("hello", "none of the known formats"),
+        (pbrt(ROWS[:3]), "0 rows of radius 0: one must be the stop"),
+        (pbrt([(60.0, 6.0, 1.52, 240.0), *ROWS[1:]]), r"surface 1 has a clear radius of 120 mm .* is it a diameter\?"),
+        (pbrt([(60.0, float("nan"), 1.52, 24.0), *ROWS[1:]]), "surface 1 has the gap nan"),
+        (pbrt([(60.0, 6.0, 0.5, 24.0), *ROWS[1:]]), r"surface 1 has the index of refraction 0\.5"),
+        (pbrt([(-60.0, 6.0, 1.52, 24.0), *ROWS[1:]]), "it must be positive"),
+        (pbrt([*ROWS[:3], (0.0, 3.0, 1.0, 0.0)]), "the stop, has no radius"),
+        (optical_bench().replace("60.0", "sixty"), "row '1' has the radius 'sixty'"),
+        (optical_bench().replace("AS", "9"), "0 rows AS: one must be the stop"),
+        (isetcam().replace("60.0", '"a"'), "surface 1 has the radius a"),
+        (isetcam()[:-4], "none of the known formats|not JSON"),
+        (zemax().replace("TYPE STANDARD\n  CURV", "TYPE COORDBRK\n  CURV", 1), "surface 1 is a COORDBRK"),
+        (zemax().replace("___BLANK", "MIRROR", 1), "surface 1 is a MIRROR"),
+        (zemax().replace("  STOP\n", ""), "no surface is the stop"),
+        (zemax().replace("UNIT MM", "UNIT FEET"), "its unit is 'FEET'"),
+    ],
+    ids=range(16),
+)
+def test_what_is_no_lens_is_refused_in_one_line_that_names_the_file(tmp_path, text, words):
+    with pytest.raises(crc.InputError, match=words) as caught:
+        crc.camera("REAL_LENS", (32, 24), lens_file=str(_written(tmp_path, text)))
+    assert "lens.txt" in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def _written(folder, text):
+    path = folder / "lens.txt"
+    path.write_text(text)
+    return path
+
+
+def test_a_file_that_is_missing_is_refused_with_the_lenses_of_the_library():
+    with pytest.raises(crc.InputError, match=r"'tessar' cannot be read .* no lens of the library: .*tessar_100mm"):
+        crc.camera("REAL_LENS", (32, 24), lens_file="tessar")
+
+
+def test_damaged_files_end_in_a_lens_or_in_one_line(tmp_path):
+    for text in (pbrt(), optical_bench(), isetcam(), zemax()):
+        for end in range(0, len(text), 17):
+            for damaged in (text[:end], text[:end] + "x" + text[end:], text[:end] + "-" + text[end + 3 :]):
+                with suppress(crc.InputError):  # any other error is a failure
+                    crc.camera("REAL_LENS", (32, 24), lens_file=str(_written(tmp_path, damaged)))

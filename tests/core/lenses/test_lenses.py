@@ -1,0 +1,180 @@
+"""Real lenses: the trace and the chief rays with 60 digits, focus, pupils, and what passes."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from mpmath import mpf
+
+import camera_ray_caster as crc
+from camera_ray_caster.core.lenses.chief import chief_rays
+from camera_ray_caster.core.lenses.optics import Optics
+from camera_ray_caster.core.lenses.prescription import Prescription, Row
+from camera_ray_caster.core.lenses.read import library, read_lens
+from camera_ray_caster.core.lenses.trace import trace
+
+from .digits import traced
+
+NAMES = sorted(library())
+SIZE = 96, 64
+
+
+def thin(focal=50.0, thickness=1e-6):
+    """A lens so thin that it is a plane, with its stop on it."""
+    curvature = 1 / (2 * (1.5 - 1) * focal)
+    rows = Row(curvature, thickness, 1.5, 20.0), Row(-curvature, thickness, 1.0, 20.0), Row(0.0, 0.0, 1.0, 5.0)
+    return Prescription(rows, 2)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_rays_are_those_of_snell_s_law_with_60_digits(name):
+    optics = Optics.of(read_lens(name))
+    rng = np.random.default_rng(1)
+    x, y = rng.uniform(-0.3, 0.3, (2, 4)) * optics.surfaces[optics.stop].rim * abs(optics.entrance_pupil[1])
+    aim = np.stack((x, y, np.full(4, optics.entrance_pupil[0] + 1000.0)))
+    unit = aim / np.linalg.norm(aim, axis=0)
+    origin, direction = trace(optics.surfaces, (0 * x, 0 * x, 0 * x - 1000.0), tuple(unit), to_film=True)
+    for k in range(4):
+        point, ahead = traced(optics.surfaces, (0, 0, -1000), unit[:, k])
+        place = [np.broadcast_to(part, 4)[k] for part in origin]
+        assert max(abs(mpf(part) - exact) for part, exact in zip(place, point, strict=True)) < 1e-11
+        assert max(abs(mpf(part[k]) - exact) for part, exact in zip(direction, ahead, strict=True)) < 1e-13
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_chief_rays_pass_the_center_of_the_stop(name):
+    """The polynomials' ray, sent backwards through the glass with 60 digits, meets the stop's center and the film's
+    point, within the errors that they state.
+    """
+    optics = Optics.of(read_lens(name))
+    distance = max(60 * optics.focal_length, 3 * optics.nearest_focus)
+    film = optics.sharpest_film(distance, optics.surfaces[optics.stop].rim)
+    chief = chief_rays(optics, film)
+    for share in (0.2, 0.6, 0.9):
+        r = share * chief.rim
+        height, place, tangent, _ = (float(part) for part in chief.at(np.float64(r * r)))
+        turn = 2 / (1 + (tangent * r) ** 2)
+        origin, direction = (height * r, 0.0, place), (-tangent * r * turn, 0.0, turn - 1)
+        before, slope = traced(optics.surfaces[: optics.stop], origin, direction)
+        beside = before[0] + (optics.surfaces[optics.stop].z - before[2]) * slope[0] / slope[2]
+        point, ahead = traced(optics.surfaces, origin, direction)
+        scale = 1e3 * (chief.errors[0] + chief.errors[1] * optics.focal_length) + 1e-9
+        assert abs(beside) < scale
+        assert abs(-r - (point[0] + (film - point[2]) * ahead[0] / ahead[2])) < scale
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_lens_of_the_library_is_what_its_name_says(name):
+    camera = crc.camera("REAL_LENS", SIZE, lens_file=name, focus_distance=50.0)
+    facts = camera.model.facts()
+    stated = next((part for part in name.split("_") if part.endswith("mm")), None)
+    assert facts["focal_length"] == pytest.approx(float(stated[:-2]), rel=0.05)
+    assert facts["source"] or name == "singlet_100mm"
+    assert facts["film_distance"] >= facts["back_focus"] * 0.98
+    assert facts["image_circle"] > 5
+    assert camera.rays().valid.any()
+
+
+def test_a_thin_lens_is_the_thin_lens():
+    optics = Optics.of(thin())
+    assert optics.focal_length == pytest.approx(50.0, rel=1e-6)
+    for distance in (200.0, 1000.0, 1e6):
+        assert optics.paraxial_film(distance) == pytest.approx(1 / (1 / 50 - 1 / distance), rel=1e-5)
+    assert optics.nearest_focus == pytest.approx(50.0, rel=1e-5)
+    assert optics.widest_f_number == pytest.approx(5.0, rel=1e-6)
+
+
+def test_a_symmetric_lens_at_one_to_one_has_no_distortion():
+    """W. Smith, Modern Optical Engineering: the halves' distortions cancel."""
+    half = [Row(1 / 40, 4.0, 1.6, 15.0), Row(1 / 90, 5.0, 1.0, 12.0)]
+    back = [Row(-1 / 90, 4.0, 1.6, 12.0), Row(-1 / 40, 0.0, 1.0, 15.0)]
+    optics = Optics.of(Prescription((*half, Row(0.0, 5.0, 1.0, 4.0), *back), 2))
+    (_, _), (c, d) = optics.whole
+    away = float(-(1 + d) / c)  # before the front: there 1 / (c s + d), the magnification, is -1
+    film = optics.paraxial_film(away + optics.entrance_pupil[0])
+    chief = chief_rays(optics, film)
+    for r in (1.0, 4.0, 8.0):
+        height, place, tangent, _ = (float(part) for part in chief.at(np.float64(r * r)))
+        turn = 2 / (1 + (tangent * r) ** 2)
+        assert height * r + (-away - place) * (tangent * r * turn) / (1 - turn) == pytest.approx(r, rel=1e-9)
+
+
+def test_framing_is_that_of_perspective_with_the_same_focal_length():
+    real = crc.camera("REAL_LENS", SIZE, lens=50.0, focus_distance=1000.0)
+    plain = crc.camera("PERSP", SIZE, lens=50.0)
+    point = [(0.02, 0.01, -1.0)]
+    np.testing.assert_allclose(real.project(point), plain.project(point), atol=0.01)
+    assert real.K[0, 0] == pytest.approx(plain.K[0, 0], rel=1e-3)
+
+
+def test_without_a_focal_length_the_lens_has_its_own_size_and_with_one_it_is_scaled():
+    own, scaled = (crc.camera("REAL_LENS", SIZE, focus_distance=1e4, **lens) for lens in ({}, {"lens": 25.0}))
+    assert own.model.facts()["focal_length"] == pytest.approx(50.35816695831366, rel=1e-12)
+    assert scaled.model.facts()["focal_length"] == pytest.approx(25.0, rel=1e-12)
+    assert scaled.model.facts()["back_focus"] == pytest.approx(
+        own.model.facts()["back_focus"] * 25.0 / 50.35816695831366, rel=1e-12
+    )
+
+
+def test_an_f_stop_opens_the_stop_up_to_the_lens_s_own():
+    wide, closed = (crc.camera("REAL_LENS", SIZE, aperture_fstop=stop).model.facts() for stop in (1.2, 8.0))
+    assert wide["f_number"] == pytest.approx(wide["widest_f_number"])
+    assert closed["f_number"] == pytest.approx(8.0)
+    assert wide["stop"] == pytest.approx(17.1)
+
+
+@pytest.mark.parametrize("vignetting", [True, False])
+def test_the_light_of_a_picture_is_what_passes_the_rims_and_falls_off(vignetting):
+    """A white wall: 1 in the middle; at the edge what a trace of a grid of the pupil lets pass, times cos^4."""
+    wall = crc.planes((0, 0, -5), [[1, 0], [0, 1], [0, 0]], infinite=True, color=(1, 1, 1))
+    camera = crc.camera(
+        "REAL_LENS", (33, 3), use_dof=True, aperture_fstop=2.0, focus_distance=5.0, lens_vignetting=vignetting
+    )
+    images = crc.cast(camera, wall, passes=("combined",), samples=256)["combined"][1]
+    assert (images[:, 3] == 1).all()
+    flat = crc.cast(crc.camera("PERSP", (33, 3)), wall, passes=("combined",))["combined"][1]
+    share = images[:, 0] / flat[:, 0]
+    assert share[16] == pytest.approx(1.0, abs=0.03)  # 256 samples, of which 9 % do not pass
+    passing = np.interp(17.45, np.linspace(0, camera.aperture.corner, len(camera.aperture.passing)),
+                        camera.aperture.passing) / camera.aperture.passing[0]  # fmt: skip
+    cosine = np.cos(np.arctan(17.45 / (camera.model.film - camera.model.optics.exit_pupil[0])))
+    expected = cosine**4 * (passing if vignetting else 1.0)
+    assert share[0] == pytest.approx(expected, rel=0.15)
+
+
+def test_rays_of_the_aperture_meet_at_the_plane_of_focus_and_pass_the_stop():
+    camera = crc.camera("REAL_LENS", SIZE, use_dof=True, aperture_fstop=8.0, focus_distance=2.0)
+    x, y = np.full(64, 48.0), np.full(64, 32.0)
+    rng = np.random.default_rng(0)
+    point = camera.aperture.points(*rng.random((2, 64)))
+    origin, direction = camera.model.through(camera.aperture, None, x, y, point)
+    passes = np.isfinite(direction[0])
+    assert 40 < passes.sum() < 64
+    at = [(o + (-2.0 - origin[2]) / direction[2] * d)[passes] for o, d in zip(origin[:2], direction[:2], strict=True)]
+    assert np.hypot(*at).max() < 2e-4  # aberrations of f/8, Blender units
+    pupil = [(o + (0.0 - origin[2]) / direction[2] * d)[passes] for o, d in zip(origin[:2], direction[:2], strict=True)]
+    assert np.hypot(*pupil).max() < camera.aperture.radius * 1.02
+
+
+def test_wavelength_changes_rays_only_where_glass_disperses():
+    red, blue = (crc.camera("REAL_LENS", SIZE, lens_wavelength=length).rays().directions for length in (656.0, 450.0))
+    assert 1e-6 < np.nanmax(np.abs(red - blue)) < 1e-2
+    plain = [
+        crc.camera("REAL_LENS", SIZE, lens_file="retrofocus_22mm", lens_wavelength=length).rays().directions
+        for length in (656.0, 450.0)
+    ]
+    np.testing.assert_array_equal(*plain)
+
+
+def test_a_nearer_focus_than_the_lens_allows_is_refused_with_the_nearest():
+    with pytest.raises(crc.InputError, match=r"focus_distance .* above 0\.0470689, since nothing nearer has an image"):
+        crc.camera("REAL_LENS", SIZE, focus_distance=0.04)
+
+
+def test_a_zoom_is_interpolated_between_its_configurations():
+    rows = (Row(1 / 60, 4.0, 1.6, 15.0), Row(-1 / 60, 10.0, 1.0, 15.0), Row(0.0, 8.0, 1.0, 6.0),
+            Row(1 / 70, 4.0, 1.6, 15.0), Row(-1 / 70, 0.0, 1.0, 15.0))  # fmt: skip
+    lens = Prescription(rows, 2, states=(("wide", ((1, 10.0),)), ("long", ((1, 30.0),))))
+    gaps = [lens.in_state(place).rows[1].gap for place in (0.0, 0.25, 1.0, 5.0)]
+    assert gaps == [10.0, 15.0, 30.0, 30.0]
+    assert lens.in_state(0.25).rows[2] == replace(rows[2])
