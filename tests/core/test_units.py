@@ -122,7 +122,8 @@ UNITS = {
     "COLMAP": "", "nerfstudio": "", "Kalibr": "m", "EuRoC": "m", "OKVIS": "m", "Basalt": "m", "BOP": "mm",
     "Project Aria": "m", "maplab": "m", "HOT3D": "m", "Metashape": "", "Meshroom": "", "Polycam": "m",
     "ARKitScenes": "m", "OpenCV": "", "mrcal": "", "OpenSfM": "m", "RealityCapture": "", "openMVG": "",
-    "Bundler": "", "NVM": "", "Gaussian splatting": "", "nerfstudio camera paths": "", "LLFF": "", "Open3D": "m",
+    "Bundler": "", "NVM": "", "Gaussian splatting": "", "nerfstudio camera paths": "", "LLFF": "",
+    "Surround360": "", "fSpy": "", "Open3D": "m",
     "KITTI": "m", "this add-on": "", "TUM": "m", "EuRoC trajectories": "m",
 }  # fmt: skip
 """Units of lengths by the formats' documentation; "" for those that have none, of reconstructions."""

@@ -234,10 +234,10 @@ def test_what_is_no_pose_of_the_format_is_refused(tmp_path, name):
 
 
 def test_numbers_of_pictures_that_are_no_frames_are_none(tmp_path):
-    names = [f"frame_{14036365797635 + 10 * k}.png" for k in (1, 2)]
+    names = ["frame_14036365797645.png", "IMG_20230415_101502.jpg", "VID_2023-04-15_10-15.jpg"]
     frames = [{"file_path": name, "transform_matrix": np.eye(4).tolist()} for name in names]
     (camera,) = read(tmp_path, json.dumps({"fl_x": 300, "w": 640, "h": 480, "frames": frames}))
-    assert (camera.name, camera.frames) == ("Camera", [1, 2])
+    assert (camera.name, camera.frames) == ("Camera", [1, 2, 3])
 
 
 def test_half_a_character_is_refused(tmp_path):

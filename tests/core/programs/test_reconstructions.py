@@ -61,6 +61,7 @@ def test_bundler_and_nvm():
 
 def test_gaussian_splatting_and_llff():
     left, right = cameras(SAMPLES / "gaussian_splatting.json")
+    assert [one[:2] for one in (left, right)] == [("Camera", 1), ("Camera", 2)]
     check(left, [510, 500, 319.5, 239.5, 0, 0], BY_Z, (4, 5, 6))
     check(right, [520, 500, 319.5, 239.5, 0, 0], UPRIGHT, (4, 5, 7))
     first, second = cameras(SAMPLES / "llff.npy")
@@ -108,6 +109,15 @@ def test_opencv_stereo_and_its_patterns(tmp_path):
     turned, upright = cameras(file)
     check(turned, [9, 9, 4, 4, 0, 0], np.transpose(BY_Z), (-2, 1, -3))
     assert (turned[1], upright[1]) == (1, 2)
+
+
+def test_surround360_and_fspy():
+    fisheye, pinhole = cameras(SAMPLES / "surround360.json")
+    check(fisheye, [240, 240, 321.5, 238.5, -0.125, 0.0625], [[0, 0, 1], [-1, 0, 0], [0, -1, 0]], (4, 5, 6))
+    check(pinhole, [500, 500, 319.5, 239.5, 0, 0], np.diag((1, -1, -1)), (4, 5, 7))
+    assert (fisheye[0], fisheye[1], fisheye[2].model) == ("cam0", None, "OPENCV_FISHEYE")
+    (matched,) = cameras(SAMPLES / "fspy.json")
+    check(matched, [320, 320, 323.5, 247.5, 0, 0], BY_Z @ np.diag((1, -1, -1)), (4, 5, 6))
 
 
 def test_mrcal():

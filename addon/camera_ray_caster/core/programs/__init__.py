@@ -12,6 +12,7 @@ from . import (
     colmap,
     euroc,
     euroc_trajectory,
+    fspy,
     gaussian_splatting,
     gyroflow,
     hesai,
@@ -43,6 +44,7 @@ from . import (
     ros,
     schops,
     stmap,
+    surround360,
     tum,
     velodyne,
     vins,
@@ -54,7 +56,7 @@ from .parts.program import ProgramFiles, in_words
 MODULES = (
     opencv, ros, colmap, nerfstudio, kalibr, euroc, okvis, vins, orbslam, basalt, bop, realsense, mrcal, aria, nvidia,
     woodscape, opensfm, maplab, hot3d, metashape, meshroom, realitycapture, openmvg, bundler, nvm,
-    gaussian_splatting, camera_path, llff, open3d, polycam, arkitscenes, tum,
+    gaussian_splatting, camera_path, llff, open3d, surround360, fspy, polycam, arkitscenes, tum,
     kitti, gyroflow, ocam, velodyne,
     ouster, hesai, recorded, schops, ray_table, nerf, euroc_trajectory, stmap,
 )  # fmt: skip

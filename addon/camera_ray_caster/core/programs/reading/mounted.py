@@ -77,7 +77,7 @@ def mounted(path: str, key: str, frame: tuple[int, int] | None, rate: float, met
         return [Mounted(Path(path).stem, lens_file, True, [], frames, poses, note and f"{path}: {note}")]
     lenses = {lens.name: lens for lens in lenses_of(lens_file, key, frame)}
     found: list[tuple[Placed, str, float | None, Lens]] = []
-    for one, name, number in _named(placed):
+    for one, name, number in _named(placed, {name: lens.model for name, lens in lenses.items()}):
         lens = _lens(document, lenses, one, number)
         if lens.refusal is not None:
             raise lens.refusal
@@ -170,9 +170,10 @@ def _lens(document: Document, lenses: dict[str, Lens], one: Placed, number: floa
     raise document.refusal(f"it has a pose of camera {one.camera!r}, and no lens of it: give a file with both")
 
 
-def _named(placed: list[Placed]) -> list[tuple[Placed, str, float | None]]:
+def _named(placed: list[Placed], models: dict[str, str]) -> list[tuple[Placed, str, float | None]]:
     """Return each pose with its camera's name and its frame: by the names of pictures if all tell a frame, or if each
-    has a lens of its own; else one camera for each lens. Frames that are not told are in the order of the file.
+    has a lens of its own, of several models; one camera if these are of one model; else one for each lens. Frames that
+    are not told are in the order of the file. ``models``: key of each lens's model.
     """
     told = [(one, *object_and_frame(one.image)) for one in placed]
     if any(one.frame is not None for one in placed):
@@ -183,7 +184,8 @@ def _named(placed: list[Placed]) -> list[tuple[Placed, str, float | None]]:
         return [(one, one.camera or "Camera", None) for one in placed]
     names = {name for _, name, _ in told}
     if len({one.camera for one in placed}) == len(names) == len(placed) > 1:
-        return [(one, name, float(frame)) for frame, (one, name, _) in enumerate(told, 1)]
+        several = len({models.get(one.camera) for one in placed}) > 1
+        return [(one, name if several else "Camera", float(frame)) for frame, (one, name, _) in enumerate(told, 1)]
     counts: dict[str, int] = {}
     found: list[tuple[Placed, str, float | None]] = []
     for one in placed:

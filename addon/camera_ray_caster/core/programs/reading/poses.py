@@ -14,6 +14,11 @@ from ..parts.document import Document
 from ..parts.placed import Placed
 from .nearest import unknown
 
+DATE = re.compile(
+    r"(|.*\D)(19|20)\d\d([-_.]?)(0[1-9]|1[0-2])\3([0-2]\d|3[01])"
+    r"([-_T ]?([01]\d|2[0-3])([-_.:]?)[0-5]\d(\8[0-5]\d\d*)?)?"
+)
+"""A name that ends in a date, with a time of the day or without."""
 ENDING = re.compile(r"(.*?)_(-?\d{4,}(?:\.\d+)?)")
 """The name of a picture of this add-on: CAMERA_FRAME."""
 
@@ -27,6 +32,8 @@ def placed_in(document: Document, meters: float) -> list[Placed]:
     if program is None and not document.has_entries:
         raise unknown(document)
     placed = [] if program is None or program.poses is None else program.poses(document)
+    if program is not None and program.poses is not None and not placed and not program.general:
+        raise document.refusal("it has no pose of a camera")
     if program is None or not placed:
         raise document.refusal(f"it has no poses that are read: give a file of {PLACED}")
     size = np.ones((4, 4))
@@ -36,9 +43,9 @@ def placed_in(document: Document, meters: float) -> list[Placed]:
 
 def object_and_frame(image: str) -> tuple[str, float | None]:
     """Return the camera's name and the frame in the name of a picture, which may have folders and an ending. A number
-    beyond Blender's frames, such as a time in nanoseconds, is none.
+    beyond Blender's frames, such as a time in nanoseconds, is none, and so is a date.
     """
     stem = PurePath(image.replace("\\", "/")).name
     stem = stem.rsplit(".", 1)[0] if re.search(r"\.[A-Za-z]+\d?$", stem) else stem
-    found = ENDING.fullmatch(stem)
+    found = None if DATE.fullmatch(stem) else ENDING.fullmatch(stem)
     return (found[1], float(found[2])) if found and abs(float(found[2])) <= LAST_FRAME else (stem, None)

@@ -1,0 +1,70 @@
+"""Rigs of Surround360 and Facebook360: cameras by their ids, with their places and axes.
+
+focal is in pixels per radian at the center, its second number negative. The distance from the center is x + d0 x^3 +
+d1 x^5 ... times focal, where x is the angle (FTHETA), or its tangent (RECTILINEAR). The center of the first pixel is
+(0.5, 0.5). Lengths are those of the file: centimeters in Surround360, meters in Facebook360.
+Reference: Surround 360 Rig Geometry Format.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .parts.document import Document
+from .parts.fields import Fields
+from .parts.lens import Lens, matrix, one_of_several
+from .parts.placed import Placed, checked
+from .parts.program import ProgramFiles
+
+MODELS = {
+    "FTHETA": ("OPENCV_FISHEYE", ("k1", "k2", "k3", "k4")),
+    "RECTILINEAR": ("OPENCV_PINHOLE", ("k1", "k2", "k3")),
+}
+
+
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    cameras = _cameras(document)
+    return bool(cameras) and all(one.has("id", "forward", "right", "up", "focal") for one in cameras)
+
+
+def _cameras(document: Document) -> list[Fields]:
+    return [one.labeled(one.text("id")) for one in document.entries.parts("cameras")]
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    return [one_of_several(one.label, _lens, one) for one in _cameras(document)]
+
+
+def _lens(camera: Fields) -> Lens:
+    document = camera.document
+    model, terms = MODELS[camera.word("type", MODELS)]
+    size, (fx, fy) = camera.size("resolution"), camera.numbers("focal", 2)
+    if fx <= 0 or fy >= 0:
+        raise camera.refusal("focal", "a number above 0 and one below 0")
+    cx, cy = camera.numbers("principal", 2, default=[side / 2 for side in size.values()])
+    values = camera.numbers("distortion", default=[])
+    if any(values[len(terms) :]):
+        raise document.refusal(f"{camera.said('distortion')} has {len(values)} numbers: {len(terms)} are read")
+    return Lens(camera.label, model, size | matrix(fx, -fy, cx, cy, 0.5) | dict(zip(terms, values, strict=False)))
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles."""
+    return [Placed(camera.label, "", None, _pose(camera)) for camera in _cameras(document)]
+
+
+def _pose(camera: Fields) -> np.ndarray:
+    camera.document.check()
+    right, up, ahead, place = (np.array(camera.numbers(name, 3)) for name in ("right", "up", "forward", "origin"))
+    pose = np.eye(4)
+    pose[:3] = np.stack((right, -up, ahead, place), axis=1)
+    return checked(camera.document, pose, f"right, up and forward of {camera.label}")
+
+
+PROGRAM = ProgramFiles(
+    "Surround360", "rigs of Surround360 and Facebook360 as .json", looks,
+    marks="cameras origin forward up right principal focal resolution", reads="FTHETA, RECTILINEAR",
+    lost="edges of the field of view (fov); other types are refused", read=read, poses=poses,
+)  # fmt: skip
