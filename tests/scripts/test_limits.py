@@ -60,7 +60,7 @@ def test_workers_that_have_all_ended_are_not_waited_for(monkeypatch):
     from camera_ray_caster.blender.terminal import tasks
     from camera_ray_caster.core.records import InputError
 
-    waiting = SimpleNamespace(done=lambda: False)
+    waiting = type("Task", (), {"done": lambda self: False})()
     nobody = {"nthreads": dict, "scheduler_info": lambda: {"workers": {}}}
     client = SimpleNamespace(submit=lambda *words, **more: waiting, **nobody)
     monkeypatch.setattr(tasks, "CHECK", 0)
