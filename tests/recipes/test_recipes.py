@@ -162,6 +162,21 @@ def ray_origin(''',
     copy.follow("Add a pass", NAME="slope")
 
 
+def test_a_program(copy):
+    copy.write(f"{CORE}/programs/lens_cards.py", text_of("tests/core/programs/lens_cards.py"))
+    copy.change(
+        f"{CORE}/programs/__init__.py",
+        ("    maplab,\n", "    lens_cards,\n    maplab,\n"),
+        ("MODULES = (\n", "MODULES = (\n    lens_cards,\n"),
+    )
+    assert "give a sample" in said_by(copy, "tests/core/programs/test_contract.py", "-k", "lens_cards")
+    card = "LENS CARDS\na_0001 64 48 60.5 60.5 32 24 0 -1 0 1 1 0 0 2 0 0 1 3\n"
+    copy.write("tests/core/programs/samples/lens_cards.txt", card)
+    assert "KeyError: 'Lens Cards'" in said_by(copy, "tests/core/test_units.py", "-k", "every_reader")
+    copy.change("tests/core/test_units.py", ("UNITS = {\n", 'UNITS = {\n    "Lens Cards": "",\n'))
+    copy.follow("Add a program", NAME="lens_cards")
+
+
 def test_an_export_format(copy):
     copy.write(
         f"{CORE}/exports/eyes.py",
@@ -194,8 +209,6 @@ class Eyes(Format):
         ("from .fitted import", "from .eyes import Eyes\nfrom .fitted import"),
         ("Npz(), CameraJson(),\n", "Npz(), CameraJson(), Eyes(),\n"),
     )
-    assert "core/library/files.py, has no eyes" in said_by(copy, "tests/core/library/test_files.py", "-k", "help")
-    copy.change(f"{CORE}/library/files.py", ('"npz" or "json"', '"npz", "json" or "eyes"'))
     assert "no program of core/programs has the export eyes" in said_by(copy, "tests/core/cameras/test_readme.py")
     program = 'PROGRAM = ProgramFiles("Eyes", "eyes.txt", lost="lenses", export=FileWriter("eyes", "Eyes", ""))'
     imports = "from __future__ import annotations\n\nfrom .parts.program import FileWriter, ProgramFiles"
@@ -210,6 +223,6 @@ class Eyes(Format):
 
 
 def test_each_recipe_ends_with_lint(copy):
-    for heading in ("Add a camera model", "Add a kind of shape", "Add a pass", "Add an export format"):
+    for heading in ("Add a camera model", "Add a kind of shape", "Add a pass", "Add a program", "Add an export format"):
         assert commands(heading)[-1] == "make lint"
     copy.lint()

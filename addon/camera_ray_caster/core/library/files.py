@@ -13,11 +13,12 @@ import numpy as np
 from ..arguments import folder as a_folder
 from ..arguments import number, shown
 from ..camera.camera import Camera
+from ..exports import FORMATS, find_format
 from ..exports import export as files_of
-from ..exports import find_format
 from ..exports.format import Shot
 from ..exports.writing import write
 from ..names import file_names
+from ..programs.parts.program import in_words
 from ..records import InputError
 
 
@@ -41,8 +42,7 @@ def export(
 ) -> Exported:
     """Write cameras into a folder, for another program; return the paths and remarks.
 
-    format: "colmap", "nerfstudio", "nerf", "opencv", "ros", "kalibr", "mrcal", "bop", "tum", "kitti", "euroc", "stmap",
-        "npz" or "json".
+    format: KEYS.
     cameras: a camera, or several. Those of one name are one camera at several frames: see ``name`` and ``frame`` of
         ``crc.camera``.
     meters: length of a unit, for formats with meters.
@@ -77,6 +77,10 @@ def export(
         raise InputError("two cameras have one name and one frame: give them names (name=) or frames (frame=)")
     files, remarks = files_of(format, sorted(shots, key=lambda shot: shot.frame), angle)
     return Exported(write(files, a_folder(folder)), remarks)
+
+
+_KEYS = in_words([f'"{one.key}"' for one in FORMATS])
+export.__doc__ = (export.__doc__ or "").replace("KEYS", _KEYS)
 
 
 def _frame(camera: Camera) -> float:
