@@ -8,7 +8,7 @@ import pytest
 
 from camera_ray_caster.core.sets import shares
 
-from .running import left, refused
+from .running import ROOT, left, refused
 
 WORDS = "--cameras", "ALL", "--frames", "1:3", "--passes", "combined,ray_direction", "--annotations"
 
@@ -140,3 +140,17 @@ def test_a_full_disk_leaves_the_set_as_it_was(command, whole, monkeypatch):
     monkeypatch.undo()
     assert command("dataset", whole, "--complete").returncode == 0
     assert {path.name: path.read_bytes() for path in whole.iterdir()} == expected
+
+
+def test_shares_of_a_scanner_are_one_sequence_of_kitti(command, tmp_path):
+    words = (ROOT / "blend_scenes" / "street_scanner.blend", "--resolution", "64x16", "--passes", "distance",
+             "--points", "kitti", "--frames", "1:2")  # fmt: skip
+    for k in (2, 1):
+        assert command("dataset", *words, "--shard", f"{k}/2", "--output", tmp_path).returncode == 0
+    assert command("dataset", tmp_path, "--complete").returncode == 0
+    place = tmp_path / "sequences" / "00"
+    assert [float(line) for line in (place / "times.txt").read_text().split()] == [0.0, 0.1]
+    assert len((place / "poses.txt").read_text().splitlines()) == 2
+    for k in (0, 1):
+        points = (place / "velodyne" / f"{k:06}.bin").read_bytes()
+        assert points == (tmp_path / f"Camera_000{k + 1}.bin").read_bytes() != b""

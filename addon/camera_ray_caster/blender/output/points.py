@@ -20,6 +20,7 @@ from ...core.clouds.sequences import sequence
 from ...core.exports.camera_json import camera_from_json
 from ...core.file_set import atomic_folder
 from ...core.records import InputError
+from ...core.sets.common import dataset_of
 from ..read.unique import find_unique
 from .annotations import CATEGORY
 
@@ -120,7 +121,7 @@ def collect_sequences(folder: Path, jobs: Iterable[Any]) -> None:
         for job in jobs:
             if job.camera == camera:
                 text = (folder / f"{job.report}.json").read_text(encoding="utf-8")
-                report = json.loads(text)
+                report = {**dataset_of(folder).get("common", {}), **json.loads(text)}
                 cameras.append(camera_from_json(text))
                 seconds.append(report["frame"] / report["host"]["frame_rate"])
         with atomic_folder(place) as temporary:
