@@ -178,3 +178,13 @@ def test_a_zoom_is_interpolated_between_its_configurations():
     gaps = [lens.in_state(place).rows[1].gap for place in (0.0, 0.25, 1.0, 5.0)]
     assert gaps == [10.0, 15.0, 30.0, 30.0]
     assert lens.in_state(0.25).rows[2] == replace(rows[2])
+
+
+def test_a_calibrated_model_is_fitted_to_a_real_lens():
+    """At the plane of focus both see a point at the same pixel, to the residual that the fit states."""
+    camera = crc.camera("REAL_LENS", (96, 64), focus_distance=2.0)
+    fit = crc.fit(camera, "OPENCV_PINHOLE")
+    assert fit.converged
+    assert fit.worst < 0.05
+    points = [(0.5, 0.3, -2.0), (-0.6, 0.1, -2.0), (0.0, 0.0, -2.0)]
+    assert np.abs(fit.camera.project(points) - camera.project(points)).max() <= fit.worst * 1.01

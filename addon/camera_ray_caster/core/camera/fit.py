@@ -1,8 +1,9 @@
 """The camera of another model nearest to a camera: least squares over the pixels of a region.
 
-Assumption: the rays of both leave one eye. The residual of a pixel is the vector from it to the pixel at which the
-fitted camera sees the pixel's ray, in pixels. The sum of squares that is made least is that of at most SAMPLED times
-SAMPLED pixels, even over the region, with those at its edges; worst and mean are those of all pixels of the region.
+Assumption: the rays of both leave one eye; those of a real lens are taken to where they meet its plane of focus. The
+residual of a pixel is the vector from it to the pixel at which the fitted camera sees the pixel's ray, in pixels. The
+sum of squares that is made least is that of at most SAMPLED times SAMPLED pixels, even over the region, with those at
+its edges; worst and mean are those of all pixels of the region.
 Pixels without a ray do not count, nor do those whose rays the fitted camera does not see: they are counted apart.
 Singular: parameters that move all pixels alike, such as focal length and sensor, are determined only together. Those of
 HELD keep their values unless they are asked for.
@@ -88,7 +89,7 @@ def fit_model(
     if kind.key in LISTS:
         raise InputError(f"{kind.label} lists its {LISTS[kind.key]} and has no formula to fit: choose another model")
     for model, what in ((camera.model, f"camera {camera.name!r}"), (kind, kind.label)):
-        if not model.central:
+        if not (model.central or (model is camera.model and model.focused_at)):
             raise InputError(f"the rays of {what} have no eye in common: only cameras with one eye can be fitted")
     width, height = camera.raster.size
     require(64 * width * height, of_pixels("the residuals", (height, width)))
@@ -158,7 +159,10 @@ def _rays(camera: Camera) -> np.ndarray:
     width, height = camera.raster.size
     x, y = np.arange(width)[None, :] + 0.5, np.arange(height)[:, None] + 0.5
     with np.errstate(all="ignore"):  # NaN means no ray
-        _, direction = camera.model.rays(x, y)
+        origin, direction = camera.model.rays(x, y)
+        if not camera.model.central:
+            t = (camera.model.focused_at + origin[2]) / -direction[2]
+            direction = tuple(o + np.where(t > 0, t, np.nan) * d for o, d in zip(origin, direction, strict=True))
         rays = np.stack([np.broadcast_to(part, (height, width)) for part in direction], axis=-1).astype(np.float64)
         return rays / np.linalg.norm(rays, axis=-1, keepdims=True)
 

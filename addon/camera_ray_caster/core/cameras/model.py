@@ -69,6 +69,8 @@ class Model(ABC):
     """Whether the ray parameter t is depth: directions have z = -1. Otherwise they have unit length; t is distance."""
     central: ClassVar[bool] = True
     """Whether all chief rays leave the eye, the origin of the camera's frame."""
+    focused_at: ClassVar[float | None] = None
+    """Depth at which a central model may stand for this one, whose eye moves a little; None if none may."""
     straight: ClassVar[bool] = False
     """Whether straight lines have straight images, so that the image of a triangle before the camera is a triangle."""
     parallel: ClassVar[bool] = False
@@ -185,9 +187,8 @@ class Model(ABC):
         return aperture.through(*chief, self.planar, *point)
 
     def light(self, aperture: Aperture, x, y, point: tuple[Any, Any]):
-        """Return the light that a pixel's ray through a point of the aperture carries, relative to the middle of the
-        picture; None, the default, if all rays carry the same. Where it is not None, rays of the aperture without a
-        direction are dark: a part of the lens is in their way.
+        """Return the light of a pixel's ray through a point of the aperture, relative to the middle of the picture; if
+        it is not None, the default, rays without a direction are dark: the lens is in their way.
         """
         return None
 

@@ -63,6 +63,8 @@ class RealLens(WindowModel):
     """Blender units per mm of the file."""
     radius: float
     """Of the stop, mm of the file."""
+    focus: float
+    """Depth of the plane of focus, Blender units."""
     vignetting: bool = True
     falls_off: bool = True
     prescription: Prescription | None = None
@@ -114,7 +116,7 @@ class RealLens(WindowModel):
         window = Window.from_blender(raw, raster, size)
         chief = chief_of(numbers, chief_rays(optics, float(film)))
         flags = VIGNETTING.read(raw), FALLOFF.read(raw)
-        return cls(raster.size, window, chief, optics, film, eye, unit, radius, *flags, prescription)
+        return cls(raster.size, window, chief, optics, film, eye, unit, radius, distance * unit, *flags, prescription)
 
     @classmethod
     def following(cls, given: Mapping[str, Any]) -> dict[str, Any]:
@@ -202,6 +204,11 @@ class RealLens(WindowModel):
         a, b = self.window.plane_from_pixels(x, y)
         place = tuple(part / aperture.radius for part in point)
         return light_of(self.film, self.chief, aperture, (a, b), place, self.falls_off, self.vignetting)
+
+    @property
+    def focused_at(self) -> float:  # type: ignore[override]
+        """See Model."""
+        return float(self.focus)
 
     @property
     def K(self) -> np.ndarray:
