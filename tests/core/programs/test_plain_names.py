@@ -57,6 +57,19 @@ def test_what_may_be_a_distortion_is_refused_by_its_name(entries, tmp_path):
     assert not any(lens(tmp_path, same).values(("k1", "k2")))
 
 
+@pytest.mark.parametrize(
+    ("entries", "said"),
+    [
+        ({"distortion": {"0": -0.3}}, "0"), ({"distortion": {"a": [-0.3]}}, "a"),
+        ({"dist": {"polynomial": {"k1": -0.3}}}, "polynomial"),
+    ],
+    ids=repr,
+)  # fmt: skip
+def test_so_is_what_a_mapping_of_a_distortion_has(entries, said, tmp_path):
+    with pytest.raises(InputError, match=f"{said} may be its distortion"):
+        lens(tmp_path, entries)
+
+
 def test_a_distortion_beside_the_mapping_of_a_matrix_is_refused(tmp_path):
     file = tmp_path / "lens.json"
     file.write_text(json.dumps({"cam": {"matrix": {"fx": 400, "fy": 400, "cx": 320, "cy": 240}, "bent": {"k1": 0.1}}}))

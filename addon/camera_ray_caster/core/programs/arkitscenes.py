@@ -7,7 +7,6 @@ References: ARKitScenes documentation, Dataset files formats; its tenFpsDataLoad
 
 from __future__ import annotations
 
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -41,18 +40,12 @@ def poses(document: Document) -> list[Placed]:
     """See ProgramFiles. The camera of a .pincam stands in the frame that the trajectory moves."""
     if _pincam(document) is not None:
         return [Placed("", "", None, np.eye(4))]
-    rows = _rows(document)
-    if Path(document.path).suffix.lower() != TRAJECTORY:
-        times = [float(row[0]) for row in rows if numbers_of(row[:1])]
-        if any(after <= before for before, after in pairwise(times)):
-            raise document.refusal("its lines have 7 numbers, of which the first is no time that rises, and the last 4 "
-                                   "are no quaternion of length 1: name the columns in the first line")  # fmt: skip
-    return [_moved(document, number, row) for number, row in enumerate(rows, 1)]
+    return [_moved(document, number, row) for number, row in enumerate(_rows(document), 1)]
 
 
 def _rows(document: Document) -> list[list[str]]:
     """Return the lines of a trajectory; [] of any other file."""
-    rows = rows_of(document)
+    rows = rows_of(document) if Path(document.path).suffix.lower() == TRAJECTORY else []
     if not rows or len(numbers_of(rows[0])) != 7 or columns_of(document) is not None:
         return []
     return rows

@@ -30,6 +30,8 @@ MODELS = {"perspective": 0, "brown3": 3, "brown3t2": 3, "brown4": 3, "brown4t2":
 FILM = 36.0
 """Millimeters of a picture's longer side."""
 HEAD = ("x", "y", "alt", "heading", "pitch", "roll", "f")
+FIRST_LINES = 9
+"""Lines of a .csv among which one names the columns."""
 COEFFICIENTS = ("k1", "k2", "k3", "k4", "t1", "t2")
 
 
@@ -37,7 +39,13 @@ def looks(document: Document) -> bool:
     """See ProgramFiles."""
     if document.text.lstrip()[:1] == "<":
         return any(one.has("FocalLength35mm") or one.has("Rotation", "Position") for one in _of_xmp(document))
-    return document.text.lstrip()[:1] == "#" and set(HEAD) <= set(_words(document.text.lstrip("#").split("\n", 1)[0]))
+    return _head(document) is not None
+
+
+def _head(document: Document) -> int | None:
+    """Return the number of the line of a .csv that names the columns; None of any other file."""
+    lines = document.text.splitlines()[:FIRST_LINES]
+    return next((i for i, line in enumerate(lines) if set(HEAD) <= set(_words(line.lstrip("# ")))), None)
 
 
 def _words(line: str) -> list[str]:
@@ -51,7 +59,7 @@ def _of_xmp(document: Document) -> list[Fields]:
         texts = dict(one.attributes) | _texts(one.children)
         names = {name.removeprefix(PREFIX): text for name, text in texts.items() if name.startswith(PREFIX)}
         values = {name: text.split() if name in SPLIT else text for name, text in names.items()}
-        found.append(Fields(document, values))
+        found += [Fields(document, values)] if values else []
     return found
 
 
@@ -63,10 +71,10 @@ def _pictures(document: Document) -> list[Fields]:
     """Return the entries of each picture: of an .xmp, or of the lines of a .csv, labeled by the picture's name."""
     if document.text.lstrip()[:1] == "<":
         return _of_xmp(document)[:1]
-    head, *lines = [line for line in document.text.splitlines() if line.strip()]
+    head, *lines = document.text.splitlines()[_head(document) :]
     names = _words(head.lstrip("# "))
     pictures = []
-    for number, line in enumerate(lines, 1):
+    for number, line in enumerate(filter(str.strip, lines), 1):
         document.check()
         words = _words(line)
         if len(words) != len(names):

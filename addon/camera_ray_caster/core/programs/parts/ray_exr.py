@@ -66,7 +66,7 @@ def _is_stmap(values: np.ndarray) -> bool:
     """Whether vectors (rows, columns, 3) are places in a picture: blue is one number, and red and green are parts of
     its sides, whose middle is at 0.5. The middle of directions in a camera's frame is near 0.
     """
-    places = values[np.isfinite(values).all(axis=2)]
+    places = values[np.isfinite(values).all(axis=2) & values.any(axis=2)]
     if not len(places) or np.ptp(places[:, 2]):
         return False
     return bool((np.abs(np.median(places[:, :2], axis=0) - 0.5) < OFF_MIDDLE).all())

@@ -49,6 +49,10 @@ PREFIX = re.compile(r"(.+?)[._\s-](?:fx|flx)", re.IGNORECASE)
 
 BEND = re.compile(r"dist(?!anc)|coef|radial|tangent|kappa|^k?[dk]c\d?$|^(lens)?param(eter)?s$|^d\d?$")
 """What names of distortions have."""
+TERM = re.compile(r"[kpsd]\d|tau[xy]|radial|tangential")
+"""Names of what a mapping of a distortion has."""
+INSIDE = "distortion."
+"""What stands before other names in it, as no plain name begins."""
 COEFFICIENT = re.compile(
     r"(.*(dist(ortion)?|lens|radial|tangential|coef\w*?|cam))?(k|p|s|d|kappa|radial|tangential|coeff?)_?[0-9]"
 )
@@ -64,7 +68,9 @@ def _in_distortion(name: str) -> str:
     """Return the name of an entry of a mapping of a distortion among those beside it."""
     if name in LISTED:
         return DISTORTION[0]
-    return f"distortion{name}" if name in ("model", "type") else name
+    if name in ("model", "type"):
+        return f"distortion{name}"
+    return name if TERM.fullmatch(name) or name in DISTORTION else f"{INSIDE}{name}"
 
 
 def _may_bend(name: str, value: Any) -> bool:
@@ -75,6 +81,8 @@ def _may_bend(name: str, value: Any) -> bool:
         return any(COEFFICIENT.fullmatch(plain_name(own)) and _may_bend("coefficient", one)
                    for own, one in value.items())  # fmt: skip
     numbers = numbers_of(flat(value, name, ""))
+    if name.startswith(INSIDE):
+        return any(numbers)
     is_one = len(numbers) == 1 and not isinstance(value, list)
     return any(numbers) and (COEFFICIENT if is_one and name != "coefficient" else BEND).search(name) is not None
 

@@ -77,7 +77,7 @@ def columns_of(document: Document) -> Columns | None:
     if named is not None:
         return named
     count, has_commas = len(rows[0]), has_commas_in(document)
-    if count == 7 and not has_commas and _is_timeless(rows):
+    if count == 7 and not has_commas and _is_unit(rows, slice(3, 7)):
         return TIMELESS
     if count >= 8 and has_commas and len(numbers_of(rows[0][:8])) == 8:
         return OF_EUROC
@@ -127,6 +127,9 @@ def _check(document: Document, columns: Columns, rows: list[list[str]]) -> None:
         raise document.refusal(
             f"its columns are {shown(columns.head)}: they must be a time, x, y, z, and qx, qy, qz, qw or rx, ry, rz"
         )
+    if columns is SPACED and not _is_unit(rows, slice(4, 8)) and _is_unit(rows, slice(1, 5)):
+        raise document.refusal("of its 8 numbers the second to the fifth are a quaternion of length 1, not the last 4: "
+                               "name the columns in the first line, such as # timestamp qw qx qy qz x y z")  # fmt: skip
     times = [row[columns.time[0][0]] for row in rows if columns.time and len(row) > columns.time[0][0]]
     if columns is OF_EUROC and "." in times[0]:
         raise document.refusal(
@@ -142,10 +145,9 @@ def _check(document: Document, columns: Columns, rows: list[list[str]]) -> None:
             )
 
 
-def _is_timeless(rows: list[list[str]]) -> bool:
-    """Whether the last four of seven numbers are of length 1 in all lines."""
-    numbers = [numbers_of(row) for row in rows]
-    return all(len(row) == 7 and abs(sum(one * one for one in row[3:]) - 1) < UNIT_LENGTH for row in numbers)
+def _is_unit(rows: list[list[str]], four: slice) -> bool:
+    """Whether four numbers are of length 1 in all lines."""
+    return all(abs(sum(one * one for one in numbers_of(row[four])) - 1) < UNIT_LENGTH for row in rows)
 
 
 def _seconds(value: float, unit: float | None) -> float:
