@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import camera_ray_caster as crc
 from camera_ray_caster.core.programs.parts.placed import FROM_BLENDER
 from camera_ray_caster.core.programs.reading.lenses import lenses_of
 from camera_ray_caster.core.programs.reading.mounted import mounted
@@ -57,6 +58,17 @@ def test_bundler_and_nvm():
     left, right = cameras(SAMPLES / "nvm.nvm")
     check(left, [480, 480, 399.5, 299.5, 0, 0], np.transpose(BY_Z), (4, 5, 6))
     check(right, [500, 500, 399.5, 299.5, 0, 0], UPRIGHT, (4, 5, 7))
+
+
+@pytest.mark.parametrize("k", [-0.3, 0.05])
+def test_the_radial_coefficient_of_nvm_leads_from_the_picture(k, tmp_path):
+    (tmp_path / "a.nvm").write_text(f"NVM_V3\n\n1\na.jpg 500 1 0 0 0 0 0 0 {k} 0\n")
+    camera = crc.load_calibration(tmp_path / "a.nvm", size=SIZE)
+    x, y = np.array([1.5, 700.5, 400.5]), np.array([2.5, 100.5, 300.5])
+    u, v = (x - 400) / 500, (y - 300) / 500
+    undistorted = np.stack((u, v), axis=1) * (1 + k * (u * u + v * v))[:, None]
+    directions = camera.rays_at(x, y).directions
+    np.testing.assert_allclose(directions[:, :2] / directions[:, 2:], undistorted, rtol=0, atol=1e-6)
 
 
 def test_gaussian_splatting_and_llff():
@@ -158,7 +170,7 @@ def test_lenses_of_meshroom(version, changes, model, focal, tmp_path):
     ("name", "change", "says"),
     [
         ("realitycapture.xmp", ("0.0625 0 0 0 0", "0.0625 0 0 0.001 0"), "k4 or the tangential distortion"),
-        ("nvm.nvm", ("6\t0 0", "6\t0.01 0"), "the radial distortion of left.jpg is 0.01"),
+        ("nvm.nvm", ("6\t0 0", "6\t0.7 0"), "the radial distortion of left.jpg is 0.7, with focal lengths 480 and 480"),
         ("opensfm.reconstruction.json", ('"points": {}}', '"points": {}}, {"cameras": {"a": {}}, "shots": {"x": {}}}'),
          "it has 2 reconstructions, each in a frame of its own"),
         ("openmvg.json", ("pinhole_brown_t2", "pinhole_other"), "polymorphic_name of intrinsic 0 is 'pinhole_other'"),

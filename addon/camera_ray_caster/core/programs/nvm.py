@@ -1,13 +1,17 @@
 """VisualSFM's .nvm: for each picture the focal length, the rotation, the center and a radial coefficient.
 
 The middle of the picture, whose size is that of the frame, is the center unless FixedK tells another camera matrix. The
-quaternion w, x, y, z leads from the world to the camera, x right, y down, z ahead. The first model of a file is read.
+radial coefficient leads from the picture to the undistorted one: r (1 + k r^2), in focal lengths, which is OCam's model
+with a power series. The quaternion w, x, y, z leads from the world to the camera, x right, y down, z ahead. The first
+model of a file is read.
 Reference: VisualSFM documentation, NVM file format.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
+from math import inf
 
 from .parts.document import Document
 from .parts.lens import FRAME_SIZE, Lens, different, matrix, once_each
@@ -15,6 +19,8 @@ from .parts.placed import Placed, of_quaternion
 from .parts.program import ProgramFiles
 
 HEAD = "NVM_V3"
+STRONGEST, TERMS = 0.4, 24
+"""Largest distortion, and terms of its power series: they leave STRONGEST^25, 1e-10 of the focal length."""
 PICTURE = re.compile(r'("[^"]*"|\S+)\s+(.*)')
 
 
@@ -43,17 +49,33 @@ def _lenses(document: Document) -> list[Lens]:
     fixed = document.lines()[0].split()
     lenses = []
     for name, (f, *_, radial, _end) in _pictures(document):
-        own = matrix(f, f, width / 2, height / 2, 0.5)
+        fx, fy, cx, cy = f, f, width / 2, height / 2
         if "FixedK" in fixed:
             fx, cx, fy, cy, radial = document.numbers(fixed[fixed.index("FixedK") + 1 :], "FixedK", 5)
-            own = matrix(fx, fy, cx, cy, 0.5)
         if radial:
-            raise document.refusal(
-                f"the radial distortion of {name} is {radial:g}: it leads from pictures to rays, which no model has; "
-                "undistort the pictures in VisualSFM, or export a Bundler file"
-            )
-        lenses.append(Lens(name, "OPENCV_PINHOLE", FRAME_SIZE | own))
+            lenses.append(_distorted(document, name, (fx, fy, cx, cy), radial))
+        else:
+            lenses.append(Lens(name, "OPENCV_PINHOLE", FRAME_SIZE | matrix(fx, fy, cx, cy, 0.5)))
     return once_each(lenses)
+
+
+def _distorted(document: Document, name: str, focal_and_center: Sequence[float], radial: float) -> Lens:
+    """Return the lens whose rays are (x, y, f / (1 + radial (r / f)^2)) for pixels x, y at r from the center, with a
+    power series of the third component.
+    """
+    fx, fy, cx, cy = focal_and_center
+    width, height = document.frame or (1, 1)
+    part = abs(radial) * ((width / 2) ** 2 + (height / 2) ** 2) / fx**2 if fx > 0 else inf
+    if part > STRONGEST or fx != fy:
+        raise document.refusal(
+            f"the radial distortion of {name} is {radial:g}, with focal lengths {fx:g} and {fy:g}: it is read with "
+            f"equal ones, and up to {STRONGEST:g} of the radius in the corner of the frame; undistort the pictures"
+        )
+    coefficients = [-fx]
+    for _ in range(TERMS):
+        coefficients += [0.0, -radial / fx**2 * coefficients[-1]]
+    polynomial = " ".join(map(repr, coefficients))
+    return Lens(name, "OCAM", FRAME_SIZE | {"cx": cx - 0.5, "cy": cy - 0.5, "ocam_polynomial": polynomial})
 
 
 def read(document: Document) -> list[Lens]:
@@ -73,6 +95,6 @@ def poses(document: Document) -> list[Placed]:
 
 
 PROGRAM = ProgramFiles(
-    "NVM", "VisualSFM's .nvm", looks, reads="pinhole", lost="the size of the pictures; radial distortion is refused",
+    "NVM", "VisualSFM's .nvm", looks, reads="pinhole, with a radial coefficient", lost="the size of the pictures",
     read=read, poses=poses,
 )  # fmt: skip
