@@ -2,6 +2,7 @@
 
 import time
 from colorsys import hsv_to_rgb
+from glob import glob
 
 import bpy
 import numpy as np
@@ -127,7 +128,7 @@ def live_shadings(user, scenes):
     for shading, engine in (("RENDERED", "BLENDER_WORKBENCH"), ("MATERIAL", eevee), ("RENDERED", eevee)):
         began, count = time.process_time(), region.count
         scene.render.engine, space.shading.type = engine, shading
-        yield from user.until(lambda count=count: region.count > count, "it is drawn", 200)
+        yield from user.until(lambda count=count: region.count > count, "it is drawn", 600)
         first = time.process_time() - began
         yield from user.wait(0.5)
         count, began = region.count, time.process_time()
@@ -144,6 +145,36 @@ def live_shadings(user, scenes):
         assert shown[view.height // 2 - 100 : view.height // 2 + 100, 450:650, :3].std() > 0.02
     yield from user.press(f"{BUTTON}see_through(")
     space.overlay.show_overlays = True
+
+
+def live_look(user, scenes):
+    """A fisheye of 180 degrees in a living room, with an object that a click has selected, in the dark and the light
+    theme.
+    """
+    yield from load(user, scenes, "living_room")
+    scene, space, view = bpy.context.scene, user.area().spaces.active, user.region("WINDOW")
+    scene.camera.data.type, scene.camera.data.panorama_type = "PANO", "FISHEYE_EQUISOLID"
+    scene.camera.data.fisheye_lens, scene.camera.data.fisheye_fov = 9.6, np.pi
+    scene.render.resolution_x, scene.render.resolution_y = 700, 620
+    scene.camera.location, scene.camera.rotation_euler = (0.9, -1.3, 1.5), (1.35, 0, 0.35)
+    space.shading.color_type, space.overlay.show_overlays = "TEXTURE", True
+    yield from user.wait(0.5)
+    yield from user.press(f"{BUTTON}see_through(")
+    space.region_3d.view_camera_zoom, space.region_3d.view_camera_offset = 20, (0.12, 0)
+    yield from user.wait(1)
+    (region,) = addon("view3d.live")._live[space.as_pointer()].values()
+    count = region.count
+    yield from user.click(view.x + view.width * 0.53, view.y + view.height * 0.31)
+    yield from user.until(lambda: region.count > count, "the outline of what is selected is drawn")
+    assert [item.name for item in bpy.context.selected_objects] == [bpy.context.object.name]
+    yield from user.wait(1)
+    user.picture("live_look", [user.area()])
+    (theme,) = (path for folder in bpy.utils.preset_paths("interface_theme") for path in glob(f"{folder}/*Light.xml"))
+    bpy.ops.script.execute_preset(filepath=theme, menu_idname="USERPREF_MT_interface_theme_presets")
+    yield from user.wait(1)
+    user.picture("live_look_light", [user.area()])
+    bpy.ops.preferences.reset_default_theme()
+    yield from user.press(f"{BUTTON}see_through(")
 
 
 def said(user):
@@ -190,4 +221,4 @@ def live_redraws(user, scenes):
         yield from user.press(f"{BUTTON}see_through(")
 
 
-LIVE_SCENARIOS = (live_picture, live_ends, live_redraws, live_shadings)
+LIVE_SCENARIOS = (live_picture, live_ends, live_redraws, live_shadings, live_look)

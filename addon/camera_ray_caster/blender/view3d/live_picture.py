@@ -171,7 +171,8 @@ def _looks(context) -> tuple:
     ]  # fmt: skip
     view = scene.view_settings
     return (
-        own, context.mode, active and active.name_full, tuple(scene.cursor.location), scene.render.engine,
+        own, [item.as_pointer() for item in context.selected_objects], context.mode,
+        active and active.name_full, tuple(scene.cursor.location), scene.render.engine,
         space.local_view is not None, view.view_transform, view.exposure, view.gamma, view.look,
         [getattr(space, f"show_object_viewport_{kind}") for kind in ("mesh", "light", "camera", "empty", "curve")],
     )  # fmt: skip
