@@ -145,7 +145,8 @@ def cast(
 
     began = perf_counter()
     others = round(whole.work.sum() / len(tiles) / tuning.SERIAL_WORK)  # may hold the interpreter in turn
-    busy = in_threads(run, tiles, min(threads, 1 + others), effort, progress, end)
+    is_small = whole.work.sum() * samples < tuning.SERIAL_WORK
+    busy = in_threads(run, tiles, min(threads, 1 + others), effort, progress, end, alone=bool(is_small))
     if time is not None:  # a row may have pixels of many times
         tell(slice(0, shape[0]))
     share = (perf_counter() - began - write) / max(busy.sum(), np.finfo(float).tiny)

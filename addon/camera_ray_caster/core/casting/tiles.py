@@ -157,12 +157,20 @@ def in_threads(
     effort: Effort,
     progress: Callable[[float], bool] | None,
     finished: Callable[[Tile], None],
+    alone: bool = False,
 ) -> np.ndarray:
     """Run tiles on threads (numpy releases the interpreter), each with working arrays of its own, and return the sum of
     the seconds of all tiles. ``progress`` and Cancelled: as in ``cast``. ``finished(tile)`` is called in this thread.
+    ``alone``: whether a single tile takes less than the start of a thread would pay for: it is run in this thread.
     """
     own = local()
-
+    if alone and len(tiles) == 1:
+        with lending() as lend:
+            total = run(tiles[0], lend())
+        finished(tiles[0])
+        if progress is not None and not progress(effort.fraction):
+            raise Cancelled
+        return total
     total = np.zeros(len(STEPS))
     with lending() as lend, ThreadPoolExecutor(workers, initializer=lambda: setattr(own, "scratch", lend())) as pool:
         waiting: dict[Future, Tile] = {}

@@ -172,7 +172,7 @@ def uncolored(shapes: Shapes, passes: Collection[str]) -> Iterator[tuple[str, st
 
 def as_data(report: Report) -> dict:
     """Return the report as plain lists, dicts, strings and numbers; a number that is not finite becomes None."""
-    data = {"version": VERSION, "conventions": CONVENTIONS, **asdict(report)}
+    data = {"version": VERSION, "conventions": CONVENTIONS, **vars(report)}
     data["accuracy"] = report.accuracy.as_data()
     data |= {"rays_per_second": report.rays_per_second, "passed": report.passed}
     data["findings"] = [{**asdict(finding), "passed": finding.passed} for finding in report.findings]
