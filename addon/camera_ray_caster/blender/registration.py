@@ -32,6 +32,7 @@ from .ui import (
     hide_overlays,
     in_steps,
     left_out_panels,
+    lens_operators,
     lesson_operators,
     lesson_panels,
     menus,
@@ -60,7 +61,8 @@ CLASSES = (
     *gallery_panels.CLASSES, *menus.CLASSES, *presets.CLASSES, *model_panels.CLASSES,
     *see_through.CLASSES, *select_seen.CLASSES, *camera_panels.CLASSES, *in_steps.CLASSES, *cast_all.CLASSES,
     *cameras_list.CLASSES, *show_result.CLASSES, *cast_panels.CLASSES, *verify_panels.CLASSES,
-    *left_out_panels.CLASSES, *lesson_operators.CLASSES, *point_operators.CLASSES, *gallery_operators.CLASSES,
+    *left_out_panels.CLASSES, *lens_operators.CLASSES, *lesson_operators.CLASSES,
+    *point_operators.CLASSES, *gallery_operators.CLASSES,
     *open_lesson.CLASSES, *lesson_panels.CLASSES, *facts_panels.CLASSES, *overlay_panels.CLASSES,
     *cloud_operators.CLASSES, *object_panels.CLASSES, *through_model.CLASSES,
 )  # fmt: skip

@@ -90,6 +90,8 @@ CALLS = {
     "points_to_mesh": lambda folder: None,
     "use_in_cycles": lambda folder: own(model="OMNIMAX"),
     "back_to_blender": in_cycles,
+    "choose_lens": lambda folder: own(model="REAL_LENS") or {"name": "tessar_100mm"},
+    "own_focal_length": lambda folder: own(model="REAL_LENS"),
     "fit_lens": lambda folder: own(model="OPENCV_PINHOLE"),
     "follow_timeline": lambda folder: own(time_mode="ROWS"),
     "set_frame": stretched,

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from ...core.camera import pixel_time
 from ...core.cameras.parts.calibration import UNIT
 from ...core.cameras.parts.film import FILM, LENS
+from ...core.cameras.parts.lens_settings import LENS_FILE
 from ...core.cameras.parts.settings import CAMERA, Setting
 from ..cycles.shader import CUSTOM
 from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
@@ -13,6 +14,7 @@ from ..read.camera import shader_mark
 from .add_line import AddGradient, AddLine, SelectLine
 from .cycles_operators import BackToBlender, FitLens, UseInCycles
 from .drawing import draw_field, draw_message
+from .lens_operators import draw_lens_file
 from .model_settings import lengths_in_words, not_used, of_type, read_settings, settings_of, shown
 
 PRESETS = "CAMERA_RAY_CASTER_PT_presets"
@@ -27,6 +29,8 @@ def draw_model_settings(layout, context, camera, beside_lens: bool = True, drawn
     for setting in read_settings(camera):
         if setting not in drawn and (not beside_lens or shown(setting, camera, context.engine)):
             draw_setting(column, context, camera, setting)
+    if LENS_FILE in settings_of(camera):
+        draw_lens_file(layout, camera)
     if UNIT in settings_of(camera):
         draw_message(layout, context, lengths_in_words(getattr(camera, GROUP)))
     if beside_lens and context.engine != ENGINE and camera.type != CUSTOM and (labels := not_used(camera)):
