@@ -67,7 +67,7 @@ def test_the_radial_coefficient_of_nvm_leads_from_the_picture(k, tmp_path):
     x, y = np.array([1.5, 700.5, 400.5]), np.array([2.5, 100.5, 300.5])
     u, v = (x - 400) / 500, (y - 300) / 500
     undistorted = np.stack((u, v), axis=1) * (1 + k * (u * u + v * v))[:, None]
-    directions = camera.rays_at(x, y).directions
+    directions = camera.rays_at(x, SIZE[1] - y).directions  # in the world of the file; y from the bottom
     np.testing.assert_allclose(directions[:, :2] / directions[:, 2:], undistorted, rtol=0, atol=1e-6)
 
 
