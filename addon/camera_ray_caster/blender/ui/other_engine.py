@@ -73,7 +73,7 @@ def engine_note(scene, camera) -> Note | None:
 def _draw_buttons(can_warp: bool, row) -> None:
     row.operator(UseThisEngine.bl_idname, text="Ray Caster")
     if can_warp:
-        row.operator(RenderThroughModel.bl_idname, text="Through Model")
+        row.operator(RenderThroughModel.bl_idname, text="", icon="RENDER_STILL")
     row.operator(UseInCycles.bl_idname).set_engine = True
 
 

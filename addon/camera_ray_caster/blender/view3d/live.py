@@ -135,7 +135,10 @@ def _later(function: Callable, seconds: float) -> None:
 
 
 def settle() -> None:
-    """Have live views drawn again, with what Blender draws over them."""
+    """Have live views drawn again, with what Blender draws over them; forget those that were closed."""
+    spaces = {space.as_pointer() for screen in bpy.data.screens for area in screen.areas for space in area.spaces}
+    for closed in _live.keys() - spaces:
+        del _live[closed]
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D" and is_live(area.spaces.active):
