@@ -215,7 +215,7 @@ def test_the_operator_adds_the_cameras_and_refuses_what_is_none(blender, camera_
     assert blender.ops.camera_ray_caster.add_cameras(filepath=chain) == {"FINISHED"}
     assert {"cam0", "cam1"} <= set(camera_scene.objects.keys())
     before = len(camera_scene.objects)
-    (tmp_path / "lens.json").write_text('{"K": [[1, 0, 1], [0, 1, 1], [0, 0, 1]]}')
+    (tmp_path / "lens.json").write_text('{"K": [[500, 0, 320], [0, 500, 240], [0, 0, 1]]}')
     with pytest.raises(RuntimeError, match="it has no poses that are read"):
         blender.ops.camera_ray_caster.add_cameras(filepath=str(tmp_path / "lens.json"))
     assert len(camera_scene.objects) == before
