@@ -40,8 +40,11 @@ def poses(document: Document) -> list[Placed]:
     pictures; none of other files.
     """
     entries = Spelled(document.entries)
+    is_pair = entries.has(ROTATION) and entries.has(TRANSLATION)
+    if not is_pair and not document.entries.has(EXTRINSICS):
+        return []
     cameras = [lens.name for lens in plain_lenses(document) or []]
-    if len(cameras) == 2 and entries.has(ROTATION) and entries.has(TRANSLATION):
+    if len(cameras) == 2 and is_pair:
         turn, place = entries.numbers(ROTATION), entries.numbers(TRANSLATION)
         if len(turn) not in (3, 9) or len(place) != 3:
             raise document.refusal(f"R and T have {len(turn)} and {len(place)} numbers: they must have 9 and 3")
