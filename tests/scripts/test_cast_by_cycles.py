@@ -79,8 +79,8 @@ def test_our_own_picture_says_so(command, scene, tmp_path):
 
 
 WRONG = {
-    "no such engine": (["--engine", "EEVEE"], "CYCLES"),
-    "samples of our own": (["--samples", "4"], "--samples applies to --engine CYCLES only"),
+    "no such engine": (["--engine", "LUXCORE"], "CYCLES"),
+    "samples of our own": (["--samples", "4"], "--samples applies to --engine CYCLES and EEVEE only"),
     "no samples": (["--engine", "CYCLES", "--samples", "0"], "not a number of samples"),
     "half a sample": (["--engine", "CYCLES", "--samples", "0.5"], "'0.5'"),
 }
