@@ -1,5 +1,7 @@
 """Calibration files of several cameras, of which one is chosen by its name, and several files one after the other."""
 
+import json
+
 import pytest
 
 from camera_ray_caster.core.camera.calibration_file import chosen_lens, has_size
@@ -64,3 +66,13 @@ def test_a_file_without_a_size_leaves_nothing_to_the_next(tmp_path):
     lens = chosen_lens(str(tmp_path / "second"), "OPENCV_PINHOLE")
     assert not has_size(lens)
     assert lens.settings["fx"] == 300
+
+
+@pytest.mark.parametrize("wrap", [json.dumps, lambda two: json.dumps(list(two.values()))])
+def test_cameras_beside_each_other_are_no_distortion_of_one_another(tmp_path, wrap):
+    two = {f"cam{k}": {"width": 640, "height": 480, "fx": 300 + k, "fy": 300, "cx": 320, "cy": 240, "k1": -0.1,
+              "k2": 0.0,
+              "p1": 0.001, "p2": 0.0} for k in (0, 1)}  # fmt: skip
+    (tmp_path / "two.json").write_text(wrap(two))
+    lenses = lenses_of(str(tmp_path / "two.json"))
+    assert [(one.settings["fx"], one.settings["k1"]) for one in lenses] == [(300, -0.1), (301, -0.1)]

@@ -184,9 +184,15 @@ class Spelled:
 
 def unread_beside(entries: Fields, inner: str) -> str | None:
     """Return the name of an entry that may be a distortion, beside the mapping that has a calibration; None if none is.
+    Another mapping with a calibration is another camera.
     """
     others = {name: value for name, value in entries.values.items() if name != inner and not isinstance(value, str)}
-    return next((name for name, value in others.items() if _may_bend(plain_name(name), value)), None)
+    bent = (name for name, value in others.items() if _may_bend(plain_name(name), value) and not _is_camera(value))
+    return next(bent, None)
+
+
+def _is_camera(value) -> bool:
+    return isinstance(value, dict) and not {*map(plain_name, value)}.isdisjoint((*MATRIX, *FX))
 
 
 def cameras_of(entries: Fields) -> Iterator[tuple[str, Fields]]:
