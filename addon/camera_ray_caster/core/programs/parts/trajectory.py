@@ -9,6 +9,7 @@ more that is not read.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -36,6 +37,8 @@ UNITS = {"ns": 1e-9, "nsec": 1e-9, "nsecs": 1e-9, "nanoseconds": 1e-9, "us": 1e-
          "secs": 1.0, "seconds": 1.0}  # fmt: skip
 """Seconds of the units in names of times."""
 ANGLES = "roll", "pitch", "yaw"
+LONGEST_NAME = 100
+"""Characters of a name of a column."""
 LEAST = 4
 """Known names from which on a line is taken for names of columns."""
 
@@ -60,33 +63,39 @@ SPACED, TIMELESS, OF_EUROC = (
 
 def rows_of(document: Document) -> list[list[str]]:
     """Return the words of the lines of numbers; [] of any other file."""
+    return [_words(line) for line in lines_of(document)]
+
+
+def lines_of(document: Document) -> list[str]:
+    """Return the lines of numbers, without that of names; [] of any other file."""
     lines = document.lines()
     if lines and not _is_number(lines[0]) and len(lines) > 1 and _named(lines[0], lines[1]):
         lines = lines[1:]
     if not lines or not _is_number(lines[0]) or (len(lines) == 5 and len(lines[2].split()) == 2):  # the last: OCamCalib
         return []
-    return [_words(line) for line in lines]
+    return lines
 
 
 def columns_of(document: Document) -> Columns | None:
     """Return the columns of a trajectory; None of any other file."""
-    rows = rows_of(document)
-    if not rows:
+    lines = lines_of(document)
+    if not lines:
         return None
-    named = _head(document, len(rows[0]))
+    first = _words(lines[0])
+    named = _head(document, len(first))
     if named is not None:
         return named
-    count, has_commas = len(rows[0]), has_commas_in(document)
-    if count == 7 and not has_commas and _is_unit(rows, slice(3, 7)):
+    count, has_commas = len(first), "," in lines[0]
+    if count == 7 and not has_commas and _is_unit(map(_words, lines), slice(3, 7)):
         return TIMELESS
-    if count >= 8 and has_commas and len(numbers_of(rows[0][:8])) == 8:
+    if count >= 8 and has_commas and len(numbers_of(first[:8])) == 8:
         return OF_EUROC
-    return SPACED if count == 8 and not has_commas and len(numbers_of(rows[0])) == 8 else None
+    return SPACED if count == 8 and not has_commas and len(numbers_of(first)) == 8 else None
 
 
 def has_commas_in(document: Document) -> bool:
     """Whether the first line of numbers has commas."""
-    return "," in next(filter(_is_number, document.lines()), "")
+    return "," in next(iter(lines_of(document)), "")
 
 
 def placed_in_lines(document: Document) -> list[Placed]:
@@ -119,7 +128,7 @@ def placed_in_lines(document: Document) -> list[Placed]:
 
 def _check(document: Document, columns: Columns, rows: list[list[str]]) -> None:
     """Raise InputError if lines differ, or if the columns are not what they would be taken for."""
-    lines = [line for line in document.lines() if _is_number(line)]
+    lines = lines_of(document)
     odd = next((number for number, line in enumerate(lines, 1) if ("," in line) != ("," in lines[0])), None)
     if odd is not None:
         raise document.refusal(f"pose {odd} is {shown(lines[odd - 1])}: all lines must have commas, or none")
@@ -145,7 +154,7 @@ def _check(document: Document, columns: Columns, rows: list[list[str]]) -> None:
             )
 
 
-def _is_unit(rows: list[list[str]], four: slice) -> bool:
+def _is_unit(rows: Iterable[list[str]], four: slice) -> bool:
     """Whether four numbers are of length 1 in all lines."""
     return all(abs(sum(one * one for one in numbers_of(row[four])) - 1) < UNIT_LENGTH for row in rows)
 
@@ -155,7 +164,7 @@ def _seconds(value: float, unit: float | None) -> float:
 
 
 def _words(line: str) -> list[str]:
-    return re.split(r"\s*,\s*|\s+", line.strip(" ,\t"))
+    return [word.strip() for word in line.strip(" ,\t").split(",")] if "," in line else line.split()
 
 
 def _is_number(line: str) -> bool:
@@ -166,6 +175,8 @@ def _named(head: str, line: str) -> list[tuple[str, str]] | None:
     """Return name and unit of each column, if a line names those of another one."""
     words = re.split(r"\s*,\s*", head.strip(" ,")) if "," in head else re.sub(r"\s+(?=[\[(])", "", head).split()
     count = len(_words(line))
+    if len(max(words, key=len, default="")) > LONGEST_NAME:
+        return None
     if len(words) != count or any(map(numbers_of, words)):
         return None
     names = []
