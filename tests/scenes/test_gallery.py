@@ -17,7 +17,7 @@ from .opening import FOLDER, README, look, opened, rendered
 PAGE = Path(cameras.__file__).with_name("README.md")
 """The table of the models that ship."""
 NAMES = re.findall(r'^\| <img src="pictures/(\w+)\.png" .*> \| `\1\.blend`: \S', README, re.MULTILINE)
-STUDIO = {"toys", "toys_real_lens", "toys_cross_slit", "twisted_monkey"}
+STUDIO = {"toys", "real_lens", "toys_cross_slit", "twisted_monkey"}
 UNDER_THE_SKY = {
     "street", "street_pushbroom", "sculpture_garden", "rotunda_fisheye", "rotunda_panorama", "propeller",
     "unrolled_monkey", "street_scanner",

@@ -22,7 +22,7 @@ STORED = {
     "toys_cross_slit": (
         "CROSS_SLIT", {"slit_1": ((0, 8.8, 0), (0, 8.8, 1)), "slit_2": ((0, -18, 8), (1, -18, 8)), "lens": 18 / 5.8},
     ),
-    "toys_real_lens": ("REAL_LENS", {"lens": 500, "sensor_width": 360, "aperture_fstop": 2, "focus_distance": 10}),
+    "real_lens": ("REAL_LENS", {"lens": 500, "sensor_width": 360, "aperture_fstop": 2, "focus_distance": 10}),
     "living_room": ("PERSP", {"lens": 18.5}),
     "living_room_equirectangular": ("EQUIRECTANGULAR", {"longitude_min": -pi, "latitude_max": pi / 2}),
     "living_room_omnimax": ("OMNIMAX", {"tilt": radians(15)}),

@@ -28,7 +28,7 @@ GALLERY = {
     "Meshes": _by_name(
         meshes.toys,
         meshes.toys_cross_slit,
-        meshes.toys_real_lens,
+        meshes.real_lens,
         meshes.living_room,
         meshes.living_room_equirectangular,
         meshes.living_room_omnimax,

@@ -43,16 +43,16 @@ def toys_cross_slit(scene):
     picture(scene, (0, -4.4, 2.5), (0, 9, 2.5), 800, 360, world=STUDIO, own=own, lens=18 / 5.8)
 
 
-def toys_real_lens(scene):
+def real_lens(scene):
     """The toys through a double Gauss lens of 1954, traced surface by surface, wide open at f/2. The lens and its film
     are ten times as large as those of a small camera, as the toys are. The corners are darker, and points beside the
     plane of focus have the shape of what the rims leave of the pupil.
     """
     toy_table(scene)
     own = {"model": "REAL_LENS"}
-    made = picture(scene, (0.3, -9.6, 4.2), (0.1, 0, 0.75), 416, 234, world=STUDIO, own=own, lens=500, sensor_width=360)
+    made = picture(scene, (0.3, -9.6, 4.2), (0.1, 0, 0.75), 320, 180, world=STUDIO, own=own, lens=500, sensor_width=360)
     made.data.dof.use_dof, made.data.dof.focus_distance, made.data.dof.aperture_fstop = True, 10.0, 2.0
-    scene.camera_ray_caster.samples = 32
+    scene.camera_ray_caster.samples = 48
 
 
 def living_room(scene):
