@@ -216,7 +216,7 @@ class Eyes(Format):
     copy.write(f"{CORE}/programs/eyes.py", f"{docs}\n\n{imports}\n\n{program}\n")
     copy.change(
         f"{CORE}/programs/__init__.py",
-        ("    euroc_trajectory,\n    gyroflow,\n", "    euroc_trajectory,\n    eyes,\n    gyroflow,\n"),
+        ("    euroc_trajectory,\n", "    euroc_trajectory,\n    eyes,\n"),
         ("MODULES = (\n", "MODULES = (\n    eyes,\n"),
     )
     copy.follow("Add an export format")

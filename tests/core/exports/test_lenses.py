@@ -5,6 +5,7 @@ import pytest
 
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.exports.lenses import calibrations
+from camera_ray_caster.core.programs.parts.lens import ANGLES
 
 from ..cameras.model_examples import EXAMPLES, IDENTITY, camera
 from .shots import CAMERAS
@@ -15,9 +16,10 @@ def pixels_of(lens, there, points):
     frame = dict(zip(("resolution_x", "resolution_y"), there.model.frame, strict=True))
     if lens.model == "EQUIRECTANGULAR":
         x, y, z = points.T
-        own = lens.settings
-        across, down = np.arctan2(x, -z) * own["fx"] + own["cx"], -np.arctan2(y, np.hypot(x, z)) * own["fy"] + own["cy"]
-        return np.stack((across + 0.5, frame["resolution_y"] - 0.5 - down), axis=-1)
+        left, right, bottom, top = (lens.settings[name] for name in ANGLES)
+        across = (np.arctan2(x, -z) - left) / (right - left)
+        up = (np.arctan2(y, np.hypot(x, z)) - bottom) / (top - bottom)
+        return np.stack((across * frame["resolution_x"], up * frame["resolution_y"]), axis=-1)
     size = {"calibration_width": 0, "calibration_height": 0}
     return camera(lens.model, frame | size | lens.settings).model.project(points)
 
@@ -34,7 +36,7 @@ def test_a_calibration_of_a_camera_has_its_rays(key):
         for lens in calibrations(there):
             apart = pixels_of(lens, there, rays.directions) - seen
             if lens.model == "EQUIRECTANGULAR":  # a whole turn is none
-                turn = 2 * np.pi * lens.settings["fx"]
+                turn = 2 * np.pi * width / (lens.settings[ANGLES[1]] - lens.settings[ANGLES[0]])
                 apart[:, 0] -= turn * np.rint(apart[:, 0] / turn)
             assert np.nanmax(np.abs(apart), initial=0.0) < 1e-9 * width, lens.model
 
