@@ -166,7 +166,7 @@ def test_a_program(copy):
     copy.write(f"{CORE}/programs/lens_cards.py", text_of("tests/core/programs/lens_cards.py"))
     copy.change(
         f"{CORE}/programs/__init__.py",
-        ("    maplab,\n", "    lens_cards,\n    maplab,\n"),
+        ("    kitti,\n", "    kitti,\n    lens_cards,\n"),
         ("MODULES = (\n", "MODULES = (\n    lens_cards,\n"),
     )
     assert "give a sample" in said_by(copy, "tests/core/programs/test_contract.py", "-k", "lens_cards")
