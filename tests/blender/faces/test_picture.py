@@ -68,7 +68,8 @@ def check_colors(scene, pixels):
     assert (pixels[~valid] == 0).all()
     names = [shapes.names[shapes.name_index[k]] for k in range(len(shapes.center))]
     colors = np.array([scene.objects[name].color for name in names] + [(0.0, 0.0, 0.0, 0.0)])
-    flat = is_far_from_edges(index) & is_far_from_edges(valid) & valid
+    # at the rim of an orthographic fisheye a pixel spans degrees, and shows slivers that no center hits
+    flat = is_far_from_edges(index) & is_far_from_edges(valid, 2) & valid
     assert flat.mean() > 0.2
     assert pixels[flat] == pytest.approx(colors[index[flat]], abs=2e-3)
 

@@ -35,6 +35,10 @@ class Parser(argparse.ArgumentParser):
                 words.append(word)
         return super().parse_args(words)
 
+    def print_help(self, file=None):
+        """Write the help. argparse ignores errors of writing, which tell of a full disk or a closed pipe."""
+        print(self.format_help(), end="", file=file)
+
     def error(self, message):
         """Raise InputError."""
         raise InputError(f"{message} (--help lists the options)")
