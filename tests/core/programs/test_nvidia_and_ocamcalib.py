@@ -123,7 +123,7 @@ def test_right_in_the_file_is_right_in_the_picture_and_down_is_down(tmp_path, te
         (rig(Model="pinhole"), "none of its sensors has properties with the Model 'ftheta'"),
         (rig(), "polynomial-type of camera:front:wide is None: it must be one of angle-to-pixeldistance"),
         (rig(**{"bw-poly": "0 x"}), "bw-poly of camera:front:wide is .*finite numbers"),
-        (rig(**{"bw-poly": ours(BACKWARD)}, cx="left"), "cx is .*'left'.* finite number"),
+        (rig(**{"bw-poly": ours(BACKWARD)}, cx="left"), "cx of camera:front:wide is 'left'.* finite number"),
         (rig(**{"bw-poly": ours(BACKWARD)}).replace('"cy"', '"center"'), "it has no cy"),
         (rig(**{"bw-poly": "1 0.003"}), "ftheta_radius_to_angle of .* is '1.0 0.003': it must be 0, a number above 0"),
         (json.dumps(parameters(angle_to_pixeldist_poly=None)), "it has no angle_to_pixeldist_poly"),
