@@ -43,6 +43,7 @@ from . import (
     recorded,
     ros,
     schops,
+    stella,
     stmap,
     surround360,
     tum,
@@ -54,8 +55,8 @@ from .parts.document import Document
 from .parts.program import ProgramFiles, in_words
 
 MODULES = (
-    opencv, ros, colmap, nerfstudio, kalibr, euroc, okvis, vins, orbslam, basalt, bop, realsense, mrcal, aria, nvidia,
-    woodscape, opensfm, maplab, hot3d, metashape, meshroom, realitycapture, openmvg, bundler, nvm,
+    opencv, ros, colmap, nerfstudio, kalibr, euroc, okvis, vins, orbslam, stella, basalt, bop, realsense, mrcal, aria,
+    nvidia, woodscape, opensfm, maplab, hot3d, metashape, meshroom, realitycapture, openmvg, bundler, nvm,
     gaussian_splatting, camera_path, llff, open3d, surround360, fspy, polycam, arkitscenes, tum,
     kitti, gyroflow, ocam, velodyne,
     ouster, hesai, recorded, schops, ray_table, nerf, euroc_trajectory, stmap,

@@ -1,4 +1,5 @@
-"""The cameras of HOT3D and its clips, as JSON: by stream, each a calibration with projection_params.
+"""The cameras of HOT3D's clips, as JSON: by stream, each a calibration with projection_params; and those of the whole
+data set, camera_models.json: a list of cameras with projectionParams.
 
 One focal length is that of both axes. The coefficients are those of Project Aria; the center of the first pixel is
 (0, 0). T_world_from_camera leads from the camera to the world, T_device_from_camera to the headset, where the file does
@@ -8,8 +9,11 @@ Reference: HOT3D documentation, and the hand tracking toolkit that reads its cli
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from ..units import METERS
 from .parts.document import Document
+from .parts.fields import Fields
 from .parts.lens import Lens, matrix
 from .parts.placed import Placed, of_quaternion
 from .parts.program import PictureFolders, ProgramFiles
@@ -17,6 +21,12 @@ from .parts.program import PictureFolders, ProgramFiles
 TERMS = "k1", "k2", "k3", "k4", "k5", "k6", "p2", "p1", "s1", "s2", "s3", "s4"
 MODELS = {"FISHEYE624": ("FISHEYE624", TERMS), "PINHOLE": ("OPENCV_PINHOLE", ())}
 """Our model for the last part of a projection_model_type, and the settings that follow the center."""
+
+LISTED = {
+    "projection_model_type": "projectionModelType", "projection_params": "projectionParams",
+    "image_width": "imageWidth", "image_height": "imageHeight", "T_device_from_camera": "T_Device_Camera",
+}  # fmt: skip
+"""Names of entries in camera_models.json of the whole data set, a list of cameras, for those of the clips."""
 
 KIND, WORLD, DEVICE = "projection_model_type", "T_world_from_camera", "T_device_from_camera"
 
@@ -26,22 +36,30 @@ def looks(document: Document) -> bool:
     entries = document.entries
     streams = list(entries.named().values())
     in_streams = len(streams) == len(entries) and all(one.part("calibration").has(KIND) for one in streams)
-    return in_streams or entries.has(KIND, "projection_params")
+    listed = bool(streams) and all(one.has(*list(LISTED.values())[:2]) for one in streams)
+    return listed or in_streams or entries.has(KIND, "projection_params")
 
 
 def read(document: Document) -> list[Lens] | None:
     """See ProgramFiles. Those of streams are further inside."""
-    entries = document.entries
-    if not entries.has(KIND):
-        return None
-    kind = entries.text(KIND).rpartition(".")[2]
+    if document.entries.has(KIND):
+        return [_lens(document, document.entries, {})]
+    streams = document.entries.named()
+    if any(one.has(LISTED[KIND]) for one in streams.values()):
+        return [_lens(document, one.labeled(one.text("label", name)), LISTED) for name, one in streams.items()]
+    return None
+
+
+def _lens(document: Document, entries: Fields, names: Mapping[str, str]) -> Lens:
+    params = names.get("projection_params", "projection_params")
+    kind = entries.text(names.get(KIND, KIND)).rpartition(".")[2]
     model, terms = MODELS[document.one_of(kind, KIND, MODELS)]
-    focal = 1 if entries.count_of("projection_params") == len(terms) + 3 else 2
-    numbers = entries.numbers("projection_params", focal + 2 + len(terms))
+    focal = 1 if entries.count_of(params) == len(terms) + 3 else 2
+    numbers = entries.numbers(params, focal + 2 + len(terms))
     settings = matrix(numbers[0], numbers[focal - 1], *numbers[focal : focal + 2])
     coefficients = dict(zip(terms, numbers[focal + 2 :], strict=True))
-    size = entries.sides("image_width", "image_height")
-    return [Lens(entries.text("label"), model, size | settings | coefficients)]
+    size = entries.sides(*(names.get(side, side) for side in ("image_width", "image_height")))
+    return Lens(entries.text("label"), model, size | settings | coefficients)
 
 
 def poses(document: Document) -> list[Placed]:
@@ -50,8 +68,9 @@ def poses(document: Document) -> list[Placed]:
     in_world = all(one.has(WORLD) for one in streams.values())
     placed = []
     for name, stream in streams.items():
-        calibration = stream.part("calibration")
-        pose = stream.part(WORLD) if in_world else calibration.part(DEVICE)
+        listed = stream.has(LISTED[KIND])
+        calibration = stream if listed else stream.part("calibration")
+        pose = stream.part(WORLD) if in_world else calibration.part(LISTED[DEVICE] if listed else DEVICE)
         label = calibration.text("label") or f"{name}.calibration"
         pose = pose.labeled(label)
         turn, place = pose.numbers("quaternion_wxyz", 4), pose.numbers("translation_xyz", 3)
@@ -60,7 +79,7 @@ def poses(document: Document) -> list[Placed]:
 
 
 PROGRAM = ProgramFiles(
-    "HOT3D", "cameras of its clips as .json", looks,
+    "HOT3D", "cameras of its clips as .json; camera_models.json", looks,
     marks="calibration projection_model_type projection_params T_device_from_camera", reads="FISHEYE624, PINHOLE",
     read=read, poses=poses, unit=METERS, pictures=PictureFolders("*.cameras.json", numbered=True),
 )  # fmt: skip

@@ -2,7 +2,8 @@
 
 The lines are the polynomial after its number of coefficients, the inverse polynomial, which is not needed, the center
 (row, column), the affine terms c, d and e, and the picture's height and width.
-The JSON of data sets of head-mounted cameras has the polynomial as polynomialC2W, and image_center and size as x and y.
+The JSON of data sets of head-mounted cameras has the polynomial as polynomialC2W, and size and image_center as x and y;
+in place of the center it may have a matrix, intrinsic, whose last column but one is the center.
 The center of the first pixel is (0, 0).
 Reference: D. Scaramuzza, OCamCalib: Omnidirectional Camera Calibration Toolbox for Matlab.
 """
@@ -11,7 +12,10 @@ from __future__ import annotations
 
 import re
 
+import numpy as np
+
 from .parts.document import Document
+from .parts.fields import Fields
 from .parts.lens import Lens
 from .parts.program import ProgramFiles
 
@@ -34,7 +38,7 @@ def read(document: Document) -> list[Lens]:
     if document.text.lstrip()[:1] == "{" or not document.text:
         entries = document.entries
         terms, size = entries.numbers("affine", 3, [1.0, 0.0, 0.0]), entries.numbers("size", 2)
-        return [_lens(document, entries.numbers("polynomialC2W"), entries.numbers("image_center", 2), terms, size)]
+        return [_lens(document, entries.numbers("polynomialC2W"), _center(entries), terms, size)]
     lines = document.lines()
     if len(lines) != 5:
         raise document.refusal(f"it has {len(lines)} lines of numbers: a calib_results.txt of OCamCalib has 5")
@@ -46,6 +50,12 @@ def read(document: Document) -> list[Lens]:
     height, width = document.numbers(sides, "its image size", 2)
     terms = document.numbers(affine, "its affine parameters", 3)
     return [_lens(document, coefficients, (column, row), terms, (width, height))]
+
+
+def _center(entries: Fields) -> list[float]:
+    if entries.has("image_center") or not entries.has("intrinsic"):
+        return list(entries.numbers("image_center", 2))
+    return np.reshape(entries.matrix("intrinsic", 16), (4, 4))[:2, 2].tolist()
 
 
 def _lens(document: Document, coefficients, center, terms, size) -> Lens:

@@ -17,6 +17,8 @@ DEEPEST = 32
 """Levels of nesting that are read: calibrations have three."""
 
 COLON = re.compile(r":(?=[ \t]|$)")
+CLOSE = re.compile(r"([A-Za-z]\w*\.[\w.]+):([-+.\d]\S*)")
+"""An entry without a space behind its colon, as in settings of ORB-SLAM, which OpenCV reads."""
 KEY = re.compile(r"""[A-Za-z0-9_/.][\w./+ -]*|"[^"]*"|'[^']*'""")
 COMMENT = re.compile(r"""(?:^|(?<=[ \t]))#|(?:^|(?<=[ \t[{,:]))(?:"[^"]*"?|'[^']*'?)""")
 TOKEN = re.compile(r"""[\[\]{},]|"(?:\\.|[^"\\])*"?|'[^']*'?|[^\[\]{},"'\s][^\[\]{},"']*""")
@@ -137,6 +139,8 @@ def _key(content: str) -> tuple[str, str] | None:
     quoted = content[:1] in ("'", '"')
     colon = COLON.search(content, content.find(content[0], 1) + 1 if quoted else 0)
     key = "" if colon is None else content[: colon.start()].rstrip()
+    if colon is None and (close := CLOSE.fullmatch(content)):
+        return close[1], close[2]
     if colon is None or not KEY.fullmatch(key):
         return None
     return _scalar(key), content[colon.end() :].strip()

@@ -57,7 +57,7 @@ FISHEYE_MODELS = (
 )  # fmt: skip
 PINHOLE_MODELS = (
     "plumb_bob", "rational_polynomial", "thin_prism", "radtan", "radial-tangential", "pinhole", "opencv",
-    "opencv_pinhole", "perspective", "rectified", "brown_conrady", "none",
+    "opencv_pinhole", "perspective", "rectified", "rectilinear", "brown_conrady", "none",
 )  # fmt: skip
 KNOWN_MODELS = {plain_name(word): FISHEYE if word in FISHEYE_MODELS else PINHOLE
                 for word in (*FISHEYE_MODELS, *PINHOLE_MODELS, "")}  # fmt: skip
