@@ -27,8 +27,8 @@ def _cards(document):
 def read(document):
     """See ProgramFiles."""
     return [
-        Lens(name, "OPENCV_PINHOLE", document.size(*numbers[:2]) | matrix(*numbers[2:6], 0.5))
-        for name, numbers in _cards(document)
+        Lens(name, "OPENCV_PINHOLE", document.size(width, height) | matrix(fx, fy, cx, cy, 0.5))
+        for name, (width, height, fx, fy, cx, cy, *_) in _cards(document)
     ]
 
 
