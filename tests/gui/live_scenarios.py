@@ -27,6 +27,7 @@ def live_picture(user, scenes):
     for place, item in enumerate(items):
         item.color = (*hsv_to_rgb(place * 0.618 % 1, 1 - place % 3 / 4, 1 - place % 4 / 6), 1)
     space.overlay.show_overlays, space.shading.light, space.shading.color_type = False, "FLAT", "OBJECT"
+    space.show_gizmo_navigate = False  # Blender draws it over the picture
     scene.display.viewport_aa = "OFF"
     bpy.context.preferences.system.viewport_aa = "OFF"
     space.shading.show_cavity = space.shading.show_object_outline = space.shading.show_shadows = False
@@ -64,6 +65,7 @@ def live_picture(user, scenes):
     assert scene.render.engine == engine
     yield from user.press(f"{BUTTON}see_through(")
     space.overlay.show_overlays, space.shading.light, space.shading.color_type = True, "STUDIO", "MATERIAL"
+    space.show_gizmo_navigate = True
 
 
 def live_ends(user, scenes):
