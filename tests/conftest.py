@@ -96,7 +96,8 @@ def pytest_terminal_summary(terminalreporter, config):
     """Print the seconds of the whole default tier beside its budget, and warn if they are more."""
     if "not full" in config.option.markexpr and config.args_source is config.ArgsSource.TESTPATHS:
         seconds = monotonic() - config.stash[_BEGAN]
-        used = tiers.processor_seconds() + config.stash.get(_WORKERS, 0.0)
+        workers = config.stash.get(_WORKERS, 0.0)
+        used = tiers.processor_seconds(of_children=not workers) + workers  # workers are children, too
         line = f"default tier: {seconds:.0f} s; {used:.0f} s of the processors, of a budget of {2 * tiers.BUDGET}"
         terminalreporter.write_line(line)
         if used > 2 * tiers.BUDGET:

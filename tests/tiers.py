@@ -83,9 +83,9 @@ def groups_of_models():
     return {word: model.group for model in MODELS for word in (model, model.key)}
 
 
-def processor_seconds():
-    """The time that this process and those that it has waited for took of the processors."""
-    return sum(os.times()[:4])
+def processor_seconds(of_children=True):
+    """The time that this process, and those that it has waited for, took of the processors."""
+    return sum(os.times()[: 4 if of_children else 2])
 
 
 def added_models(path):
