@@ -122,7 +122,7 @@ def test_sets_are_measured(monkeypatch, capsys):
     from measure import sets
 
     few, many = sets.run((1, 3))[:2]
-    assert few["cpu"] > 0 and many["cpu"] > 0  # which is less says nothing for so few pictures on a busy machine
+    assert min(few["cpu"], many["cpu"]) > 0  # which is less says nothing for so few pictures on a busy machine
     assert 50 < few["peak"] < 5000
     assert 5e3 < many["json"] < 20e3  # report and annotations; 63 kB before what is common was in dataset.json
     assert "each further picture" in capsys.readouterr().out

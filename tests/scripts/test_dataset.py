@@ -90,19 +90,26 @@ def test_the_folder_of_another_data_set_is_refused(command, blender, scene, out,
     assert {path.name: path.stat().st_mtime_ns for path in out.iterdir()} == before
 
 
-LENS = "width: 32\nheight: 24\nK: [{0}, 0, 16, 0, {0}, 12, 0, 0, 1]\nD: []\n"
+CALIBRATION = "width: 32\nheight: 24\nK: [{0}, 0, 16, 0, {0}, 12, 0, 0, 1]\nD: []\n"
+GLASS = "# a singlet\n{0} 5 1.5 20\n0 1 1 8\n-{0} 48 1 20\n"
 
 
-def test_a_calibration_file_that_the_file_names_is_part_of_the_set(command, blender, scene, out):
+@pytest.mark.parametrize(
+    ("model", "file", "text"),
+    [("OPENCV_PINHOLE", "calibration_file", CALIBRATION), ("REAL_LENS", "lens_file", GLASS)],
+    ids=["calibration", "lens"],
+)
+def test_a_file_that_the_camera_names_is_part_of_the_set(command, blender, scene, out, model, file, text):
     """A changed lens made frames of both lenses, with status 0."""
-    lens = scene.with_name("lens.yml")
-    lens.write_text(LENS.format(30))
-    own = blender.data.objects["Top"].data.camera_ray_caster
-    own.model, own.calibration_file = "OPENCV_PINHOLE", "//lens.yml"
+    lens = scene.with_name("lens.dat")
+    lens.write_text(text.format(30))
+    settings = blender.data.objects["Top"].data.camera_ray_caster
+    settings.model = model
+    setattr(settings, file, "//lens.dat")
     blender.ops.wm.save_as_mainfile(filepath=str(scene))
     assert command("dataset", scene, *WORDS, "--output", out).returncode == 0
     assert command("dataset", scene, *WORDS, "--output", out).stdout.startswith("Wrote 0 of 4")
-    lens.write_text(LENS.format(31))
+    lens.write_text(text.format(31))
     assert "a data set that differs in uses:" in refused(command("dataset", scene, *WORDS, "--output", out))
 
 

@@ -1,4 +1,4 @@
-"""Relative paths of calibration files, where Blender remaps its own paths: the witness is a text's path."""
+"""Relative paths of cameras' files, where Blender remaps its own paths: the witness is a text's path."""
 
 from pathlib import Path
 
@@ -9,7 +9,9 @@ LENS = "//lens.yml"
 
 
 def path_of(camera):
-    return camera.camera_ray_caster.calibration_file
+    settings = camera.camera_ray_caster
+    assert settings.lens_file == settings.calibration_file
+    return settings.calibration_file
 
 
 def found(path):
@@ -23,7 +25,7 @@ def camera(camera_scene, tmp_path):
         (tmp_path / name).mkdir()
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "one" / "a.blend"))
     camera = camera_scene.camera.data
-    camera.camera_ray_caster.calibration_file = LENS
+    camera.camera_ray_caster.calibration_file = camera.camera_ray_caster.lens_file = LENS
     bpy.data.texts.new("Lens").filepath = LENS
     bpy.ops.wm.save_mainfile()
     return camera

@@ -17,7 +17,7 @@ import bpy
 
 from ...core.records import InputError
 from ...core.version import VERSION
-from ..read.camera import calibration_files
+from ..read.camera import named_files
 
 
 def stamp_of(settings: Mapping[str, Any]) -> dict[str, Any]:
@@ -30,9 +30,9 @@ def stamp_of(settings: Mapping[str, Any]) -> dict[str, Any]:
     others = sorted(filter(os.path.isfile, set(bpy.utils.blend_paths(absolute=True, packed=False))))
     states = [(os.path.basename(other), os.stat(other)) for other in others]
     used: list[tuple] = [(name, state.st_size, state.st_mtime_ns) for name, state in states]
-    for calibration in filter(os.path.isfile, calibration_files()):
+    for named in filter(os.path.isfile, named_files()):
         with suppress(InputError):  # it cannot be read: its camera is refused where it is cast
-            used.append((os.path.basename(calibration), file_hash(Path(calibration))))
+            used.append((os.path.basename(named), file_hash(Path(named))))
     return {
         "version": VERSION,
         "blender": bpy.app.version_string,

@@ -44,6 +44,12 @@ MODEL = Choice("model", "Model", "How the camera maps rays to pixels", BLENDERS_
 CAMERA = _of_cameras()
 """Settings in ``camera.camera_ray_caster``: the model, the pixel time mode, and the settings that these read."""
 
+
+def files() -> list[Setting]:
+    """Return the settings of cameras that name a file."""
+    return [setting for setting in CAMERA if setting.kind == "FILE"]
+
+
 PRIMITIVE = Choice(
     "primitive", "Cast As", "Shape that the rays intersect in place of this object",
     "AUTOMATIC",

@@ -1,4 +1,4 @@
-"""Paths of calibration files relative to the .blend: remapped where Blender remaps its own paths.
+"""Paths of cameras' files relative to the .blend: remapped where Blender remaps its own paths.
 
 Blender does so for the paths of its own datablocks only, when a file is saved in another folder and when datablocks are
 appended.
@@ -9,11 +9,13 @@ from pathlib import Path
 import bpy
 from bpy.app.handlers import persistent
 
-from ...core.cameras.parts.calibration import FILE
-from .declared import GROUP
+from .declared import GROUP, files
 
-_before: list[tuple[object, str]] = []
-"""Settings of cameras and their paths, as they were before the file is saved in another folder, and last the folder."""
+_before: list[tuple[object, str, str]] = []
+"""Settings of cameras, the names of their paths and the paths, as they were before the file is saved in another folder.
+
+Last is the folder.
+"""
 
 
 def remapped(path: str, before: str, after: str) -> str:
@@ -33,10 +35,17 @@ def _folder(path: str) -> str:
     return str(Path(path).parent) if path else ""
 
 
-def _relative(cameras) -> list[tuple[object, str]]:
-    """Return the local cameras' own settings that have relative paths, and the paths."""
+def _relative(cameras) -> list[tuple[object, str, str]]:
+    """Return the local cameras' own settings that have relative paths, with the names of the paths and the paths."""
     settings = [getattr(camera, GROUP) for camera in cameras if camera.library is None]
-    return [(own, path) for own in settings if (path := getattr(own, FILE.name)).startswith("//")]
+    paths = [(group, file.name, getattr(group, file.name)) for group in settings for file in files()]
+    return [entry for entry in paths if entry[2].startswith("//")]
+
+
+def _remap(paths, before: str, after: str) -> None:
+    """Set the paths, relative to the folder ``before``, as they are relative to ``after``."""
+    for group, name, path in paths:
+        setattr(group, name, remapped(path, before, after))
 
 
 @persistent
@@ -46,17 +55,16 @@ def remap(path: str, *_):
     before, after = _folder(bpy.data.filepath), _folder(path)
     if before and after and before != after:
         _before.extend(_relative(bpy.data.cameras))
-        for own, value in _before:
-            setattr(own, FILE.name, remapped(value, before, after))
-        _before.append((None, before))
+        _remap(_before, before, after)
+        _before.append((None, "", before))
 
 
 @persistent
 def restore(*_):
     """Restore the paths if a copy was saved, or if saving failed: the open file is still in its former folder."""
-    if _before and _folder(bpy.data.filepath) == _before.pop()[1]:
-        for own, value in _before:
-            setattr(own, FILE.name, value)
+    if _before and _folder(bpy.data.filepath) == _before.pop()[2]:
+        for group, name, path in _before:
+            setattr(group, name, path)
     _before.clear()
 
 
@@ -66,8 +74,7 @@ def remap_appended(context, *_):
     for item in context.import_items:
         if isinstance(item.id, bpy.types.Camera) and item.source_library is not None:
             before = _folder(bpy.path.abspath(item.source_library.filepath))
-            for own, value in _relative([item.id]):
-                setattr(own, FILE.name, remapped(value, before, _folder(bpy.data.filepath)))
+            _remap(_relative([item.id]), before, _folder(bpy.data.filepath))
 
 
 HANDLERS = (

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
+from itertools import product
 
 import bpy
 import numpy as np
@@ -12,12 +13,11 @@ from ...core.camera import pixel_time
 from ...core.camera.stereo import camera_name
 from ...core.cameras import find_model
 from ...core.cameras.parts import aperture
-from ...core.cameras.parts.calibration import FILE
 from ...core.cameras.parts.settings import OWN, RECORD_FIELDS, Setting
 from ...core.records import BlenderCamera, InputError
 from ...core.shaders.camera_shader import Mark, read_mark
 from ...core.units import UNIT_SCALE
-from ..properties.declared import BLENDERS_OWN, MODEL
+from ..properties.declared import BLENDERS_OWN, MODEL, files
 from ..properties.owners import owner_of
 from .frames import frame_of
 from .lengths import meters_of
@@ -112,12 +112,12 @@ KINDS = {
 """Conversions of a setting's value from Blender to a record, by kind of setting; other kinds need no conversion."""
 
 
-def calibration_files() -> list[str]:
-    """Return the sorted paths of the calibration files that cameras in the open file name."""
+def named_files() -> list[str]:
+    """Return the sorted paths of the files that cameras in the open file name: calibrations, lenses."""
     paths = set()
-    for data in bpy.data.cameras:
+    for data, file in product(bpy.data.cameras, files()):
         with suppress(InputError):  # a name that is no text: the camera is refused where it is cast
-            paths.add(bpy.path.abspath(own_value(data, FILE), library=data.library))
+            paths.add(bpy.path.abspath(own_value(data, file), library=data.library))
     return sorted(paths)
 
 
