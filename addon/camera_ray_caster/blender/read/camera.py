@@ -204,7 +204,7 @@ def check_camera(scene, camera_object) -> None:
         others = [one.name for one in bpy.data.scenes if one != scene and one.camera is not None]
         raise InputError(
             f"scene {scene.name!r} has no active camera: add a camera, or set a camera in the Scene properties, or "
-            "name a camera (--camera NAME)" + (f"; scene {others[0]!r} has one" if others else "")
+            "name a camera (--camera NAME)" + (f"; scene {others[0]!r} has one (--scene)" if others else "")
         )
     if not isinstance(camera_object, bpy.types.Object):
         raise InputError(f"{shown(camera_object)} is not an object: give an object such as scene.objects['Camera']")

@@ -8,8 +8,6 @@ from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
-import bpy
-
 from ...core.exports import FORMATS, export
 from ...core.exports.format import Each
 from ...core.exports.writing import write
@@ -21,7 +19,7 @@ from ..process.opening import not_run, open_file
 from ..read.camera import ALL, check_camera, check_markers, find_camera, find_cameras
 from ..read.frames import frame_of
 from ..read.scene import read_shapes
-from .options import command_parser, go_to, open_scene, shown_at, warn
+from .options import command_parser, go_to, open_scene, scene_of, shown_at, warn
 from .words import add_cameras, add_frames, check_cameras, count, degrees
 
 OF_SCENES = "calibration", "rig", "resolution", "to"
@@ -68,6 +66,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
         raise InputError("--points applies to --format colmap-scene only")
     if options.models and options.format != "bop-scenes":
         raise InputError("--models applies to --format bop-scenes only")
+    if options.scene and options.file is not None and options.file.is_dir() and not options.models:
+        raise InputError("--scene names the scene of a .blend: add --models FILE.blend, or leave it out")
     if options.validation and not (options.format in SET_FORMATS and SET_FORMATS[options.format].splits):
         raise InputError(f"--validation does not apply to --format {options.format}: leave it out")
     if options.file is not None and options.file.is_dir():
@@ -141,7 +141,7 @@ def _shapes_of(options, last: float) -> Callable[[float], Shapes]:
     meshes as meshes.
     """
     open_file(options.models, options.enable_autoexec)
-    scene = bpy.context.scene
+    scene = scene_of(options)
     scene.camera_ray_caster.exact_shapes = False
 
     @lru_cache(maxsize=1)

@@ -24,6 +24,7 @@ from ..read.evaluated import camera_at
 from ..read.frames import frame_of, layer_of
 from ..read.physics import simulate
 from ..read.size import size_of
+from ..read.unique import find_unique, unique_name
 from ..rig import add_rig, frames_of, shows
 from .words import Parser, frame_number, picture_size
 
@@ -41,6 +42,7 @@ def command_parser(prog: str, purpose: str, example: str, result: str, ends: str
     parser.add_argument(
         "file", nargs="?", type=Path, metavar="FILE.blend", help="Blender file to open; default: the file that is open"
     )
+    parser.add_argument("--scene", metavar="NAME", help="name of the scene; default: the scene that the file opens")
     parser.add_argument("--camera", metavar="NAME", help="name of the camera; default: the scene's active camera")
     parser.add_argument("--calibration", type=Path, metavar="FILE",
                         help=f"calibration file of {READ}; it determines the camera's model")  # fmt: skip
@@ -88,7 +90,7 @@ def open_scene(options, say: Callable[[str], object] | None = None):
     elif not options.enable_autoexec:
         withhold_style_modules()
     signals.raise_if_stopping()
-    scene = bpy.context.scene
+    scene = scene_of(options)
     scene.render.engine = CameraRayCaster.bl_idname
     if options.resolution:
         scene.render.resolution_x, scene.render.resolution_y = options.resolution
@@ -105,6 +107,17 @@ def open_scene(options, say: Callable[[str], object] | None = None):
     if rig:
         _mount(scene, options, rig, say)
     return scene
+
+
+def scene_of(options):
+    """Return the scene that the options name, which becomes the open file's scene; by default it is as it was."""
+    if options.scene is not None:
+        scene = find_unique(options.scene, bpy.data.scenes)
+        if scene is None:
+            known = ", ".join(repr(unique_name(item, bpy.data.scenes)) for item in bpy.data.scenes)
+            raise InputError(f"the file has no scene {options.scene!r}; its scenes are: {known}")
+        bpy.context.window.scene = scene
+    return bpy.context.scene
 
 
 def _mount(scene, options, paths: Sequence[str], say: Callable[[str], object]) -> None:
