@@ -98,6 +98,21 @@ def test_a_lens_in_water_keeps_the_medium_of_the_last_row(tmp_path):
     assert Optics.of(lens_of(tmp_path, isetcam(rows))).rear.behind == 1.336
 
 
+@pytest.mark.parametrize("ior", [0.0, 1.0, 1.5])
+def test_a_plane_of_a_plate_is_not_the_stop(tmp_path, ior):
+    """A filter behind the lens; the stop stands in air (0 and 1), or is cemented between two glasses (0 and 1.5)."""
+    plate = [(0.0, 2.0, 1.5, 24.0), (0.0, 3.0, 1.0, 24.0)]
+    stop = (0.0, 3.0, ior, 12.0)
+    rows = [*ROWS[:3], stop, *plate] if ior <= 1 else [*ROWS[:3], plate[0], stop, plate[1]]
+    lens = lens_of(tmp_path, isetcam(rows))
+    assert lens.stop == rows.index(stop)
+    assert [row.index for row in lens.rows] == [1.52, 1.62, 1.0, *((1.0, 1.5, 1.0) if ior <= 1 else (1.5, 1.5, 1.0))]
+    inside = isetcam([*ROWS[:3], plate[0], (0.0, 3.0, 0.0, 12.0), plate[1]])
+    assert [row.index for row in lens_of(tmp_path, inside).rows[3:]] == [1.5, 1.5, 1.0]
+    glass = isetcam([*ROWS[:2], (0.0, 3.0, 1.0, 12.0), (-150.0, 5.0, 1.0, 22.0)])  # 1 in files whose stop is in glass
+    assert lens_of(tmp_path, glass).rows[2].index == 1.62
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [

@@ -1,6 +1,7 @@
 """Lens files of ISETCam and ISET3d (.json): a list ``surfaces`` with radius, thickness, ior and SEMI-aperture.
 
-A radius of 0 is the stop, or a plane between two media. ``ior`` is a number, or lists of wavelengths in nm and of
+A radius of 0 is the stop, or a plane between two media. The stop's ior is 0 or that of the medium before it; files
+also write 1 for it, which a plane into air has, too. ``ior`` is a number, or lists of wavelengths in nm and of
 indices. The last medium may be other than air (an eye).
 """
 
@@ -28,22 +29,37 @@ def read(text: str, name: str) -> Prescription:
     surfaces = document.get("surfaces") if isinstance(document, dict) else None
     if not isinstance(surfaces, list) or not all(isinstance(surface, dict) for surface in surfaces):
         raise InputError("its 'surfaces' must be a list of mappings")
-    rows, stops, medium = [], [], 1.0
-    for place, surface in enumerate(surfaces):
-        radius, gap, half = (_number(surface, key, place) for key in ("radius", "thickness", "semi_aperture"))
-        index, abbe = _index(surface.get("ior", 1), place)
-        if radius == 0 and index in (0.0, 1.0, medium):
-            stops.append(place)
-            index = medium
-        medium = index or 1.0
+    rows, medium = [], 1.0
+    numbers = [_numbers(surface, place) for place, surface in enumerate(surfaces)]
+    stop = _stop(numbers)
+    for place, (surface, (radius, gap, half, index, abbe)) in enumerate(zip(surfaces, numbers, strict=True)):
+        medium = medium if place == stop else index or 1.0
         conic = surface.get("conic_constant", 0)
         conic = conic[0] if isinstance(conic, list) and conic else conic
         if not isinstance(conic, int | float):
             raise InputError(f"surface {place + 1} has the conic constant {str(conic)[:20]}: it must be a number")
         rows.append(Row(1 / radius if radius else 0.0, gap, medium, half or inf, float(conic), (), abbe))
+    return Prescription(tuple(rows), stop, str(document.get("name", name)), str(document.get("description", "")))
+
+
+def _numbers(surface: dict[str, Any], place: int) -> tuple[float, float, float, float, float]:
+    """Return radius, thickness, semi-aperture, index and Abbe's number."""
+    radius, gap, half = (_number(surface, key, place) for key in ("radius", "thickness", "semi_aperture"))
+    return radius, gap, half, *_index(surface.get("ior", 1), place)
+
+
+def _stop(numbers: list[tuple[float, float, float, float, float]]) -> int:
+    """Return the place of the stop."""
+    stops, medium = [], 1.0
+    for place, (radius, _, _, index, _) in enumerate(numbers):
+        if radius == 0 and index in (0.0, medium):
+            stops.append(place)
+        else:
+            medium = index or 1.0
+    stops = stops or [place for place, row in enumerate(numbers) if row[0] == 0 and row[3] == 1]
     if len(stops) != 1:
         raise InputError(f"it has {len(stops)} surfaces of radius 0 without a change of the medium: one is the stop")
-    return Prescription(tuple(rows), stops[0], str(document.get("name", name)), str(document.get("description", "")))
+    return stops[0]
 
 
 def _number(surface: dict[str, Any], key: str, place: int) -> float:
