@@ -7,6 +7,7 @@ import pytest
 from mpmath import mpf
 
 import camera_ray_caster as crc
+from camera_ray_caster.core.lenses import chief
 from camera_ray_caster.core.lenses.chief import chief_rays
 from camera_ray_caster.core.lenses.optics import Optics
 from camera_ray_caster.core.lenses.prescription import Prescription, Row
@@ -188,3 +189,25 @@ def test_a_calibrated_model_is_fitted_to_a_real_lens():
     assert fit.worst < 0.05
     points = [(0.5, 0.3, -2.0), (-0.6, 0.1, -2.0), (0.0, 0.0, -2.0)]
     assert np.abs(fit.camera.project(points) - camera.project(points)).max() <= fit.worst * 1.01
+
+
+@pytest.mark.parametrize("undefined", [1, 100])
+def test_polynomials_without_values_are_not_taken(monkeypatch, undefined, tmp_path):
+    """The first of the tried ends, or all of them, have errors that are no numbers."""
+    count, made = 0, chief._polynomials
+
+    def polynomials(*arguments):
+        nonlocal count
+        count += 1
+        return replace(made(*arguments), errors=(np.nan, 0.0)) if count <= undefined else made(*arguments)
+
+    monkeypatch.setattr(chief, "_polynomials", polynomials)
+    lens = tmp_path / "lens.dat"
+    lens.write_bytes(library()["tessar_100mm"].read_bytes())
+    chief.chief_rays.cache_clear()
+    if undefined == 1:
+        camera = crc.camera("REAL_LENS", SIZE, lens_file=str(lens))
+        assert max(camera.model.chief.errors) < 1e-10
+    else:
+        with pytest.raises(crc.InputError, match=r"chief rays cannot be described.*lens\.dat"):
+            crc.camera("REAL_LENS", SIZE, lens_file=str(lens))

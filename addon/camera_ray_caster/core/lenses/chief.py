@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import pi
+from math import inf, pi
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebvander
@@ -81,16 +81,26 @@ def clenshaw(t, series):
 
 @lru_cache(maxsize=16)
 def chief_rays(optics: Optics, film: float) -> ChiefRays:
-    """Return the chief rays of a film at z = film. Raises InputError if no ray passes the lens near its axis."""
+    """Return the chief rays of a film at z = film. Raises InputError if no ray passes the lens near its axis, and if
+    their polynomials have no values.
+    """
     family = _family(optics, film)
     radius, _, _, angle_end, rim_angle = family
     last, rim = (float(radius(np.array([angle]))[0]) for angle in (angle_end, min(rim_angle, BEFORE_END * angle_end)))
     tried = []
     for end in dict.fromkeys(min(last, factor * rim) for factor in ENDS):
         tried.append(_polynomials(optics, film, family, end, rim))
-        if max(tried[-1].errors) <= GOOD:
+        if _worst(tried[-1]) <= GOOD:
             break
-    return min(tried, key=lambda chief: max(chief.errors))
+    best = min(tried, key=_worst)
+    if _worst(best) == inf:
+        raise InputError("its chief rays cannot be described: check gaps, rims and the place of the stop")
+    return best
+
+
+def _worst(chief: ChiefRays) -> float:
+    """Return the larger of the errors; inf if one is undefined."""
+    return max(chief.errors) if np.isfinite(chief.errors).all() else inf
 
 
 def _polynomials(optics: Optics, film: float, family, end: float, rim: float) -> ChiefRays:
