@@ -46,10 +46,11 @@ def _write_missed(name: str, values: HitValues, out: np.ndarray, everywhere: boo
         write_where(out, missed, values.hits.missed)
 
 
-def add_combined(hits: Hits, total: np.ndarray, light: np.ndarray | None) -> None:
-    """Add the combined pass to a sum, (rows, columns, 4). ``light`` multiplies its colors; rays without a direction
-    are then black and opaque, since the lens is in their way.
+def add_combined(hits: Hits, total: np.ndarray, light) -> None:
+    """Add the combined pass to a sum, (rows, columns, 4). ``light``, a number or an array that broadcasts to the rays,
+    multiplies its colors; rays without a direction are then black and opaque, since the lens is in their way.
     """
+    light = None if light is None else np.broadcast_to(light, total.shape[:2])
     for window, block in hits.blocks():
         part = total[window]
         once = hits.rays.scratch("once", part.shape, np.float64)

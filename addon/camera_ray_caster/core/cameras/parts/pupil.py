@@ -43,9 +43,11 @@ class Pupil(Aperture):
     disc: float = 0.0
     """Radius of the disc there, mm of the lens."""
     stop_radius: float = np.inf
-    """Radius of the stop, mm of the lens; inf if its shape is the disc's own polygon."""
+    """Radius of the stop, mm of the lens; inf if the points have its shape."""
     passing: tuple[float, ...] = ()
     """Share of the disc that passes, by the radius on the film in even steps from 0 to ``corner``."""
+    cosine: float = 1.0
+    """Mean of cos^4 of the angle at the film, of the rays that pass on the axis."""
     corner: float = np.inf
     """Radius of the frame's farthest corner on the film, mm of the lens."""
     spread: float = 0.0
@@ -86,21 +88,29 @@ def measured(
     radius: of the stop, and corner: the largest radius on the film, mm of the lens. unit: Blender units per mm.
     """
     paraxial, depth = abs(optics.exit_pupil[1]) * radius, pupil.focus / unit
-    side = np.linspace(-TRIED, TRIED, GRID)
     r = np.linspace(0.0, corner * (1 - 1e-9), RADII)[:, None, None]
-    point = side[None, None, :], side[None, :, None]
-    reach = np.sqrt(point[0] ** 2 + point[1] ** 2)
-    is_round = pupil.blades < 3
+    is_round = pupil.blades < 3 and pupil.ratio == 1
+    if is_round:
+        side = np.linspace(-TRIED, TRIED, GRID)
+        point = side[None, :], side[:, None]
+    else:
+        side = (np.arange(GRID) + 0.5) / GRID
+        point = tuple(part / pupil.radius for part in pupil.points(side[None, :], side[:, None]))
+    squared = point[0] ** 2 + point[1] ** 2
     plane = optics.exit_pupil[0]
     pupil = replace(pupil, plane=plane, disc=paraxial, stop_radius=radius if is_round else np.inf)
     with np.errstate(all="ignore"):
         origin, direction = from_film(optics, film, chief, pupil, r, 0.0 * r, point)
         passes = np.isfinite(direction[0]) & np.isfinite(origin[0])
-        disc = float(np.where(passes, reach, 0.0).max(initial=0.0)) + SLACK if is_round else 1.0
-        within = reach <= disc
+        disc = float(np.sqrt(np.where(passes, squared, 0.0).max(initial=0.0))) + SLACK if is_round else 1.0
+        within = squared <= disc * disc if is_round else np.full(squared.shape, True)
         share = (passes & within).sum(axis=(1, 2)) / within.sum()
+        wide = (paraxial / (film - plane)) ** 2
         if is_round:  # on the axis what passes is a disc, and its share is known to rounding
-            share[0] = min(_marginal(optics, film, chief, pupil) / disc, 1.0) ** 2
+            marginal = _marginal(optics, film, chief, pupil) ** 2
+            share[0], cosine = min(marginal / disc**2, 1.0), 1 / (1 + wide * marginal)
+        else:
+            cosine = float((passes[0] / (1 + wide * squared) ** 2).sum() / max(passes[0].sum(), 1))
         height, place, tangent, _ = chief.at(r * r)
         turn = 2 / (1 + tangent * tangent * r * r)
         z = optics.entrance_pupil[0] - depth
@@ -112,7 +122,10 @@ def measured(
         ]
         angle = np.sqrt(beside[0] ** 2 + beside[1] ** 2) * np.abs(direction[2]) / depth
         spread = float(np.where(passes & within & np.isfinite(angle), angle, 0.0).max(initial=0.0))
-    return replace(pupil, disc=disc * paraxial, passing=tuple(share.tolist()), spread=2 * spread, corner=corner)
+    shares = tuple(share.tolist())
+    return replace(
+        pupil, disc=disc * paraxial, passing=shares, cosine=float(cosine), corner=corner, spread=2 * spread
+    )
 
 
 def _marginal(optics: Optics, film: float, chief: ChiefRays, pupil: Pupil) -> float:
@@ -132,11 +145,10 @@ def light_of(film: float, chief: ChiefRays, pupil: Pupil, place, point, falls_of
     distance = film - pupil.plane
     squared, value = place[0] * place[0] + place[1] * place[1], 1.0
     if falls_off:
-        share = pupil.disc / distance
         crossing = chief.at(squared)[3]
         beside = [part - part * crossing + pupil.disc * own for part, own in zip(place, point, strict=True)]
         cosine = distance * distance / (distance * distance + beside[0] * beside[0] + beside[1] * beside[1])
-        value = cosine * cosine * (1 + share * share)
+        value = cosine * cosine / pupil.cosine
     if vignetting:
         return value / max(pupil.passing[0], FEWEST)
     table = np.maximum(np.array(pupil.passing), FEWEST)
