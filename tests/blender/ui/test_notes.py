@@ -32,6 +32,12 @@ def sharp(scene, data):
     return "With 1 sample nothing is blurred: every ray passes through the center of the aperture samples"
 
 
+def wide_open(scene, data):
+    data.camera_ray_caster.model, scene.camera_ray_caster.samples = "REAL_LENS", 4
+    data.dof.use_dof, data.dof.aperture_fstop = True, 1.2
+    return "The lens opens to f/2.03: it is cast with that stop in place of f/1.2"
+
+
 def all_at_once(scene, data):
     data.dof.use_dof = True
     stretched(scene, data)
@@ -58,7 +64,7 @@ def rows(blender):
     return len(called)
 
 
-@pytest.mark.parametrize("what", [stretched, missing, unknown, sharp, still, all_at_once])
+@pytest.mark.parametrize("what", [stretched, missing, unknown, sharp, wide_open, still, all_at_once])
 def test_a_note_moves_nothing_below_it(blender, scene, what):
     scene.render.engine = "CAMERA_RAY_CASTER"
     assert "No notes" in drawn(blender, SidebarCamera)

@@ -13,11 +13,15 @@ from camera_ray_caster.core.lenses.optics import Optics
 from camera_ray_caster.core.lenses.prescription import Prescription, Row
 from camera_ray_caster.core.lenses.read import library, read_lens
 from camera_ray_caster.core.lenses.trace import trace
+from camera_ray_caster.core.report.accuracy import Accuracy
+from camera_ray_caster.core.report.report import report_cast
 
 from .digits import traced
 
 NAMES = sorted(library())
 SIZE = 96, 64
+SAMPLES = 64
+WALL = crc.planes((0, 0, -5), [[1, 0], [0, 1], [0, 0]], infinite=True, color=(1, 1, 1))
 
 
 def thin(focal=50.0, thickness=1e-6):
@@ -136,8 +140,13 @@ def test_an_f_stop_opens_the_stop_up_to_the_lens_s_own():
     assert wide["stop"] == pytest.approx(17.1)
 
 
-SAMPLES = 64
-WALL = crc.planes((0, 0, -5), [[1, 0], [0, 1], [0, 0]], infinite=True, color=(1, 1, 1))
+@pytest.mark.parametrize(("stop", "use_dof", "told"), [(1.2, True, True), (2.0, True, False), (1.2, False, False)])
+def test_a_stop_that_is_wider_than_the_lens_is_told_in_one_line(stop, use_dof, told):
+    camera = crc.camera("REAL_LENS", SIZE, aperture_fstop=stop, use_dof=use_dof)
+    images = crc.cast(camera, WALL, passes=("depth",))
+    report = report_cast(camera, WALL, images, {}, (), 1.0, "Layer", accuracy=Accuracy())
+    line = "the lens opens to f/2.03: it is cast with that stop in place of f/1.2"
+    assert [note for _, note in report.notes] == ([line] if told else [])
 
 
 def light_of_a_wall(**settings):

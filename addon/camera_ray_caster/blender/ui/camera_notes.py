@@ -29,6 +29,8 @@ def notes(context) -> list[Note]:
         frame = None
     others = engine_note(scene, camera), timeline_note(scene, camera), sample_note(scene, found)
     every += filter(None, (frame, *others))
+    if found is not None and (remark := found.model.remark(found.record)):
+        every.append(Note(remark))
     if context.space_data is not None and is_seen_through(context) and not drawn_alike(camera):
         said = "A click selects the object in the picture; Blender draws its gizmos in perspective"
         every.append(Note(said, icon="INFO"))

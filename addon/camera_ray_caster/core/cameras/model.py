@@ -192,12 +192,14 @@ class Model(ABC):
         """
         return None
 
+    def remark(self, raw: BlenderCamera) -> str:
+        """Return what is cast otherwise than a record asks, in one sentence for reports and panels; "" if nothing."""
+        return ""
+
     @classmethod
     def eye(cls, raw: BlenderCamera, view: str) -> BlenderCamera | None:
-        """Return the record of an eye, "left" or "right", of a model that has eyes of its own.
-
-        None, the default, means that the camera itself is moved, as in Blender. Raises InputError if there is no such
-        eye.
+        """Return the record of an eye, "left" or "right", of a model that has eyes of its own. None, the default: the
+        camera itself is moved, as in Blender. Raises InputError if there is no such eye.
         """
         return None
 
@@ -228,9 +230,7 @@ class Model(ABC):
     @property
     def shape(self) -> float | None:
         """Width over height, on square pixels, of the frame in which the model stretches nothing; None, the default, if
-        it has no such frame.
-
-        Of a model with a calibration the size of the calibrated picture counts instead: see ``camera.own_frame``.
+        it has none. With a calibration the size of the calibrated picture counts instead: see ``camera.own_frame``.
         """
         return None
 
@@ -270,9 +270,8 @@ class Model(ABC):
 
     @property
     def ray_rounding(self) -> float:
-        """Rounding error of the last operations on a ray, relative to the ray's length.
-
-        The default is gamma(16): numpy's sine and cosine account for up to 8 of the 16, polynomials and roots for more.
+        """Rounding error of the last operations on a ray, relative to the ray's length. The default is gamma(16):
+        numpy's sine and cosine account for up to 8 of the 16, polynomials and roots for more.
         """
         return gamma(16)
 

@@ -45,6 +45,9 @@ RIM_SLACK = 2.0**-30
 """Share of the rim's radius beyond it within which a point counts as on the rim; see ``parts.radial``."""
 
 
+ROUNDED = 0.034
+"""A tenth of a stop, as a share of the f-number: a lens that is called f/2 may open to 2.03."""
+
 TRACED = LENS, FOCUS_DISTANCE, F_STOP, STATE, WAVELENGTH
 """Numbers that have a new family of chief rays; their derivatives are those of differences."""
 
@@ -204,6 +207,13 @@ class RealLens(WindowModel):
         a, b = self.window.plane_from_pixels(x, y)
         place = tuple(part / aperture.radius for part in point)
         return light_of(self.film, self.chief, aperture, (a, b), place, self.falls_off, self.vignetting)
+
+    def remark(self, raw: BlenderCamera) -> str:
+        """See Model."""
+        asked, widest = F_STOP.read(raw), self.optics.widest_f_number
+        if not raw.settings.get("use_dof") or asked > widest * (1 - ROUNDED):
+            return ""
+        return f"the lens opens to f/{widest:.3g}: it is cast with that stop in place of f/{asked:.3g}"
 
     @property
     def focused_at(self) -> float:  # type: ignore[override]

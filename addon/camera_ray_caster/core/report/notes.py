@@ -4,11 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ..camera.camera import Camera
+
 APART = 1e-3
 """Distance of an exact shape from its mesh, over its radius or longer half side, beyond which it is noted."""
 
 NAMED = 3
 """Maximum number of objects that a sentence names."""
+
+
+def camera_notes(camera: Camera) -> tuple[tuple[str, str], ...]:
+    """Return the remark of a camera's model with the camera's name."""
+    remark = camera.model.remark(camera.record)
+    return ((camera.record.name, remark),) if remark else ()
 
 
 def sentences(notes: Sequence[tuple[str, str]], exact: Sequence[tuple[str, float]]) -> list[str]:

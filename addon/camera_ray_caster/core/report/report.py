@@ -22,7 +22,7 @@ from ..records import Finding, Shapes
 from ..version import VERSION
 from .accuracy import QUANTITIES, Accuracy
 from .indices import indices_of
-from .notes import sentences
+from .notes import camera_notes, sentences
 
 WIDTH = 100
 """Maximum width of the table in columns."""
@@ -135,19 +135,19 @@ def report_cast(
     host: Mapping[str, Any] | None = None,
 ) -> Report:
     """Return the report of one cast of a view layer; if ``several``, ``not_done`` has the layer's name."""
-    motion = camera.timeline.motion
+    motion, pixels = camera.timeline.motion, camera.raster.shape[0] * camera.raster.shape[1]
     return Report(
         camera=camera_facts(camera),
         frame=frame,
         layers=(layer,),
         passes=images.plan.request.passes,
         shapes=len(shapes),
-        pixels=camera.raster.shape[0] * camera.raster.shape[1],
+        pixels=pixels,
         seconds=seconds,
         findings=tuple(findings),
         not_done=tuple(f"{layer}: {line}" if several else line for line in images.plan.left_out()),
         left_out=(*shapes.left_out, *uncolored(shapes, images.plan.request.passes)),
-        notes=(*shapes.notes, *accuracy.notes(camera.raster.shape[0] * camera.raster.shape[1])),
+        notes=(*camera_notes(camera), *shapes.notes, *accuracy.notes(pixels)),
         exact=_union(shapes.exact, ()),
         motion=tuple(motion.in_words()) if motion is not None else (),
         accuracy=accuracy,
