@@ -1,4 +1,4 @@
-"""Real lenses: the trace and the chief rays with 60 digits, focus, pupils, and what passes."""
+"""Real lenses: the trace and the chief rays with 60 digits, focus and pupils."""
 
 from dataclasses import replace
 
@@ -13,15 +13,11 @@ from camera_ray_caster.core.lenses.optics import Optics
 from camera_ray_caster.core.lenses.prescription import Prescription, Row
 from camera_ray_caster.core.lenses.read import library, read_lens
 from camera_ray_caster.core.lenses.trace import trace
-from camera_ray_caster.core.report.accuracy import Accuracy
-from camera_ray_caster.core.report.report import report_cast
 
 from .digits import traced
 
 NAMES = sorted(library())
 SIZE = 96, 64
-SAMPLES = 64
-WALL = crc.planes((0, 0, -5), [[1, 0], [0, 1], [0, 0]], infinite=True, color=(1, 1, 1))
 
 
 def thin(focal=50.0, thickness=1e-6):
@@ -131,88 +127,6 @@ def test_without_a_focal_length_the_lens_has_its_own_size_and_with_one_it_is_sca
     assert scaled.model.facts()["back_focus"] == pytest.approx(
         own.model.facts()["back_focus"] * 25.0 / 50.35816695831366, rel=1e-12
     )
-
-
-def test_an_f_stop_opens_the_stop_up_to_the_lens_s_own():
-    wide, closed = (crc.camera("REAL_LENS", SIZE, aperture_fstop=stop).model.facts() for stop in (1.2, 8.0))
-    assert wide["f_number"] == pytest.approx(wide["widest_f_number"])
-    assert closed["f_number"] == pytest.approx(8.0)
-    assert wide["stop"] == pytest.approx(17.1)
-
-
-@pytest.mark.parametrize(("stop", "use_dof", "told"), [(1.2, True, True), (2.0, True, False), (1.2, False, False)])
-def test_a_stop_that_is_wider_than_the_lens_is_told_in_one_line(stop, use_dof, told):
-    camera = crc.camera("REAL_LENS", SIZE, aperture_fstop=stop, use_dof=use_dof)
-    images = crc.cast(camera, WALL, passes=("depth",))
-    report = report_cast(camera, WALL, images, {}, (), 1.0, "Layer", accuracy=Accuracy())
-    line = "the lens opens to f/2.03: it is cast with that stop in place of f/1.2"
-    assert [note for _, note in report.notes] == ([line] if told else [])
-
-
-def light_of_a_wall(**settings):
-    """A camera, and the colors of a white wall, (3, 33), over those of a pinhole."""
-    camera = crc.camera("REAL_LENS", (33, 3), use_dof=True, focus_distance=5.0, **settings)
-    image = crc.cast(camera, WALL, passes=("combined",), samples=SAMPLES)["combined"]
-    assert (image[..., 3] == 1).all()
-    plain = crc.cast(crc.camera("PERSP", (33, 3)), WALL, passes=("combined",))["combined"]
-    return camera, image[..., 0] / plain[..., 0]
-
-
-def noise(passing, pixels):
-    """Three standard errors of the mean of samples of a disc, of which a share passes."""
-    return 3 * ((1 / passing - 1) / (SAMPLES * pixels)) ** 0.5
-
-
-@pytest.mark.parametrize("falloff", [True, False])
-@pytest.mark.parametrize("vignetting", [True, False])
-def test_the_light_of_a_picture_is_what_passes_the_rims_and_falls_off(vignetting, falloff):
-    """A white wall at f/2: 1 in the middle; at the edges the share of the exit pupil through which rays of a grid
-    pass, times cos^4.
-    """
-    camera, light = light_of_a_wall(aperture_fstop=2.0, lens_vignetting=vignetting, lens_falloff=falloff)
-    optics, film = camera.model.optics, camera.model.film
-    plane, side = optics.exit_pupil[0], np.linspace(-15.0, 15.0, 301)  # rays pass up to 13.8 mm from the axis
-    middle, edge = (
-        _passing(optics, (place, 0.0, film), (side[:, None], side, plane), falloff) for place in (0.0, -17.45)
-    )
-    assert light[:, 15:18].mean() == pytest.approx(1.0, abs=noise(0.91, 9))
-    fall = edge.sum() / middle.sum()
-    if not vignetting:
-        fall = edge[edge > 0].mean() / middle[middle > 0].mean()
-    assert light[:, [0, -1]].mean() == pytest.approx(fall, rel=noise(0.35, 6))
-
-
-def _passing(optics, origin, target, falloff):
-    """cos^4 (or 1) of rays from the film to places of the exit pupil that pass all rims; 0 for the others."""
-    ahead = np.broadcast_arrays(*(there - here for there, here in zip(target, origin, strict=True)))
-    length = np.sqrt(sum(part * part for part in ahead))
-    with np.errstate(invalid="ignore"):
-        _, (dx, _, _) = trace(optics.surfaces[::-1], origin, tuple(part / length for part in ahead), to_film=False)
-    return np.isfinite(dx) * (np.abs(ahead[2]) / length) ** (4 if falloff else 0)
-
-
-@pytest.mark.parametrize(("blades", "ratio", "share"), [(0, 2.0, 0.99), (0, 0.5, 0.5), (5, 1.0, 0.99), (6, 0.7, 0.7)])
-def test_the_middle_of_a_white_wall_is_1_for_any_shape_of_the_stop(blades, ratio, share):
-    """With ratio 0.5 the stop is twice as wide as the lens at f/2.8, whose rims then stop half of the light."""
-    for vignetting in (True, False):
-        _, light = light_of_a_wall(
-            aperture_fstop=2.8, aperture_blades=blades, aperture_ratio=ratio, lens_vignetting=vignetting
-        )
-        assert light[:, 15:18].mean() == pytest.approx(1.0, abs=noise(share, 9))
-
-
-def test_rays_of_the_aperture_meet_at_the_plane_of_focus_and_pass_the_stop():
-    camera = crc.camera("REAL_LENS", SIZE, use_dof=True, aperture_fstop=8.0, focus_distance=2.0)
-    x, y = np.full(64, 48.0), np.full(64, 32.0)
-    rng = np.random.default_rng(0)
-    point = camera.aperture.points(*rng.random((2, 64)))
-    origin, direction = camera.model.through(camera.aperture, None, x, y, point)
-    passes = np.isfinite(direction[0])
-    assert 40 < passes.sum() < 64
-    at = [(o + (-2.0 - origin[2]) / direction[2] * d)[passes] for o, d in zip(origin[:2], direction[:2], strict=True)]
-    assert np.hypot(*at).max() < 2e-4  # aberrations of f/8, Blender units
-    pupil = [(o + (0.0 - origin[2]) / direction[2] * d)[passes] for o, d in zip(origin[:2], direction[:2], strict=True)]
-    assert np.hypot(*pupil).max() < camera.aperture.radius * 1.02
 
 
 def test_wavelength_changes_rays_only_where_glass_disperses():

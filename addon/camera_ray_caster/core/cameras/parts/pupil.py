@@ -16,6 +16,7 @@ from ...lenses.chief import ChiefRays
 from ...lenses.optics import BISECTIONS, Optics
 from ...lenses.trace import LensSurface, trace
 from ...maths.recording import is_recorded, look_up
+from ...maths.vector import norm
 from .aperture import Aperture
 
 RADII = 25
@@ -29,6 +30,12 @@ TRIED = 1.5
 
 SLACK = 2.0 * TRIED / (GRID - 1)
 """What the disc is wider than the farthest point that passes, in paraxial radii: the grid's step."""
+
+MARGIN = 1.5
+"""What the grid's largest values are multiplied by: a step at the rim changes third-order aberrations by 1.15."""
+
+LEVEL = 0.1
+"""Smallest cosine by which the depth of focus is divided to have the distance along a chief ray."""
 
 FEWEST = 1 / 64
 """Smallest share of passing rays by which light is divided, where vignetting is switched off."""
@@ -50,13 +57,21 @@ class Pupil(Aperture):
     """Mean of cos^4 of the angle at the film, of the rays that pass on the axis."""
     corner: float = np.inf
     """Radius of the frame's farthest corner on the film, mm of the lens."""
+    apart: float = np.inf
+    """Largest distance of a ray's line from the origin of the pixel's chief ray, Blender units."""
     spread: float = 0.0
-    """Largest angle between a ray and one that meets the chief ray on the plane of focus, radians."""
+    """Largest distance of a ray from the chief ray where that one is sharp, over the way there."""
+    sharp: tuple[float, float] = (1.0, np.inf)
+    """Least and largest distance along chief rays at which ``spread`` was found, Blender units."""
+    reach: float = 0.0
+    """Largest distance from the eye at which rays begin, Blender units."""
 
     def blur(self, distance, radius):
-        """See Aperture: by the aberrations, too."""
-        far = distance + radius
-        return self.widest * np.maximum(1.0, far / self.focus) + far * self.spread
+        """See Aperture. At a distance s of a chief ray that is sharp at D another ray of the pixel is at most
+        apart |1 - s / D| + spread s away: it is a line.
+        """
+        near, far = np.maximum(distance - radius - self.reach, 0.0), distance + radius + self.reach
+        return self.apart * np.maximum(1 - near / self.sharp[1], far / self.sharp[0] - 1) + far * self.spread
 
 
 def from_film(optics: Optics, film: float, chief: ChiefRays, pupil: Pupil, a, b, point):
@@ -113,19 +128,21 @@ def measured(
             cosine = float((passes[0] / (1 + wide * squared) ** 2).sum() / max(passes[0].sum(), 1))
         height, place, tangent, _ = chief.at(r * r)
         turn = 2 / (1 + tangent * tangent * r * r)
-        z = optics.entrance_pupil[0] - depth
-        beside = [
-            (o + (z - origin[2]) / direction[2] * d) - (middle + (z - place) / (1 - turn) * ahead)
-            for o, d, middle, ahead in zip(
-                origin[:2], direction[:2], (r * height, 0.0), (r * tangent * turn, 0.0), strict=True
-            )
-        ]
-        angle = np.sqrt(beside[0] ** 2 + beside[1] ** 2) * np.abs(direction[2]) / depth
-        spread = float(np.where(passes & within & np.isfinite(angle), angle, 0.0).max(initial=0.0))
-    shares = tuple(share.tolist())
+        ahead = r * tangent * turn, 0.0, 1 - turn
+        off = tuple(o - c for o, c in zip(origin, (r * height, 0.0, place), strict=True))
+        way = sum(o * d for o, d in zip(off, direction, strict=True))
+        off = tuple(o - way * d for o, d in zip(off, direction, strict=True))
+        sharp = np.maximum(depth + place - optics.entrance_pupil[0], LEVEL * depth) / np.maximum(turn - 1, LEVEL)
+        there = tuple(o / sharp + d - u for o, d, u in zip(off, direction, ahead, strict=True))
+        apart, spread = (
+            MARGIN * float(np.where(passes & within, norm(part), 0.0).max(initial=0.0)) for part in (off, there)
+        )
+        reach = float(np.hypot(r * height, place - optics.entrance_pupil[0]).max()) + apart
     return replace(
-        pupil, disc=disc * paraxial, passing=shares, cosine=float(cosine), corner=corner, spread=2 * spread
-    )
+        pupil, disc=disc * paraxial, passing=tuple(share.tolist()), cosine=float(cosine), corner=corner,
+        apart=apart * unit, spread=spread, sharp=(float(sharp.min()) * unit, float(sharp.max()) * unit),
+        reach=reach * unit,
+    )  # fmt: skip
 
 
 def _marginal(optics: Optics, film: float, chief: ChiefRays, pupil: Pupil) -> float:
