@@ -1,8 +1,9 @@
-"""Casts .blend files and compares six passes with those of Cycles: compare.py FOLDER.
+"""Casts .blend files and compares seven passes with those of Cycles: compare.py FOLDER.
 
 FOLDER has README.tsv (name, resolution, ...), NAME.blend and NAME.cycles.npz: depth, position, normal, uv, index and
-``names``, rows from the bottom. Pixels are compared that no edge of an object or of the depth touches, unless the
-report names their object or a material of it. Exit status 1 if more than MOST of them differ in any pass.
+``names``, rows from the bottom; Cycles' colors are rendered here. Pixels are compared that no edge of an object or of
+the depth touches, unless the report names their object or a material of it. Exit status 1 if more than MOST of them
+differ in any pass.
 """
 
 import csv
@@ -15,13 +16,23 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-CAST = Path(__file__).resolve().parents[1] / "scripts" / "cast.py"
+ROOT = Path(__file__).resolve().parents[1]
+CAST = ROOT / "scripts" / "cast.py"
+sys.path.insert(0, str(ROOT))
+from tests.blender.cycles.test_alpha import cycles  # noqa: E402
+
 MOST = 0.002
 """Largest share of the pixels that may differ in a pass."""
 
-PASSES = "depth,distance,position,normal,uv,shape_index"
+PASSES = "depth,distance,position,normal,uv,shape_index,albedo"
 NEAR, TURNED, MAPPED = 1e-3, 2.0, 2e-3
 """Largest differences: of depths and places over the distance, of normals in degrees, of u and v."""
+
+COLORED = 0.02
+"""Largest difference of colors."""
+
+OPAQUE = "it is cast as opaque"
+"""In the notes on materials that let Cycles' passes show what is behind, of which the colors here have none."""
 
 JUMP = 0.02
 """Step from one pixel's depth to the next one's, over the depth, that is an edge."""
@@ -50,8 +61,9 @@ def compared(folder: Path, name: str, size: str) -> tuple[dict[str, float], floa
     (layer, indices), *_ = report["indices"].items()
     ours = {key.removeprefix(f"{layer}."): array.astype(np.float64) for key, array in ours.items()}
     numbers = {label: int(number) for number, label in json.loads(str(theirs["names"])).items()}
-    named = {entry["name"] for entry in (*report["left_out"], *report["notes"])}
-    named |= _objects_with(folder / f"{name}.blend", named)
+    bpy.ops.wm.open_mainfile(filepath=str(folder / f"{name}.blend"), load_ui=False, use_scripts=False)
+    remarks = [entry for entry in (*report["left_out"], *report["notes"]) if OPAQUE not in entry.get("note", "")]
+    named = _objects_with({entry["name"] for entry in remarks})
     index, is_named = np.zeros((2, *ours["depth"].shape))
     for run in indices["shape_index"]:
         here = (ours["shape_index"] >= run["first"]) & (ours["shape_index"] < run["first"] + run["count"])
@@ -70,19 +82,49 @@ def compared(folder: Path, name: str, size: str) -> tuple[dict[str, float], floa
             "normal": _angle(ours["normal"], theirs["normal"].astype(np.float64)) > TURNED,
             "uv": np.abs(ours["uv"] - theirs["uv"])[..., :2].max(axis=-1) > MAPPED,
             "index": index != true_index,
+            "albedo": np.abs(ours["albedo"] - _colors(size)).max(axis=-1) > COLORED,
         }
     shares = {"hit": hit != true_hit} | {key: wrong & both for key, wrong in off.items()}
     total = max(int(where.sum()), 1)
     return {key: float((wrong & where).sum() / total) for key, wrong in shares.items()}, float((is_named > 0).mean())
 
 
-def _objects_with(path: Path, materials: set[str]) -> set[str]:
-    """Return the names of a file's objects that have one of these materials."""
-    bpy.ops.wm.open_mainfile(filepath=str(path), load_ui=False, use_scripts=False)
-    return {
+def _colors(size: str) -> np.ndarray:
+    """Return the colors of the surfaces of the open file in Cycles, (h, w, 3): without what a Principled BSDF adds by
+    its specular reflection, with an alpha that is 0 or 1 as a hit is, and emission where there is nothing else.
+    """
+    scene = bpy.context.scene
+    threshold = scene.view_layers[0].pass_alpha_threshold
+    trees = [*(material.node_tree for material in bpy.data.materials if material.node_tree), *bpy.data.node_groups]
+    for tree in trees:
+        for node in tree.nodes:
+            if node.type == "BSDF_PRINCIPLED":
+                specular, alpha = node.inputs["Specular IOR Level"], node.inputs["Alpha"]
+                for link in tuple(specular.links):
+                    tree.links.remove(link)
+                specular.default_value = 0.0
+                for link in tuple(alpha.links):
+                    is_hit = tree.nodes.new("ShaderNodeMath")
+                    is_hit.operation, is_hit.inputs[1].default_value = "GREATER_THAN", threshold
+                    tree.links.new(link.from_socket, is_hit.inputs[0])
+                    tree.links.new(is_hit.outputs[0], alpha)
+    render, lens = scene.render, scene.camera.data
+    render.resolution_x, render.resolution_y = map(int, size.split("x"))
+    render.resolution_percentage = 100
+    render.use_compositing = render.use_sequencer = render.use_motion_blur = lens.dof.use_dof = False
+    with tempfile.TemporaryDirectory() as folder:
+        render.filepath, render.use_file_extension = f"{folder}/colors.exr", False
+        *reflected, emission = cycles(scene, "Diffuse Color", "Glossy Color", "Transmission Color", "Emission")
+    total = sum(reflected)
+    return np.where(total.max(axis=-1, keepdims=True) > 0, total, emission)
+
+
+def _objects_with(names: set[str]) -> set[str]:
+    """Return these names, and those of the open file's objects that have a material of one of them."""
+    return names | {
         item.name_full
         for item in bpy.data.objects
-        if any(slot.material and slot.material.name_full in materials for slot in item.material_slots)
+        if any(slot.material and slot.material.name_full in names for slot in item.material_slots)
     }
 
 

@@ -254,6 +254,16 @@ def test_the_threshold_of_the_view_layer_decides(scene, threshold):
     assert (assert_as_cycles(scene) == 1).any() == (threshold < 0.5)
 
 
+def test_a_surface_that_is_partly_transparent_and_hit_is_noted(scene):
+    for alpha in (1.0, 0.7, 0.3):
+        new, link, out, _ = material(plane(f"Card {alpha}", 0, 2), f"Alpha {alpha}")
+        node = new("ShaderNodeBsdfPrincipled")
+        node.inputs["Alpha"].default_value = alpha
+        link(node.outputs[0], out)
+    ((name, note),) = read_shapes(scene).notes
+    assert (name, note) == ("Alpha 0.7", "where its alpha is less than 1, but at least 0.5, it is cast as opaque")
+
+
 def test_many_layers_of_leaves_and_slots(scene):
     """Five cards one behind the other, turned, of two materials by face; the last is behind them."""
     for k in range(5):

@@ -35,6 +35,7 @@ BLACK = (0.0, 0.0, 0.0, 1.0)
 VOLUME = "it has a volume and no surface: rays pass through it"
 UNMOVED = "the displacement of its material {!r} is not read: {}. It is cast where the mesh is"
 BUMP = "its normal or bump map is not in the normal pass, which is that of the mesh"
+OPAQUE = "where its alpha is less than 1, but at least {:g}, it is cast as opaque"
 
 
 class Look(NamedTuple):
@@ -195,9 +196,11 @@ def _colored(material, output: Output, plain: Look, threshold: float, has_colors
     except Unread as error:
         unread.append(f"its color is not read: {error}. Its viewport color is shown")
     unread += [f"{_image(name)} is missing: it is shown in magenta" for name in sorted(nodes.missing - of_alpha)]
-    if isinstance(alpha, Constant) and (alpha.values >= threshold).all():
+    is_hole = isinstance(alpha, Constant) and (alpha.values < threshold).all()
+    notes = plain.notes if through is None or is_hole else (*plain.notes, OPAQUE.format(threshold))
+    if isinstance(alpha, Constant) and not is_hole:
         alpha = None
-    look = plain._replace(left_out=left_out, unread=tuple(unread))
+    look = plain._replace(left_out=left_out, unread=tuple(unread), notes=notes)
     if alpha is None and own is None and glow is None and isinstance(lit, Constant):
         return look._replace(color=shown((*lit.values[:, 0].tolist(), opacity)))
     return look._replace(surface=Surface(lit, own, glow, alpha, threshold), needs=frozenset(needs))
