@@ -1,10 +1,13 @@
-"""What a set takes does not grow with its pictures: 400 and 6,400 pictures, stubs of 24 x 18 pixels, have one peak."""
+"""What a set takes does not grow with its pictures: 400 and 1,600 pictures, stubs of 24 x 18 pixels, have one peak; all
+hostile inputs have 6,400.
+"""
 
 import json
 import os
 import subprocess
 import sys
 import tracemalloc
+from functools import cache
 
 import pytest
 
@@ -14,9 +17,9 @@ from camera_ray_caster.core.sets import SET_FORMATS
 from ...scripts.running import ROOT
 from . import test_sets
 
-FEW, MANY = 400, 6400
-ALLOWED = 20e6
-"""Bytes by which the peaks may differ."""
+FEW, MANY, MOST = 400, 1600, 6400
+ALLOWED = 20e6 / 6000
+"""Bytes a further picture, by which the peaks may differ. It was 270 kB for real pictures when a set was held."""
 
 
 def stubs(folder, count):
@@ -81,26 +84,31 @@ print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024)
 
 
 @pytest.fixture(scope="module")
-def folders(tmp_path_factory):
-    """The folders of a small and of a large set."""
+def set_of(tmp_path_factory):
+    """A function that returns the folder of a set of so many pictures."""
     place = tmp_path_factory.mktemp("stubs")
-    patch = pytest.MonkeyPatch()
-    patch.setattr(test_sets, "SIZE", (24, 18))
-    for count in (FEW, MANY):
-        stubs(place / str(count), count)
-    patch.undo()
-    return place
+
+    @cache
+    def made(count):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(test_sets, "SIZE", (24, 18))
+            stubs(place / str(count), count)
+        return place / str(count)
+
+    return made
 
 
-@pytest.mark.full
+@pytest.mark.parametrize(
+    "many", [pytest.param(MANY, marks=pytest.mark.full), pytest.param(MOST, marks=pytest.mark.hostile)]
+)
 @pytest.mark.parametrize("key", [*SET_FORMATS, "colmap", "nerfstudio", "check_set"])
-def test_an_export_takes_the_memory_of_a_few_pictures(folders, tmp_path, key):
+def test_an_export_takes_the_memory_of_a_few_pictures(set_of, tmp_path, key, many):
     code = MEASURED.format(addon=str(ROOT / "addon"), scripts=str(ROOT / "scripts"))
     peaks = []
-    for count in (FEW, MANY):
-        words = [sys.executable, "-c", code, key, folders / str(count), tmp_path / str(count)]
+    for count in (FEW, many):
+        words = [sys.executable, "-c", code, key, set_of(count), tmp_path / str(count)]
         done = subprocess.run(words, capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr[-2000:]
         peaks.append(float(done.stdout.split()[-1]))
     print(key, [round(peak / 1e6) for peak in peaks])
-    assert peaks[1] - peaks[0] < ALLOWED
+    assert peaks[1] - peaks[0] < ALLOWED * (many - FEW)
