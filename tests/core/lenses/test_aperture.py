@@ -125,4 +125,5 @@ def test_a_ball_is_sought_wherever_the_blur_shows_it(name, focus):
 def test_what_is_sharp_is_sought_in_as_few_pixels_as_with_a_thin_lens():
     settings = {"use_dof": True, "aperture_fstop": 2.1, "focus_distance": 10.0, "lens": 500.0, "sensor_width": 360.0}
     real, thin = (crc.camera(model, SIZE, **settings).aperture for model in ("REAL_LENS", "PERSP"))
-    assert real.blur(10.0, 0.1) < thin.blur(10.0, 0.1)
+    ball = np.array([[0.0, 0.0, -10.0]]), np.array([0.1])
+    assert real.blur(*ball, False) < thin.blur(*ball, True)

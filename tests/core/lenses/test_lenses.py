@@ -53,7 +53,7 @@ def test_chief_rays_pass_the_center_of_the_stop(name):
     chief = chief_rays(optics, film)
     for share in (0.2, 0.6, 0.9):
         r = share * chief.rim
-        height, place, tangent, _ = (float(part) for part in chief.at(np.float64(r * r)))
+        height, place, tangent = (float(part) for part in chief.at(np.float64(r * r)))
         turn = 2 / (1 + (tangent * r) ** 2)
         origin, direction = (height * r, 0.0, place), (-tangent * r * turn, 0.0, turn - 1)
         stop, place = _met(optics, film, origin, direction)
@@ -107,7 +107,7 @@ def test_a_symmetric_lens_at_one_to_one_has_no_distortion():
     film = optics.paraxial_film(away + optics.entrance_pupil[0])
     chief = chief_rays(optics, film)
     for r in (1.0, 4.0, 8.0):
-        height, place, tangent, _ = (float(part) for part in chief.at(np.float64(r * r)))
+        height, place, tangent = (float(part) for part in chief.at(np.float64(r * r)))
         turn = 2 / (1 + (tangent * r) ** 2)
         assert height * r + (-away - place) * (tangent * r * turn) / (1 - turn) == pytest.approx(r, rel=1e-9)
 

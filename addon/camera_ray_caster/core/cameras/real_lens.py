@@ -132,7 +132,7 @@ class RealLens(WindowModel):
         squared = a * a + b * b
         rim = self.chief.rim * (1 + RIM_SLACK)
         passes, squared = squared <= rim * rim, np.minimum(squared, rim * rim)
-        height, place, tangent, _ = self.chief.at(squared)
+        height, place, tangent = self.chief.at(squared)
         share = 2 / (1 + tangent * tangent * squared)
         across, out = np.where(passes, tangent * share, np.nan), height * self.unit
         return (a * out, b * out, self._depth(place)), (a * across, b * across, 1 - share)
@@ -251,7 +251,7 @@ class RealLens(WindowModel):
     def formula_values(self, x, y):
         """See Model."""
         a, b = self.window.plane_from_pixels(x, y)
-        height, place, tangent, _ = (float(part) for part in self.chief.at(np.float64(a * a + b * b)))
+        height, place, tangent = (float(part) for part in self.chief.at(np.float64(a * a + b * b)))
         return {"h": height, "z": place - self.pupil, "q": tangent, "unit": float(self.unit),
                 "pitch": float(self.window.pitch_x)}  # fmt: skip
 

@@ -56,8 +56,7 @@ class CameraPixelBounds:
         with np.errstate(all="ignore"):
             radii = np.where(endless, 0.0, radii)
             if self.sampled and self.camera.aperture is not None:
-                away = -centers[:, 2] if self.camera.model.planar else np.sqrt((centers**2).sum(axis=1))
-                radii = radii + self.camera.aperture.blur(away, radii)
+                radii = radii + self.camera.aperture.blur(centers, radii, self.camera.model.planar)
             frame = self.camera.model.bounds(centers, radii)
         frame[endless] = (-np.inf, np.inf, -np.inf, np.inf)
         seen = ~np.isnan(frame).any(axis=1)

@@ -64,9 +64,16 @@ class ChiefRays:
     """Angle from the axis of the chief ray at ``rim``."""
 
     def at(self, squared):
-        """Return h / r, z, tan(theta / 2) / r and e / r at r^2; NaN beyond ``end``. It can be recorded."""
+        """Return h / r, z and tan(theta / 2) / r at r^2; NaN beyond ``end``. It can be recorded."""
+        return self._values(squared, self.height, self.place, self.tangent)
+
+    def crossing(self, squared):
+        """Return e / r at r^2, as ``at`` does."""
+        return self._values(squared, self.pupil)[0]
+
+    def _values(self, squared, *series):
         t = 2 * np.sqrt(1 - squared / (self.end * self.end)) - 1
-        return tuple(clenshaw(t, series) for series in (self.height, self.place, self.tangent, self.pupil))
+        return tuple(clenshaw(t, coefficients) for coefficients in series)
 
 
 def clenshaw(t, series):
@@ -115,7 +122,7 @@ def _polynomials(optics: Optics, film: float, family, end: float, rim: float) ->
     # up to the rim: beyond it nothing is asked but where the pupil is
     radii = np.linspace(rim / CHECKS, rim, CHECKS)
     h, z, half, _ = _functions(optics, film, _angles(radius, radii, angle_end), front, rear)
-    near_h, near_z, near_half, _ = found.at(radii * radii)
+    near_h, near_z, near_half = found.at(radii * radii)
     origin = np.hypot((near_h - h) * radii, near_z - z).max()
     turned = 2 * np.abs(np.arctan(near_half * radii) - np.arctan(half * radii)).max()
     return replace(found, errors=(float(origin), float(turned)), widest=float(2 * np.arctan(half[-1] * rim)))

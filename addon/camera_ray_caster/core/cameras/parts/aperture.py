@@ -121,13 +121,14 @@ class Aperture:
         further = 1 / (1 + across * direction[0] + up * direction[1]) - 1
         return 1 / focal - (1 / focal - 1 / self.focus) / (1 + further / size)
 
-    def blur(self, distance, radius):
+    def blur(self, centers, radii, planar: bool):
         """Return how much bounding spheres must grow so that, seen through the eye alone, they cover their blur.
 
         A point at distance s, seen through the point l of the opening, appears where the eye would see the point moved
-        by -l (1 - s / focus). distance, along the axis for planar cameras, and radius of the spheres: (n,) arrays.
+        by -l (1 - s / focus); if ``planar``, s is a depth. centers (n, 3) in the camera's frame, radii (n,).
         """
-        depths = distance - radius, distance + radius
+        distance = -centers[:, 2] if planar else np.sqrt((centers**2).sum(axis=1))
+        depths = distance - radii, distance + radii
         if self.nearest:
             ends = [np.abs(1 - depth * sharp) for depth in depths for sharp in self.nearest]
         else:

@@ -34,7 +34,7 @@ class ChiefSearch:
 
     def beside(self, r, rho, z):
         """Return how far points, rho from the axis at z, lie beside the chief ray of the radius r, and before it."""
-        height, place, tangent, _ = self.chief.at(r * r)
+        height, place, tangent = self.chief.at(r * r)
         turn = 2 / (1 + tangent * tangent * r * r)
         sine, cosine = tangent * r * turn, turn - 1
         out, ahead = rho - height * r, place - z
@@ -48,7 +48,7 @@ class ChiefSearch:
     def up_to(self, end: float):
         """Return radii to an end in even steps, the angles of their rays, and their origins' heights and places."""
         r = np.linspace(0.0, end, KNOTS)
-        height, place, tangent, _ = self.chief.at(np.minimum(r * r, end * end))
+        height, place, tangent = self.chief.at(np.minimum(r * r, end * end))
         return r, 2 * np.arctan(tangent * r), height * r, place
 
     def radius_of(self, rho, z):

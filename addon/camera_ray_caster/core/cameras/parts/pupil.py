@@ -31,7 +31,7 @@ TRIED = 1.5
 SLACK = 2.0 * TRIED / (GRID - 1)
 """What the disc is wider than the farthest point that passes, in paraxial radii: the grid's step."""
 
-MARGIN = 1.5
+MARGIN = 1.25
 """What the grid's largest values are multiplied by: a step at the rim changes third-order aberrations by 1.15."""
 
 LEVEL = 0.1
@@ -59,19 +59,27 @@ class Pupil(Aperture):
     """Radius of the frame's farthest corner on the film, mm of the lens."""
     apart: float = np.inf
     """Largest distance of a ray's line from the origin of the pixel's chief ray, Blender units."""
-    spread: float = 0.0
-    """Largest distance of a ray from the chief ray where that one is sharp, over the way there."""
+    spread: tuple[float, ...] = ()
+    """Largest distance of a ray from the chief ray where that one is sharp, over the way there, of chief rays at most
+    ``angles`` from the axis, in radians.
+    """
+    angles: tuple[float, ...] = ()
     sharp: tuple[float, float] = (1.0, np.inf)
     """Least and largest distance along chief rays at which ``spread`` was found, Blender units."""
     reach: float = 0.0
     """Largest distance from the eye at which rays begin, Blender units."""
 
-    def blur(self, distance, radius):
+    def blur(self, centers, radii, planar: bool):
         """See Aperture. At a distance s of a chief ray that is sharp at D another ray of the pixel is at most
         apart |1 - s / D| + spread s away: it is a line.
         """
-        near, far = np.maximum(distance - radius - self.reach, 0.0), distance + radius + self.reach
-        return self.apart * np.maximum(1 - near / self.sharp[1], far / self.sharp[0] - 1) + far * self.spread
+        distance = np.sqrt((centers * centers).sum(axis=1))
+        near, far = np.maximum(distance - radii - self.reach, 0.0), distance + radii + self.reach
+        blur = self.apart * np.maximum(1 - near / self.sharp[1], far / self.sharp[0] - 1)
+        around = (radii + blur + far * self.spread[-1] + self.reach) / distance
+        farthest = np.arccos(-centers[:, 2] / distance) + np.arcsin(np.minimum(around, 1.0))
+        place = np.searchsorted(self.angles, np.where(around < 1, farthest, np.inf))
+        return blur + far * np.array(self.spread)[np.minimum(place, RADII - 1)]
 
 
 def from_film(optics: Optics, film: float, chief: ChiefRays, pupil: Pupil, a, b, point):
@@ -80,7 +88,7 @@ def from_film(optics: Optics, film: float, chief: ChiefRays, pupil: Pupil, a, b,
     a, b: the picture's place on the film, upright, mm of the lens. point: of the unit disc. NaN in the direction's x of
     rays that do not pass.
     """
-    plane, crossing = pupil.plane, chief.at(a * a + b * b)[3]
+    plane, crossing = pupil.plane, chief.crossing(a * a + b * b)
     across, up = (-place * crossing + pupil.disc * part for place, part in zip((a, b), point, strict=True))
     side = 1.0 if film > plane else -1.0
     direction = side * (across + a), side * (up + b), side * (plane - film)
@@ -126,7 +134,7 @@ def measured(
             share[0], cosine = min(marginal / disc**2, 1.0), 1 / (1 + wide * marginal)
         else:
             cosine = float((passes[0] / (1 + wide * squared) ** 2).sum() / max(passes[0].sum(), 1))
-        height, place, tangent, _ = chief.at(r * r)
+        height, place, tangent = chief.at(r * r)
         turn = 2 / (1 + tangent * tangent * r * r)
         ahead = r * tangent * turn, 0.0, 1 - turn
         off = tuple(o - c for o, c in zip(origin, (r * height, 0.0, place), strict=True))
@@ -134,14 +142,14 @@ def measured(
         off = tuple(o - way * d for o, d in zip(off, direction, strict=True))
         sharp = np.maximum(depth + place - optics.entrance_pupil[0], LEVEL * depth) / np.maximum(turn - 1, LEVEL)
         there = tuple(o / sharp + d - u for o, d, u in zip(off, direction, ahead, strict=True))
-        apart, spread = (
-            MARGIN * float(np.where(passes & within, norm(part), 0.0).max(initial=0.0)) for part in (off, there)
-        )
+        apart, spread = (MARGIN * np.where(passes & within, norm(part), 0.0).max(axis=(1, 2)) for part in (off, there))
+        apart, spread = float(apart.max()), np.maximum.accumulate(spread)
+        angles = np.arccos(np.clip(turn - 1, -1.0, 1.0)).ravel()
         reach = float(np.hypot(r * height, place - optics.entrance_pupil[0]).max()) + apart
     return replace(
         pupil, disc=disc * paraxial, passing=tuple(share.tolist()), cosine=float(cosine), corner=corner,
-        apart=apart * unit, spread=spread, sharp=(float(sharp.min()) * unit, float(sharp.max()) * unit),
-        reach=reach * unit,
+        apart=apart * unit, spread=tuple(spread.tolist()), angles=tuple(angles.tolist()),
+        sharp=(float(sharp.min()) * unit, float(sharp.max()) * unit), reach=reach * unit,
     )  # fmt: skip
 
 
@@ -162,7 +170,7 @@ def light_of(film: float, chief: ChiefRays, pupil: Pupil, place, point, falls_of
     distance = film - pupil.plane
     squared, value = place[0] * place[0] + place[1] * place[1], 1.0
     if falls_off:
-        crossing = chief.at(squared)[3]
+        crossing = chief.crossing(squared)
         beside = [part - part * crossing + pupil.disc * own for part, own in zip(place, point, strict=True)]
         cosine = distance * distance / (distance * distance + beside[0] * beside[0] + beside[1] * beside[1])
         value = cosine * cosine / pupil.cosine
