@@ -122,10 +122,67 @@ def fisheyes(path):
     return {"points": points, "pixels": seen}
 
 
+def optiland(path):
+    """Rays behind the last of some surfaces; see ``traced``."""
+    from optiland.materials import IdealMaterial
+    from optiland.optic import Optic
+    from optiland.rays import RealRays
+
+    def through(rows, origin, direction):
+        lens = Optic()
+        lens.surfaces.add(index=0, z=rows[0, 0] - 1.0, material=IdealMaterial(rows[0, 3]))
+        for place, (z, curvature, rim, _, behind) in enumerate(rows, 1):
+            radius, rim = 1 / curvature if curvature else np.inf, 2 * rim if rim < np.inf else None
+            lens.surfaces.add(index=place, z=z, radius=radius, aperture=rim, material=IdealMaterial(behind))
+        light, length = np.ones(len(origin)), np.full(len(origin), 0.5875618)
+        rays = lens.surfaces.trace(RealRays(*origin.T, *direction.T, light, length), skip=1)
+        ends = np.stack((rays.x, rays.y, rays.z, rays.L, rays.M, rays.N), axis=1)
+        return np.where((rays.i > 0)[:, None], ends, np.nan)
+
+    return traced(path, through)
+
+
+def rayoptics(path):
+    """Rays behind the last of some surfaces; see ``traced``."""
+    from rayoptics.elem.profiles import Spherical
+    from rayoptics.elem.surface import Circular, Surface
+    from rayoptics.raytr.raytrace import trace_raw
+    from rayoptics.raytr.traceerror import TraceError
+
+    def through(rows, origin, direction):
+        steps = np.diff(rows[:, 0], append=rows[-1, 0])
+        sequence = [[Surface(), None, (np.eye(3), np.array([0.0, 0.0, rows[0, 0]])), rows[0, 3], 1]]
+        for step, (_, curvature, rim, _, behind) in zip(steps, rows, strict=True):
+            surface = Surface(profile=Spherical(c=curvature))
+            surface.clear_apertures = [Circular(rim)] if rim < np.inf else []
+            sequence.append([surface, None, (np.eye(3), np.array([0.0, 0.0, step])), behind, 1])
+        settings = {"check_apertures": True, "intersect_obj": False, "pt_inside_fuzz": 0.0}
+        ends = np.full((len(origin), 6), np.nan)
+        for end, start, ahead in zip(ends, origin, direction, strict=True):
+            try:
+                point, unit, *_ = trace_raw(iter(sequence), start, ahead, 587.5618, **settings)[0][-1]
+            except TraceError:
+                continue
+            end[:] = *point[:2], point[2] + rows[-1, 0], *unit
+        return ends
+
+    return traced(path, through)
+
+
+def traced(path, through):
+    """Points and directions of rays behind the last surface, (n, 6), NaN where they do not pass, of each bundle of an
+    NPZ file: NAME_rows (z, curvature, rim, index before and behind), NAME_origin and NAME_direction, (n, 3).
+    """
+    with np.load(path) as given:
+        names = [name.removesuffix("_rows") for name in given if name.endswith("_rows")]
+        return {name: through(*(given[f"{name}_{part}"] for part in ("rows", "origin", "direction"))) for name in names}
+
+
 if __name__ == "__main__":
     kind, path, output = sys.argv[1:]
     kinds = {"ouster": ouster, "velodyne": velodyne, "ply": ply, "open3d": open3d, "pcd": pcd, "las": las,
-             "colmap": colmap, "coco": coco, "fisheyes": fisheyes}  # fmt: skip
+             "colmap": colmap, "coco": coco, "fisheyes": fisheyes,
+             "optiland": optiland, "rayoptics": rayoptics}  # fmt: skip
     try:
         np.savez(output, **kinds[kind](path))
     except ModuleNotFoundError as error:

@@ -158,16 +158,19 @@ class RealLens(WindowModel):
 
     @lazy
     def _family(self):
-        """The same to the corners of the frame: rays of the aperture come where a rim stops the chief ray, too."""
-        return self.search.up_to(self._corner)
+        """The same to the corners of the frame: rays of the aperture come where a rim stops the chief ray, too. Beyond
+        the family's end they are bounded by the ray there; see ``parts.pupil``.
+        """
+        radii, angles, heights, places = self.search.up_to(min(self._corner, self.chief.end))
+        radii = np.append(radii, max(radii[-1], self._corner))
+        return radii, np.append(angles, np.nextafter(angles[-1], np.inf)), heights, places
 
     @lazy
     def _corner(self) -> float:
-        """Radius of the frame's farthest corner on the film, with a pixel around the frame; at most the family's."""
+        """Radius of the frame's farthest corner on the film, with a pixel around the frame."""
         left, right, low, high = self.window.extent(self.frame)
         pixel = abs(self.window.pitch_x) + abs(self.window.pitch_y)
-        corner = np.hypot(max(abs(left), abs(right)), max(abs(low), abs(high))) + pixel
-        return float(min(corner, self.chief.end))
+        return float(np.hypot(max(abs(left), abs(right)), max(abs(low), abs(high))) + pixel)
 
     @lazy
     def search(self) -> ChiefSearch:
@@ -258,7 +261,7 @@ class RealLens(WindowModel):
     @lazy
     def _wander(self) -> float:
         """The largest distance of a chief ray's line from the eye."""
-        beside = self.search.beside(self._family[0], 0.0, self.pupil)[0]
+        beside = self.search.beside(self._family[0][:-1], 0.0, self.pupil)[0]
         return float(np.abs(beside).max() * self.unit) * (1 + 1e-9)
 
     @lazy
@@ -269,7 +272,7 @@ class RealLens(WindowModel):
 
     def formula_rounding(self, x, y):
         """See Model: the polynomials' error beside the trace, and the rounding of their sums."""
-        chief, steps = self.chief, np.arange(2, DEGREE + 3)
+        chief, steps = self.chief, np.array([1, *range(3, DEGREE + 3)])  # the first coefficient is added last
         height, place, tangent = (
             gamma(4) * float((np.abs(part) * steps).sum()) for part in (chief.height, chief.place, chief.tangent)
         )

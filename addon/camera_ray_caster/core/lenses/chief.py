@@ -23,20 +23,20 @@ from ..records import InputError
 from .optics import BISECTIONS, Optics
 from .trace import trace
 
-DEGREE = 24
-"""Of the polynomials: six lenses from 2 to 210 degrees are then right to 8e-14 radians and 4e-12 mm. With one degree
-all lenses have one formula, whose coefficients follow the focus and can be exchanged.
+DEGREE = 28
+"""Of the polynomials: the lenses of the library are then right to 1e-13 radians and 2e-12 mm (with 24 to 2e-12 and
+4e-11). With one degree all lenses have one formula, whose coefficients follow the focus and can be exchanged.
 """
 
 ANGLES = 2049
 """Places at which the family is searched for its ends."""
 
 ENDS = 3.0, 2.0, 1.6, 1.3, 1.15, 1.05, 1.01
-"""Largest R over the radius at which a rim stops the chief ray, tried in turn: beyond R there is no light of the
-aperture either, and close to grazing refraction the functions are steep.
+"""Largest R over the radius at which a rim stops the chief ray, tried in turn: close to grazing refraction the
+functions are steep. Beyond R rays of the aperture are bounded, and spread, as if the chief ray were that of R.
 """
 
-GOOD = 1e-11
+GOOD = 1e-12
 """Error in mm and radians up to which the first of ENDS is taken; if none is as good, the best."""
 
 BEFORE_END = 1 - 1e-3
@@ -68,8 +68,8 @@ class ChiefRays:
         return self._values(squared, self.height, self.place, self.tangent)
 
     def crossing(self, squared):
-        """Return e / r at r^2, as ``at`` does."""
-        return self._values(squared, self.pupil)[0]
+        """Return e / r at r^2, as ``at`` does; beyond ``end`` that of ``end``."""
+        return self._values(np.minimum(squared, self.end * self.end), self.pupil)[0]
 
     def _values(self, squared, *series):
         t = 2 * np.sqrt(1 - squared / (self.end * self.end)) - 1

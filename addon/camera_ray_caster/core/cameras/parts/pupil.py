@@ -34,6 +34,9 @@ SLACK = 2.0 * TRIED / (GRID - 1)
 MARGIN = 1.25
 """What the grid's largest values are multiplied by: a step at the rim changes third-order aberrations by 1.15."""
 
+NARROWED = 8
+"""Largest number of times that the picture's end is moved to where light ends, if that is less than half of it."""
+
 LEVEL = 0.1
 """Smallest cosine by which the depth of focus is divided to have the distance along a chief ray."""
 
@@ -56,7 +59,7 @@ class Pupil(Aperture):
     cosine: float = 1.0
     """Mean of cos^4 of the angle at the film, of the rays that pass on the axis."""
     corner: float = np.inf
-    """Radius of the frame's farthest corner on the film, mm of the lens."""
+    """Radius on the film to which ``passing`` goes, mm of the lens."""
     apart: float = np.inf
     """Largest distance of a ray's line from the origin of the pixel's chief ray, Blender units."""
     spread: tuple[float, ...] = ()
@@ -78,7 +81,7 @@ class Pupil(Aperture):
         blur = self.apart * np.maximum(1 - near / self.sharp[1], far / self.sharp[0] - 1)
         around = (radii + blur + far * self.spread[-1] + self.reach) / distance
         farthest = np.arccos(-centers[:, 2] / distance) + np.arcsin(np.minimum(around, 1.0))
-        place = np.searchsorted(self.angles, np.where(around < 1, farthest, np.inf))
+        place = np.searchsorted(self.angles, np.where(around < 1, farthest, np.inf), "right")
         return blur + far * np.array(self.spread)[np.minimum(place, RADII - 1)]
 
 
@@ -108,10 +111,10 @@ def measured(
 ) -> Pupil:
     """Return a pupil with its disc, the shares that pass and the spread, by tracing a grid at RADII radii.
 
-    radius: of the stop, and corner: the largest radius on the film, mm of the lens. unit: Blender units per mm.
+    radius: of the stop, and corner: the largest radius on the film, mm of the lens. unit: Blender units per mm. Beyond
+    the radius at which all rays are stopped there is nothing to measure, and ``corner`` is that radius.
     """
     paraxial, depth = abs(optics.exit_pupil[1]) * radius, pupil.focus / unit
-    r = np.linspace(0.0, corner * (1 - 1e-9), RADII)[:, None, None]
     is_round = pupil.blades < 3 and pupil.ratio == 1
     if is_round:
         side = np.linspace(-TRIED, TRIED, GRID)
@@ -123,8 +126,14 @@ def measured(
     plane = optics.exit_pupil[0]
     pupil = replace(pupil, plane=plane, disc=paraxial, stop_radius=radius if is_round else np.inf)
     with np.errstate(all="ignore"):
-        origin, direction = from_film(optics, film, chief, pupil, r, 0.0 * r, point)
-        passes = np.isfinite(direction[0]) & np.isfinite(origin[0])
+        for _ in range(NARROWED):
+            r = np.linspace(0.0, corner, RADII)[:, None, None]
+            origin, direction = from_film(optics, film, chief, pupil, r, 0.0 * r, point)
+            passes = np.isfinite(direction[0]) & np.isfinite(origin[0])
+            dark = int(np.flatnonzero(passes.any(axis=(1, 2))).max(initial=0)) + 1
+            if dark > RADII // 2:
+                break
+            corner = float(r[dark, 0, 0])
         disc = float(np.sqrt(np.where(passes, squared, 0.0).max(initial=0.0))) + SLACK if is_round else 1.0
         within = squared <= disc * disc if is_round else np.full(squared.shape, True)
         share = (passes & within).sum(axis=(1, 2)) / within.sum()
@@ -134,6 +143,7 @@ def measured(
             share[0], cosine = min(marginal / disc**2, 1.0), 1 / (1 + wide * marginal)
         else:
             cosine = float((passes[0] / (1 + wide * squared) ** 2).sum() / max(passes[0].sum(), 1))
+        r = np.minimum(r, chief.end * (1 - 1e-9))
         height, place, tangent = chief.at(r * r)
         turn = 2 / (1 + tangent * tangent * r * r)
         ahead = r * tangent * turn, 0.0, 1 - turn
