@@ -65,6 +65,7 @@ STORED = {
         "THIN_PRISM_FISHEYE", {**SMALL, "fx": 65, "k1": -0.02, "p1": 0.004, "p2": 0.006, "s1": 0.03, "s3": -0.02},
     ),
     "fov": ("FOV", {**SMALL, "fx": 138, "fov_omega": 1.1}),
+    "radial_polynomial": ("RADIAL_POLYNOMIAL", {**SMALL, "fx": 150, "radial_polynomial": "0 1 0.1 -0.7 0.35"}),
     "division": ("DIVISION", {**SMALL, "fx": 75, "division_lambda": -0.28}),
     "ftheta": (
         "FTHETA",

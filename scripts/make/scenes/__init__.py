@@ -62,6 +62,7 @@ GALLERY = {
         calibrated.thin_prism_fisheye,
         calibrated.fov,
         calibrated.division,
+        calibrated.radial_polynomial,
         calibrated.ftheta,
         calibrated.ocam,
         calibrated.ray_table,

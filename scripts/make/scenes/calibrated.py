@@ -79,6 +79,13 @@ def division(scene):
     calibrated(scene, 75, model="DIVISION", division_lambda=-0.28)
 
 
+def radial_polynomial(scene):
+    """The radial polynomial of Hugin and lensfun has odd powers, too. The waves of a mustache distortion bend lines
+    outward in the middle and inward at the edge.
+    """
+    calibrated(scene, 150, model="RADIAL_POLYNOMIAL", radial_polynomial="0 1 0.1 -0.7 0.35")
+
+
 def ftheta(scene):
     """In the f-theta model (NVIDIA), the angle is a polynomial of the radius. The sensor is not quite perpendicular to
     the lens.

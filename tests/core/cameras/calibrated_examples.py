@@ -74,6 +74,13 @@ EXAMPLES = {
         SCALED | {"division_lambda": 0.0},
         {"fx": 20.0, "fy": 18.0, "division_lambda": 0.2},
     ],
+    "RADIAL_POLYNOMIAL": [
+        {"radial_polynomial": "0 0.85 0.15 0.02 -0.02"},
+        BORDER | {"cx": 30.0, "radial_polynomial": "0 1 0 -0.08"},
+        {"matrix_world": TURNED, "fx": 48.0, "fy": 47.0, "radial_polynomial": "0 1 0.1 -0.1 0 0.02", "skew": 1.0},
+        SCALED | {"radial_polynomial": "0 1"},
+        ON_SENSOR | {"radial_polynomial": "(0, 1.1, -0.2, 0.05)"},
+    ],
     "FTHETA": [
         {"ftheta_angle_to_radius": "0 28 0.5 -1.5 0.3 -0.02"},
         BORDER | BACKWARD | {"cx": 30.0, "ftheta_radius_to_angle": "0 0.03 1e-5 -2e-7"},
@@ -141,6 +148,13 @@ FACTS = {
         (QUARTER | {"ftheta_e": 1.0}, (75, 27), (0, 0, 0), (1, 1, 0)),
         ({"ftheta_angle_to_radius": f"0 {192 / pi!r}", **TWICE_AS_WIDE}, (96, 27), (0, 0, 0), (1, 0, 0)),
     ],
+    "RADIAL_POLYNOMIAL": [
+        ({"fx": 48.0, "radial_polynomial": "0 1"}, (96, 27), (0, 0, 0), (1, 0, -1)),  # a pinhole
+        # 1/2 + 1/4 + 1/8 of the focal length
+        ({"fx": 64.0, "radial_polynomial": "0 1 1 1"}, (48 + 56, 27), (0, 0, 0), (1 / 2, 0, -1)),
+        # ptlens: r^4 counts
+        ({"fx": 32.0, "fy": 16.0, "radial_polynomial": "0 1 0 0 -0.125"}, (48, 27 + 14), (0, 0, 0), (0, 1, -1)),
+    ],
     "OCAM": [
         (HOLE, (48, 27), (0, 0, 0), (0, 0, -1)),
         (HOLE, (96, 27), (0, 0, 0), (1, 0, -1)),
@@ -173,6 +187,7 @@ UNSEEN = {
     "FTHETA": [(0, 0, 0), (0, 0, 1)],
     "OCAM": [(0, 0, 0), (0, 0, 1), (3, 0, 0.1)],
     "FOV": [(0, 0, 0), (0, 0, 1), (3, 0, 0.1)],
+    "RADIAL_POLYNOMIAL": [(0, 0, 0), (0, 0, 1), (3, 0, 0.1)],
     "DIVISION": [(0, 0, 0), (0, 0, 1), (3, 0, 0.1)],
     "THIN_PRISM_FISHEYE": [(0, 0, 0), (0, 0, 1)],
 }
@@ -186,6 +201,11 @@ REFUSED = {
     ],
     "FISHEYE624": [({"k6": NAN}, "k6"), ({"fx": 0.0}, "fx"), ({"s4": 1e31}, "s4")],
     "THIN_PRISM_FISHEYE": [({"k4": NAN}, "k4"), ({"cx": 1e9}, "cx"), ({"skew": NAN}, "skew")],
+    "RADIAL_POLYNOMIAL": [
+        ({"radial_polynomial": "0 wide"}, "radial_polynomial .*'0 wide'"),
+        ({"radial_polynomial": "1 1"}, "it must be 0, a number above 0"),
+        ({"radial_polynomial": "0 -1"}, "it must be 0, a number above 0"),
+    ],
     "FTHETA": [
         ({"ftheta_angle_to_radius": ""}, "ftheta_angle_to_radius .* finite numbers"),
         ({"ftheta_angle_to_radius": "0 wide"}, "ftheta_angle_to_radius .*'0 wide'"),

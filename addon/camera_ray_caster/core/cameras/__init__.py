@@ -33,6 +33,7 @@ from .orthographic import Orthographic
 from .pencil import Pencil
 from .perspective import Perspective
 from .pushbroom import Pushbroom
+from .radial_polynomial import RadialPolynomial
 from .ray_table import RayTable
 from .real_lens import RealLens
 from .scanner import Scanner
@@ -48,7 +49,7 @@ MODELS: list[type[Model]] = [
     CentralCylindrical, CameraObscura,
     FisheyeOrthographic, FisheyeStereographic, OpencvPinhole, OpencvFisheye,
     UnifiedCamera, EnhancedUnifiedCamera, DoubleSphere, Fisheye624, ThinPrismFisheye, FieldOfView, Division,
-    FTheta, OCam, RayTable, RealLens, Omnimax, DomeMaster, Cylindrical,
+    RadialPolynomial, FTheta, OCam, RayTable, RealLens, Omnimax, DomeMaster, Cylindrical,
     StereographicPanorama,
     GeneralLinear, CrossSlit, Pushbroom, Pencil, TwistedOrthographic, Strip, OmnidirectionalStereo,
     Scanner,
