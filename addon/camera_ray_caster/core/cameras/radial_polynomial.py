@@ -83,7 +83,7 @@ class RadialPolynomial(Calibrated):
         return cls(raster.size, window, inf, tuple(coefficients)).settled()
 
     @lazy
-    def widest(self) -> float:  # type: ignore[override]
+    def widest(self) -> float:
         """See Radial."""
         return np.arctan(least(STEEPEST, least_root([i * k for i, k in enumerate(self.polynomial, 1)])))
 
