@@ -17,8 +17,10 @@ from . import (
     gyroflow,
     hesai,
     hot3d,
+    hugin,
     kalibr,
     kitti,
+    lensfun,
     llff,
     maplab,
     meshroom,
@@ -37,6 +39,7 @@ from . import (
     orbslam,
     ouster,
     polycam,
+    ptgui,
     ray_table,
     realitycapture,
     realsense,
@@ -58,7 +61,7 @@ MODULES = (
     opencv, ros, colmap, nerfstudio, kalibr, euroc, okvis, vins, orbslam, stella, basalt, bop, realsense, mrcal, aria,
     nvidia, woodscape, opensfm, maplab, hot3d, metashape, meshroom, realitycapture, openmvg, bundler, nvm,
     gaussian_splatting, camera_path, llff, open3d, surround360, fspy, polycam, arkitscenes, tum,
-    kitti, gyroflow, ocam, velodyne,
+    kitti, gyroflow, ocam, lensfun, hugin, ptgui, velodyne,
     ouster, hesai, recorded, schops, ray_table, nerf, euroc_trajectory, stmap,
 )  # fmt: skip
 PROGRAMS: tuple[ProgramFiles, ...] = tuple(module.PROGRAM for module in MODULES)

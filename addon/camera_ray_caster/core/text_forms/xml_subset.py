@@ -1,4 +1,4 @@
-"""Reads the XML of OpenCV's opencv_storage as entries, without document types and to a limited depth.
+"""Reads the XML of OpenCV's opencv_storage as entries, without definitions of a document type and to a limited depth.
 
 In OpenCV's files an element is an entry. One with elements in it is a mapping, or a list if they are all named "_"; the
 words of one without are a scalar, or a list of scalars.
@@ -72,8 +72,9 @@ def tree(text: str, check: Callable[[], None] = lambda: None) -> Element:
         element.text = "".join(texts.pop()).strip()
         done[:] = [element]
 
-    def refuse(*_):
-        raise XmlError(f"line {parser.CurrentLineNumber} has a document type, which is not read")
+    def refuse(_name, _system, _public, has_definitions):
+        if has_definitions:  # entities may grow without end; a document type elsewhere is not looked up
+            raise XmlError(f"line {parser.CurrentLineNumber} has a document type, which is not read")
 
     parser.StartElementHandler, parser.EndElementHandler = begin, end
     parser.CharacterDataHandler = lambda data: texts[-1].append(data)

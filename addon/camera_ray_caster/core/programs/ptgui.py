@@ -1,0 +1,66 @@
+"""PTGui's projects, .pts as JSON, from version 11 on: lenses, and groups of pictures that have one each.
+
+A focal length and the diagonal of the sensor are in millimeters; a, b, c are those of Panorama Tools. The fisheye is
+equidistant if its fisheyefactor is 0. The center is the middle of the picture: shifts and shears are refused, since
+their directions are not documented.
+Reference: PTGui documentation, Project file format; Lens parameters a, b, c.
+"""
+
+from __future__ import annotations
+
+from math import hypot
+
+from .parts.document import Document
+from .parts.fields import Fields
+from .parts.lens import Lens, different, one_of_several
+from .parts.panorama_tools import FISHEYE, RECTILINEAR, lens_of, ptlens
+from .parts.program import ProgramFiles
+
+PROJECTIONS = {"rectilinear": RECTILINEAR, "circularfisheye": FISHEYE, "fullframefisheye": FISHEYE}
+
+
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    return document.entries.part("project").has("globallenses", "imagegroups")
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    project = document.entries.part("project")
+    lenses = project.parts("globallenses")
+    groups = enumerate(project.parts("imagegroups"))
+    return different(one_of_several(f"lens of group {i}", _lens, group, lenses, i) for i, group in groups)
+
+
+def _lens(group: Fields, lenses: list[Fields], number: int) -> Lens:
+    document, index = group.document, int(group.number("globallens", 0.0))
+    images = group.parts("images")
+    label = images[0].text("filename") if images else f"group {number}"
+    if not 0 <= index < len(lenses):
+        raise document.refusal(f"globallens of {label} is {index}: it has {len(lenses)} lenses")
+    shared = lenses[index].labeled(label)
+    lens = (group.part("individuallens") if group.has("individuallens") else shared.part("lens")).part("params")
+    for name in ("shift", "shear"):
+        params = (group if group.has(f"individual{name}") else shared).part(
+            f"individual{name}" if group.has(f"individual{name}") else name
+        )
+        moved = params.part("params")
+        if any(moved.number(one) for one in moved):
+            raise document.refusal(f"{label} has a {name}, which is not read")
+    model = PROJECTIONS[lens.word("projection", PROJECTIONS)]
+    if model == FISHEYE and lens.number("fisheyefactor", 0.0):
+        raise document.refusal(f"fisheyefactor of {label} is not 0, which is not read: a fisheye must be equidistant")
+    width, height = group.numbers("size", 2)
+    size, diagonal = document.size(width, height), lens.number("sensordiagonal")
+    focal = lens.number("focallength") / diagonal * hypot(width, height) if diagonal > 0 else 0.0
+    if focal <= 0:
+        raise document.refusal(f"focallength and sensordiagonal of {label} must be above 0")
+    terms = ptlens(*(lens.number(name, 0.0) for name in "abc"))
+    return lens_of(label, model, size, focal, (width / 2, height / 2), min(width, height) / 2, terms)
+
+
+PROGRAM = ProgramFiles(
+    "PTGui", ".pts of version 11 or later", looks, marks="project globallenses imagegroups focallength sensordiagonal",
+    reads="rectilinear and equidistant fisheye with a, b, c",
+    lost="angles of the pictures; shifts, shears and other projections are refused", read=read,
+)  # fmt: skip
