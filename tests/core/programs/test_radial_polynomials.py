@@ -1,6 +1,4 @@
-"""Lenses of Hugin, PTGui and lensfun: pixels worked out by hand from r_d = r_u (a r_u^3 + b r_u^2 + c r_u + 1 - a - b - c),
-in halves of the picture's shorter side.
-"""
+"""Lenses of Hugin, PTGui and lensfun: pixels worked out by hand, with r in halves of the shorter side."""
 
 from math import hypot, radians, tan
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Hugin's projects, .pto: a line i for each picture, with letters for its numbers; Panorama Tools' scripts are the same.
+"""Hugin's projects, .pto: a line i for each picture, with letters for its numbers; those of Panorama Tools, too.
 
 w, h: size; f: projection; v: horizontal field of view in degrees; a, b, c: lens correction; d, e: shift of the center
 from the middle of the picture, in pixels, to the right and down. v=0 means that v is that of picture 0.

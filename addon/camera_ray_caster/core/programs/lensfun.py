@@ -33,7 +33,7 @@ def read(document: Document) -> list[Lens]:
     lenses = []
     for lens in document.xml.all("lens"):
         texts = Fields(document, dict(lens.texts()), lens.texts().get("model", "lens"))
-        for distortion in [one for part in lens.all("calibration") for one in part.children if one.name == "distortion"]:
+        for distortion in lens.all("distortion"):
             numbers = Fields(document, dict(distortion.attributes), texts.label)
             name = f"{texts.label} {numbers.text('focal')} mm"
             lenses.append(one_of_several(name, _lens, numbers, texts, name, lens))
