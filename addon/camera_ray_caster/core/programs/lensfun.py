@@ -36,14 +36,13 @@ def read(document: Document) -> list[Lens]:
         for distortion in lens.all("distortion"):
             numbers = Fields(document, dict(distortion.attributes), texts.label)
             name = f"{texts.label} {numbers.text('focal')} mm"
-            lenses.append(one_of_several(name, _lens, numbers, texts, name, lens))
+            lenses.append(one_of_several(name, _lens, document, numbers, texts, name, lens))
     if not lenses:
         raise document.refusal("it has no lens with a distortion")
     return lenses
 
 
-def _lens(distortion: Fields, texts: Fields, name: str, lens: Element) -> Lens:
-    document = distortion.document
+def _lens(document: Document, distortion: Fields, texts: Fields, name: str, lens: Element) -> Lens:
     kind = distortion.word("model", MODELS)
     k1, k2 = (distortion.number(one, 0.0) for one in ("k1", "k2"))
     terms = {
