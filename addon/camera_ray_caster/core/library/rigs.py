@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -63,7 +64,7 @@ def load_rig(
     frame_rate: frames in a second, for files with times, the first of which is frame 1.
 
     Raises InputError, in one line, for a file that cannot be read, has no poses or no lenses, or does not state the
-    size of its pictures.
+    size of its pictures. A ``UserWarning`` says which poses of the file are left out.
     """
     file = checked_path(path, model)
     frame = None if size is None else pair_of_pixels(size)
@@ -71,6 +72,8 @@ def load_rig(
     if rate <= 0:
         raise InputError(f"frame_rate is {shown(frame_rate)}: it must be above 0")
     found = mounted(file, model, frame, rate)
+    for note in filter(None, (one.note for one in found)):
+        warnings.warn(note, stacklevel=2)
     if not all(one.lenses for one in found):
         raise InputError(f"file {file!r} is a trajectory, which has no lens: give a file with lenses and poses")
     return {one.name: _of(one, frame) for one in found}

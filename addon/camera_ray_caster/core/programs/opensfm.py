@@ -55,20 +55,31 @@ def _reconstructions(document: Document) -> list[Fields]:
 
 
 def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles: those of the shots. Raises InputError for reconstructions with frames of their own."""
-    parts = [one for one in _reconstructions(document) if len(one.part("shots"))]
-    if len(parts) > 1:
-        raise document.refusal(
-            f"it has {len(parts)} reconstructions, each in a frame of its own: give a file of one of them"
-        )
+    """See ProgramFiles: those of the shots of the largest reconstruction, since each has a frame of its own."""
+    largest = max(_reconstructions(document), key=_shots, default=None)
     placed = []
-    for name, shot in parts[0].part("shots").named().items() if parts else ():
+    for name, shot in largest.part("shots").named().items() if largest else ():
         document.check()
         to_camera = np.eye(4)
         to_camera[:3, :3] = rotation(np.array([shot.numbers("rotation", 3)]))[0]
         to_camera[:3, 3] = shot.numbers("translation", 3)
         placed.append(Placed(shot.text("camera"), name, None, inverted(to_camera)))
     return placed
+
+
+def _shots(reconstruction: Fields) -> int:
+    return len(reconstruction.part("shots"))
+
+
+def note(document: Document) -> str:
+    """See ProgramFiles: on reconstructions that are left out."""
+    counts = sorted(filter(None, map(_shots, _reconstructions(document))), reverse=True)
+    if len(counts) < 2:
+        return ""
+    return (
+        f"of {len(counts)} reconstructions, each in a frame of its own, the largest is read; {sum(counts[1:])} of "
+        f"{sum(counts)} shots are left out"
+    )
 
 
 def _lens(camera: Fields, name: str) -> Lens:
@@ -88,5 +99,6 @@ PROGRAM = ProgramFiles(
     "OpenSfM", "camera_models.json, reconstruction.json, of ODM, too", looks,
     marks="projection_type focal focal_x width height k1",
     reads="perspective, brown, radial, fisheye, fisheye_opencv, spherical",
-    lost="other projections are refused", models=MODELS, read=read, poses=poses, unit=METERS,
+    lost="other projections are refused", models=MODELS, read=read, poses=poses, note=note,
+    unit=METERS,
 )  # fmt: skip

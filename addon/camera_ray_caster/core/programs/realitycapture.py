@@ -4,7 +4,8 @@ Focal lengths are those of a picture whose longer side is 36 mm; the principal p
 picture in parts of its longer side. The size of the pictures is that of the frame. The rotation of an .xmp leads by
 rows from the world to the camera, x right, y down, z ahead. Heading, pitch and roll of a .csv are in degrees: a camera
 that looks down, with its upper side to the north, is turned about its axes y by the roll, x by the pitch, and z by the
-heading, clockwise.
+heading, clockwise. Four radial coefficients make a Radial Polynomial. None of this is documented in full: px, py and
+the angles of a .csv are taken as other readers do, who do not agree on the order of t1 and t2, which are refused.
 References: RealityCapture, XMP Camera Math; nerfstudio, realitycapture_utils.py.
 """
 
@@ -25,7 +26,7 @@ from .parts.program import PictureFolders, ProgramFiles
 PREFIX, DESCRIPTION = "xcr:", "rdf:Description"
 SPLIT = {"Rotation", "Position", "DistortionCoeficients"}
 """Entries of an .xmp that are lists of numbers."""
-MODELS = {"perspective": 0, "brown3": 3, "brown3t2": 3, "brown4": 3, "brown4t2": 3}
+MODELS = {"perspective": 0, "brown3": 3, "brown3t2": 3, "brown4": 4, "brown4t2": 4}
 """Number of radial coefficients that are read, by the distortion model."""
 FILM = 36.0
 """Millimeters of a picture's longer side."""
@@ -88,7 +89,7 @@ def _lens(document: Document, picture: Fields) -> Lens:
     longer = max(width, height)
     if picture.has("f"):
         coefficients = [picture.number(name, 0.0) for name in COEFFICIENTS]
-        focal, center, count = picture.number("f"), ("px", "py"), 3
+        focal, center, count = picture.number("f"), ("px", "py"), 4
     else:
         focal, center = picture.number("FocalLength35mm"), ("PrincipalPointU", "PrincipalPointV")
         count = MODELS[picture.word("DistortionModel", MODELS, "perspective")]
@@ -97,13 +98,16 @@ def _lens(document: Document, picture: Fields) -> Lens:
             raise document.refusal("its Skew is not 0, or its AspectRatio not 1: undistort the pictures first")
     if any(coefficients[count:]):
         raise document.refusal(
-            f"{COEFFICIENTS[3]} or the tangential distortion of {picture.label or 'the picture'} is not 0: choose the "
-            "distortion model Brown3 in RealityCapture"
+            f"the tangential distortion of {picture.label or 'the picture'} is not 0: choose the distortion model "
+            "Brown3 or Brown4 in RealityCapture"
         )
     x, y = (side / 2 + picture.number(name, 0.0) * longer for side, name in zip((width, height), center, strict=True))
     pixels = focal / FILM * longer
-    settings = matrix(pixels, pixels, x, y, 0.5) | dict(zip(COEFFICIENTS[:3], coefficients, strict=False))
-    return Lens(picture.label, "OPENCV_PINHOLE", FRAME_SIZE | settings)
+    settings = FRAME_SIZE | matrix(pixels, pixels, x, y, 0.5)
+    if coefficients[3]:
+        polynomial = " 0 ".join(map(repr, coefficients[:4]))
+        return Lens(picture.label, "RADIAL_POLYNOMIAL", settings | {"radial_polynomial": f"0 1 0 {polynomial}"})
+    return Lens(picture.label, "OPENCV_PINHOLE", settings | dict(zip(COEFFICIENTS[:3], coefficients, strict=False)))
 
 
 def read(document: Document) -> list[Lens]:
@@ -134,6 +138,7 @@ def _pose(picture: Fields) -> np.ndarray:
 PROGRAM = ProgramFiles(
     "RealityCapture", "an .xmp for each picture; .csv of internal and external camera parameters", looks,
     marks="DistortionModel FocalLength35mm PrincipalPointU DistortionCoeficients Rotation Position",
-    reads="perspective, brown3, brown4", lost="the size of the pictures; k4 and tangential distortion are refused",
+    reads="perspective, brown3, brown4",
+    lost="the size of the pictures; division and tangential distortion are refused",
     read=read, poses=poses, pictures=PictureFolders("*.xmp"),
 )  # fmt: skip

@@ -141,6 +141,8 @@ class ProgramFiles:
     """Returns the lenses of a document; None if they are further inside, in entries by name."""
     poses: Callable[[Document], list[Placed]] | None = None
     """Returns the poses of a document in its order."""
+    note: Callable[[Document], str] = lambda document: ""
+    """Returns what is left out of the poses of a document, in one line; "" if nothing is."""
     export: FileWriter | None = None
     unit: Unit = BLENDER_UNITS
     """Unit of lengths in its files."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...conventions import LAST_FRAME
 from ...records import InputError
+from .. import program_of
 from ..parts.document import Document
 from ..parts.lens import Lens
 from ..parts.placed import FROM_BLENDER, Placed
@@ -88,7 +89,11 @@ def mounted(path: str, key: str, frame: tuple[int, int] | None, rate: float, met
         camera.lenses.append(lens)
         camera.frames.append(number)
         camera.poses.append(one.pose @ FROM_BLENDER)
+    program = program_of(document)
+    note = program.note(document) if program is not None else ""
     for camera in cameras.values():
+        camera.note = note and f"{path}: {note}"
+        note = ""
         if len(set(camera.frames)) < len(camera.frames):
             raise document.refusal(f"camera {camera.name!r} has two poses of one frame: rename its pictures")
     return list(cameras.values())
