@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from time import perf_counter
 
@@ -17,6 +17,7 @@ from .casting.images import Images, check_reusable
 from .casting.needs import image_bytes, pictures
 from .casting.passes import PASSES
 from .casting.plan import Plan, make_plan
+from .casting.previews import Previews, Show
 from .casting.request import MATERIAL, Request
 from .casting.tiles import STEPS, Effort, Tile, cast_tile, in_threads, listening, moments, shares
 from .maths.speed import Scratch, processors
@@ -40,6 +41,7 @@ def cast(
     precision: str | None = None,
     progress: Callable[[float], bool] | None = None,
     finished: Callable[[Images, slice], None] | None = None,
+    preview: Show | None = None,
     into: Images | None = None,
 ) -> Images:
     """Return the passes of a picture as a mapping of name to array, (rows, columns[, channels]), row 0 at the bottom.
@@ -61,6 +63,11 @@ def cast(
         returns False, the cast stops before the next shape and raises Cancelled.
     finished: ``finished(images, rows)`` is called in the calling thread as soon as some rows, a slice, are complete in
         all passes, once for each row; the other rows are undefined.
+    preview: ``preview(combined, rows, samples)`` is called in the calling thread with pictures to look at while a cast
+        takes long, without a change of its result: first every 8th pixel, then every 4th and 2nd if that costs less
+        than 2 % of the time, then the mean of the first 1, 2, 4, ... samples. ``combined`` is (rows, columns, 4)
+        float32 or of ``dtype``, of which ``rows``, a slice, are new; ``samples`` is 0 while it is coarse. Pictures
+        with times of their own for pixels, and of scanners, have none. More than 2**24 pixels have no means.
     into: the images of an earlier cast, which are written and returned, so that a series of pictures needs no new
         memory. Each requested pass must be there with the shape and type of this cast, writable, C-contiguous and
         without memory of another; other passes are removed, and its camera, shapes, plan and seconds are replaced. Its
@@ -78,6 +85,7 @@ def cast(
     samples = arguments.count(samples, "samples", MOST_SAMPLES)
     dtype = arguments.real_type(dtype, "dtype")
     progress, finished = arguments.function(progress, "progress"), arguments.function(finished, "finished")
+    preview = arguments.function(preview, "preview")
     passes = arguments.words(passes, "passes", PASSES)
     if precision is not None:
         warnings.warn("precision has no effect; version 0.4 will refuse it", DeprecationWarning, stacklevel=2)
@@ -97,6 +105,7 @@ def cast(
         images = Images(found) if into is None else into
         images.take(found)
         images.camera, images.shapes = scene.camera, shapes
+        images.rays = shape[0] * shape[1]
         images.plan = make_plan(*moment(camera, shapes, middle), request)
         images.seconds = {"plan": 0.0, "rays": 0.0, "cast": perf_counter() - started, "passes": 0.0}
         if finished is not None:
@@ -117,17 +126,26 @@ def cast(
     else:
         tiles = list(listening(moments(camera, time), progress))
     images.seconds = {"plan": perf_counter() - started}
-    effort = Effort(len(tiles) * sum(count for part, count in parts if part.passes))
+    rays = sum(count for part, count in parts if part.passes)
+    images.rays = shape[0] * shape[1] * rays
+    effort = Effort(len(tiles) * rays)
+    shows = preview if time is None and "combined" in passes else None
+    previews = Previews(whole, samples if sampled else 1, shows)
+    last = previews.spans[-1]
+    open_tiles = list(tiles)
 
-    def run(tile: Tile, scratch: Scratch) -> np.ndarray:
+    def run(job: tuple[range, Tile], scratch: Scratch) -> np.ndarray:
+        span, tile = job
         seconds = np.zeros(len(STEPS))
         then = moment(camera, shapes, tile.frame)
         with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
-            for part, count in parts:
-                if part.passes:
+            for part, _ in parts:
+                if part.passes and (part.sampled or span is last):
                     plan = plans.get(part) or make_plan(*then, part)
                     into = {name: images[name] for name in part.passes}
-                    seconds += cast_tile(plan, tile, count, into, scratch, effort)
+                    seconds += cast_tile(
+                        plan, tile, span if part.sampled else None, into, scratch, effort, previews.sums
+                    )
         return seconds
 
     write = 0.0
@@ -139,14 +157,31 @@ def cast(
             finished(images, rows)
             write += perf_counter() - since
 
-    def end(tile: Tile) -> None:
-        if time is None:
+    def end(job: tuple[range, Tile]) -> None:
+        span, tile = job
+        if time is None and span is last:
+            open_tiles.remove(tile)
             tell(tile.rows)
 
     began = perf_counter()
     others = round(whole.work.sum() / len(tiles) / tuning.SERIAL_WORK)  # may hold the interpreter in turn
     is_small = whole.work.sum() * samples < tuning.SERIAL_WORK
-    busy = in_threads(run, tiles, min(threads, 1 + others), effort, progress, end, alone=bool(is_small))
+    workers = min(threads, 1 + others)
+
+    def meanwhile() -> None:
+        previews.look(effort, workers, [tile.rows for tile in open_tiles], progress)
+
+    def rounds() -> Iterator[list[tuple[range, Tile]]]:
+        nonlocal write
+        for span in previews.spans:
+            yield [(span, tile) for tile in tiles]
+            if span is not last:
+                since = perf_counter()
+                previews.block(images["combined"], span.stop)
+                write += perf_counter() - since
+
+    alone = len(tiles) == 1 and bool(is_small)
+    busy = in_threads(run, rounds(), workers, effort, progress, end, alone, meanwhile)
     if time is not None:  # a row may have pixels of many times
         tell(slice(0, shape[0]))
     share = (perf_counter() - began - write) / max(busy.sum(), np.finfo(float).tiny)

@@ -26,7 +26,7 @@ from ..output import reports
 from ..process import signals
 from ..properties.declared import ENGINE
 from ..properties.labels import in_labels
-from ..properties.passes import stored, ticked
+from ..properties.passes import PASSES, stored, ticked
 from ..read import physics
 from ..read.camera import camera_record
 from ..read.frames import frame_of
@@ -163,9 +163,12 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
             found = images | given
             self.store({entry.label: (entry.key, found[entry.key]) for entry in wanted}, rows, layer, view)
 
+        def show(combined: np.ndarray, rows: slice, _: int) -> None:
+            self.store({PASSES[0].label: ("combined", combined)}, rows, layer, view)
+
         images, report = run(
             depsgraph, self.camera_override, [key for key in keys if key not in given], self.advance, store,
-            call.spare.pop((layer, view), None),
+            call.spare.pop((layer, view), None), None if bpy.app.background else show,
             visit=partial(self.visit, depsgraph), view=view, eye=partial(self.eye, view=view),
         )  # fmt: skip
         images |= given

@@ -15,6 +15,7 @@ from ...core.camera.stereo import eye_record
 from ...core.cast import Images, cast
 from ...core.casting.images import reusable
 from ...core.casting.needs import frames_of, has_colors, image_bytes
+from ...core.casting.previews import Show
 from ...core.memory import of_pixels, require
 from ...core.records import Finding, Shapes
 from ...core.report.accuracy import accuracy
@@ -110,8 +111,10 @@ class Job:
         progress: Callable[[float], bool] | None = None,
         finished: Callable[[Images, slice], None] | None = None,
         spare: Images | None = None,
+        preview: Show | None = None,
     ) -> tuple[Images, Report]:
-        """Cast the passes; return images and report. ``progress``, ``finished`` and Cancelled are as in ``cast``. The
+        """Cast the passes; return images and report. ``progress``, ``finished``, ``preview`` and Cancelled are as in
+        ``cast``. The
         images are ``spare``, an earlier picture's, if they fit.
         """
         settings = {"shading": self.shading, "samples": self.samples}
@@ -120,8 +123,9 @@ class Job:
         require(needed, of_pixels("the passes", self.stored))
         into = reusable(spare, tuple(self.passes), self.camera.raster.shape, np.float32)
         images = cast(
-            self.camera, self.shapes, self.passes, **settings, progress=progress, finished=finished, into=into
-        )
+            self.camera, self.shapes, self.passes, **settings, progress=progress, finished=finished, preview=preview,
+            into=into,
+        )  # fmt: skip
         began = perf_counter()
         bounds = accuracy(self.camera, self.shapes, images.plan)
         seconds = {**self.seconds, **images.seconds, "accuracy": perf_counter() - began}
@@ -133,7 +137,7 @@ class Job:
 
 
 def run(
-    depsgraph, camera_object, passes: Sequence[str], progress=None, finished=None, spare=None, **eye
+    depsgraph, camera_object, passes: Sequence[str], progress=None, finished=None, spare=None, preview=None, **eye
 ) -> tuple[Images, Report]:
     """Read and cast in one call: see ``Job``."""
-    return Job.read(depsgraph, camera_object, passes, **eye).cast(progress, finished, spare)
+    return Job.read(depsgraph, camera_object, passes, **eye).cast(progress, finished, spare, preview)

@@ -144,7 +144,7 @@ class Cast(OfScene, bpy.types.Operator):
             self.report({"WARNING"}, "The scene has no surface to cast: the images show the background")
         else:
             others = f" and {len(made) - 1} more" if len(made) > 1 else ""
-            self.report({"INFO"}, f"{report.pixels:,} rays cast: open image {made[0]!r}{others} with Show Result")
+            self.report({"INFO"}, f"{report.rays:,} rays cast: open image {made[0]!r}{others} with Show Result")
         return {"FINISHED"}
 
 

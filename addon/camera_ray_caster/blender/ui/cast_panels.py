@@ -43,7 +43,7 @@ class SidebarCast(Sidebar, bpy.types.Panel):
 def summary(report) -> str:
     """Return the number of rays and shapes of a cast, and its time."""
     shapes = f"{report.shapes:,} {'shape' if report.shapes == 1 else 'shapes'}"
-    return f"{report.pixels:,} rays at {shapes} in {sum(report.seconds.values()):.3g} s"
+    return f"{report.rays:,} rays at {shapes} in {sum(report.seconds.values()):.3g} s"
 
 
 class SidebarPasses(Sidebar, bpy.types.Panel):

@@ -46,7 +46,7 @@ class RenderPanel(EnginePanel, bpy.types.Panel):
         layout.prop(context.scene.render, "film_transparent")
         report = reports.latest(context.scene)
         if report is not None:
-            layout.label(text=f"{report.pixels:,} rays in {sum(report.seconds.values()):.3f} s")
+            layout.label(text=f"{report.rays:,} rays in {sum(report.seconds.values()):.3f} s")
             layout.label(text=f"Worst distance error: {reports.relative_error(report, 'worst')}")
         layout.operator("camera_ray_caster.write_report")
         draw_message(layout, context, "for materials and light render with Cycles through this camera")

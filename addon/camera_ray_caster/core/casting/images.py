@@ -21,6 +21,8 @@ class Images(dict[str, np.ndarray]):
     shapes: Shapes
     plan: Plan
     seconds: dict[str, float]
+    rays: int
+    """Number of rays that were cast, with their samples."""
 
     def keep(self, passes: tuple[str, ...]) -> None:
         """Remove all but some passes, and put these in their order."""

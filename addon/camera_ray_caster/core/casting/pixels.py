@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -23,16 +23,19 @@ from .store import store
 from .tiles import shares
 
 
-def hits_at(plan: Plan, columns: np.ndarray, rows: np.ndarray, met: list[Crossings] | None = None) -> Hits:
+def hits_at(
+    plan: Plan, columns: np.ndarray, rows: np.ndarray, met: list[Crossings] | None = None,
+    listen: Callable[[], object] = bool,
+) -> Hits:  # fmt: skip
     """Return the hits of chief rays at the pixels of columns (k,) and rows (l,), ascending, numbered in the full frame,
     within the render window of the plan. One plan serves any number of lattices, and the whole picture. ``met``: see
-    ``SearchRays``.
+    ``SearchRays``; ``listen``: see ``nearest_hits``.
     """
     raster, camera = plan.camera.raster, plan.camera
     own = plan.at_pixels(columns - raster.x0, rows - raster.y0)
     with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
         rays = chief_rays(camera, columns[None, :] + 0.5, rows[:, None] + 0.5, (0, 0), Scratch())
-        return nearest_hits(own, rays, met=met)
+        return nearest_hits(own, rays, listen, met=met)
 
 
 def is_hit(plan: Plan, scratch: Scratch) -> np.ndarray:

@@ -16,7 +16,7 @@ def store(hits: Hits, outs: dict[str, np.ndarray], where=None) -> None:
         meant = {name: np.empty_like(out) for name, out in outs.items()}
         store(hits, meant)
         for name, out in outs.items():
-            put(meant[name], out, where)
+            write_where(out, meant[name], where)
         return
     layered = [name for name in outs if PASSES[name].missed is not None and hits.plan.is_layered]
     for window, block in hits.blocks():
@@ -60,10 +60,3 @@ def add_combined(hits: Hits, total: np.ndarray, light) -> None:
             once[..., :3] *= np.where(dark, 0.0, light[window])[..., None]
             once[..., 3][dark] = 1.0
         part += once
-
-
-def put(image: np.ndarray, out: np.ndarray, where) -> None:
-    """Copy an image, (rows, columns[, channels]), only where ``where`` is set; None for all pixels."""
-    if where is None:
-        np.copyto(out, image, casting="same_kind")
-    write_where(out, image, where)

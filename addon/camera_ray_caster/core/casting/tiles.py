@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import chain, pairwise
 from threading import Lock, local
 from time import perf_counter
+from typing import TypeVar
 
 import numpy as np
 
@@ -19,11 +20,12 @@ from ..records import Cancelled
 from .plan import Plan
 from .rays import chief_rays, sampled_rays
 from .search import nearest_hits
-from .store import add_combined, put, store
+from .store import add_combined, store
 
 STEPS = "rays", "cast", "passes"
 """The steps whose seconds are measured per tile: making the rays, finding the nearest hits, writing the passes."""
 
+Job = TypeVar("Job")
 
 LISTEN = 0.05
 """Maximum seconds between two calls of ``progress`` in the calling thread."""
@@ -38,7 +40,11 @@ class Effort:
     @property
     def fraction(self) -> float:
         """The finished fraction, 0 to 1."""
-        return self._done / self._steps if self._steps else 1.0
+        return self.expected(0.0)
+
+    def expected(self, running: float) -> float:
+        """The finished fraction if ``running`` further steps were finished, 0 to 1."""
+        return min(1.0, (self._done + running) / self._steps) if self._steps else 1.0
 
     def step(self) -> None:
         """Count a finished step. Raises Cancelled as ``listen`` does."""
@@ -117,19 +123,23 @@ def _bands(rows: slice, columns: slice, pixels: int) -> Iterator[Tile]:
 
 
 def cast_tile(
-    plan: Plan, tile: Tile, samples: int, images: dict[str, np.ndarray], scratch: Scratch, effort: Effort
-) -> np.ndarray:
+    plan: Plan, tile: Tile, samples: range | None, images: dict[str, np.ndarray], scratch: Scratch, effort: Effort,
+    sums: np.ndarray | None = None,
+) -> np.ndarray:  # fmt: skip
     """Cast one tile and store its passes in ``images``; return the seconds of STEPS.
 
-    With samples above 1 the only pass is combined, the mean of that number of rays per pixel. Raises Cancelled between
-    samples and between shapes if the cast is to stop.
+    With samples the only pass is combined, the mean of these rays of each pixel and of those before, whose sum is in
+    ``sums``, (rows, columns, 4) float64 of the whole picture; it may be None if there are none before or after. Raises
+    Cancelled between samples and between shapes if the cast is to stop.
     """
     raster = plan.camera.raster
     place = raster.columns()[:, tile.columns], raster.rows()[tile.rows], (tile.columns.start, tile.rows.start)
     parts = {name: image[tile.rows, tile.columns] for name, image in images.items()}
     seconds = np.zeros(len(STEPS))
-    total = np.zeros_like(parts["combined"], np.float64) if samples > 1 else None
-    for sample in range(samples):
+    total = None
+    if samples is not None:
+        total = np.zeros_like(parts["combined"], np.float64) if sums is None else sums[tile.rows, tile.columns]
+    for sample in samples or range(1):
         began = perf_counter()
         if total is None:
             rays = chief_rays(plan.camera, *place, scratch)
@@ -144,46 +154,52 @@ def cast_tile(
             add_combined(hits, total, plan.camera.sample_light(*place[:2], sample))
         seconds += generated - began, found - generated, perf_counter() - found
         effort.step()
-    if total is not None:
-        total /= samples
-        put(total, parts["combined"], tile.where)
+    if samples is not None and total is not None:
+        where = True if tile.where is None else tile.where[..., None]
+        np.divide(total, samples.stop, out=parts["combined"], where=where, casting="same_kind")
     return seconds
 
 
 def in_threads(
-    run: Callable[[Tile, Scratch], np.ndarray],
-    tiles: Sequence[Tile],
+    run: Callable[[Job, Scratch], np.ndarray],
+    rounds: Iterable[Sequence[Job]],
     workers: int,
     effort: Effort,
     progress: Callable[[float], bool] | None,
-    finished: Callable[[Tile], None],
+    finished: Callable[[Job], object],
     alone: bool = False,
+    meanwhile: Callable[[], object] = bool,
 ) -> np.ndarray:
-    """Run tiles on threads (numpy releases the interpreter), each with working arrays of its own, and return the sum of
-    the seconds of all tiles. ``progress`` and Cancelled: as in ``cast``. ``finished(tile)`` is called in this thread.
-    ``alone``: whether a single tile takes less than the start of a thread would pay for: it is run in this thread.
+    """Run jobs on threads (numpy releases the interpreter), each with working arrays of its own, and return the sum of
+    the seconds of all. A round begins when the one before has ended. ``progress`` and Cancelled: as in ``cast``.
+    ``finished(job)``, and ``meanwhile()`` while others work, are called in this thread. ``alone``: whether all jobs
+    take less than the start of a thread would pay for: they are run in this thread.
     """
     own = local()
-    if alone and len(tiles) == 1:
-        with lending() as lend:
-            total = run(tiles[0], lend())
-        finished(tiles[0])
-        if progress is not None and not progress(effort.fraction):
-            raise Cancelled
-        return total
     total = np.zeros(len(STEPS))
+    if alone:
+        with lending() as lend:
+            scratch = lend()
+            for job in chain.from_iterable(rounds):
+                total += run(job, scratch)
+                finished(job)
+                if progress is not None and not progress(effort.fraction):
+                    raise Cancelled
+        return total
     with lending() as lend, ThreadPoolExecutor(workers, initializer=lambda: setattr(own, "scratch", lend())) as pool:
-        waiting: dict[Future, Tile] = {}
+        waiting: dict[Future, Job] = {}
         try:
-            for tile in tiles:  # raises if no thread can be started
-                waiting[pool.submit(lambda tile: run(tile, own.scratch), tile)] = tile
-            while waiting:
-                for future in wait(waiting, LISTEN, FIRST_COMPLETED).done or [None]:
-                    if future is not None:
-                        total += future.result()
-                        finished(waiting.pop(future))
-                    if progress is not None and not progress(effort.fraction):
-                        raise Cancelled
+            for jobs in rounds:
+                for job in jobs:  # raises if no thread can be started
+                    waiting[pool.submit(lambda job: run(job, own.scratch), job)] = job
+                while waiting:
+                    for future in wait(waiting, LISTEN, FIRST_COMPLETED).done or [None]:
+                        if future is not None:
+                            total += future.result()
+                            finished(waiting.pop(future))
+                        meanwhile()
+                        if progress is not None and not progress(effort.fraction):
+                            raise Cancelled
         finally:
             effort.stop()
             for future in waiting:

@@ -30,7 +30,7 @@ MOST_NUMBERS = 3 * 25_000
 """Numbers of the largest table of rays in the record of a report: as text, of which each picture has one, some 4 MB."""
 MARGIN = 23
 """Column in which the values of a camera's facts begin."""
-
+SIZES = [f"{size}_{unit}" for unit in ("pixels", "radians") for size in ("worst", "median", "bound")]
 CAST_STEPS = ("plan", *STEPS)
 """Steps that count for rays per second: from camera and shapes to finished arrays."""
 
@@ -48,6 +48,8 @@ class Report:
     """Source of the combined pass: the engine, its samples per pixel, and the device if the engine is not ours."""
     shapes: int = 0
     pixels: int = 0
+    rays: int = 0
+    """Chief rays of pixels, and their samples."""
     seconds: Mapping[str, float] = field(default_factory=dict)
     """Duration of each step, in the order of execution."""
     findings: tuple[Finding, ...] = ()
@@ -86,7 +88,7 @@ class Report:
     def rays_per_second(self) -> float | None:
         """Number of rays divided by the seconds of CAST_STEPS; None if nothing was cast."""
         spent = sum(self.seconds.get(step, 0.0) for step in CAST_STEPS)
-        return self.pixels / spent if spent > 0 else None
+        return self.rays / spent if spent > 0 else None
 
     @property
     def passed(self) -> bool:
@@ -107,6 +109,7 @@ class Report:
             passes=_union(self.passes, other.passes),
             shapes=max(self.shapes, other.shapes) if self.layers == other.layers else self.shapes + other.shapes,
             pixels=self.pixels + other.pixels,
+            rays=self.rays + other.rays,
             seconds=_sum(self.seconds, other.seconds),
             findings=_union(self.findings, other.findings),
             not_done=_union(self.not_done, other.not_done),
@@ -143,6 +146,7 @@ def report_cast(
         passes=images.plan.request.passes,
         shapes=len(shapes),
         pixels=pixels,
+        rays=images.rays,
         seconds=seconds,
         findings=tuple(findings),
         not_done=tuple(f"{layer}: {line}" if several else line for line in images.plan.left_out()),
@@ -174,7 +178,7 @@ def as_data(report: Report) -> dict:
     """Return the report as plain lists, dicts, strings and numbers; a number that is not finite becomes None."""
     data = {"version": VERSION, "conventions": CONVENTIONS, **vars(report)}
     data["accuracy"] = report.accuracy.as_data()
-    data |= {"rays_per_second": report.rays_per_second, "passed": report.passed}
+    data |= {name: getattr(report, name) for name in ("rays_per_second", "passed")}
     data["findings"] = [{**asdict(finding), "passed": finding.passed} for finding in report.findings]
     data["left_out"] = [{"name": name, "reason": reason} for name, reason in report.left_out]
     data["notes"] = [{"name": name, "note": note} for name, note in report.notes]
@@ -223,18 +227,14 @@ def _camera_lines(report: Report) -> list[str]:
 def _finding_lines(report: Report) -> list[str]:
     if not report.findings:
         return []
-    columns = [f"{name:>9}" for name in ("worst px", "median", "bound", "worst rad", "median", "bound")]
-    lines = ["", f"{'Reference check':25} {'points':>7} " + " ".join(columns)]
+    columns = " ".join(f"{name:>9}" for name in ("worst px", "median", "bound", "worst rad", "median", "bound"))
+    lines = ["", f"{'Reference check':25} {'points':>7} {columns}"]
     for finding in report.findings:
         name = shorten(finding.witness, 23, placeholder="…")
         if finding.not_compared:
             lines.append(f"  {name:23} not compared: {finding.not_compared}")
             continue
-        errors = (
-            finding.worst_pixels, finding.median_pixels, finding.bound_pixels,
-            finding.worst_radians, finding.median_radians, finding.bound_radians,
-        )  # fmt: skip
-        cells = " ".join(f"{error:9.1e}" for error in errors)
+        cells = " ".join(f"{getattr(finding, size):9.1e}" for size in SIZES)
         lines.append(f"  {name:23} {finding.points:7} {cells} {'ok' if finding.passed else 'FAILED'}")
     return lines
 
@@ -260,7 +260,7 @@ def _second_lines(report: Report) -> list[str]:
     lines.append(f"  {'total':16} {sum(report.seconds.values()):9.4f}")
     if report.rays_per_second is not None:
         millions = report.rays_per_second / 1e6
-        lines.append(f"  {report.pixels} rays at {report.shapes} shapes: {millions:.3g} million rays per second")
+        lines.append(f"  {report.rays} rays at {report.shapes} shapes: {millions:.3g} million rays per second")
     return lines
 
 
