@@ -45,6 +45,7 @@ from . import (
     realsense,
     recorded,
     ros,
+    rpc,
     schops,
     stella,
     stmap,
@@ -62,7 +63,7 @@ MODULES = (
     nvidia, woodscape, opensfm, maplab, hot3d, metashape, meshroom, realitycapture, openmvg, bundler, nvm,
     gaussian_splatting, camera_path, llff, open3d, surround360, fspy, polycam, arkitscenes, tum,
     kitti, gyroflow, ocam, lensfun, hugin, ptgui, velodyne,
-    ouster, hesai, recorded, schops, ray_table, nerf, euroc_trajectory, stmap,
+    ouster, hesai, recorded, schops, ray_table, rpc, nerf, euroc_trajectory, stmap,
 )  # fmt: skip
 PROGRAMS: tuple[ProgramFiles, ...] = tuple(module.PROGRAM for module in MODULES)
 """All programs, in the order in which messages name them."""

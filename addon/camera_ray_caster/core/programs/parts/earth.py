@@ -13,6 +13,15 @@ AXIS, FLATTENING = 6378137.0, 1 / 298.257223563
 """The larger half axis of the Earth, in meters, and the part of it by which the smaller one is shorter: WGS 84."""
 
 
+def place_of(longitude, latitude, height) -> np.ndarray:
+    """Return the place (..., 3) in the frame of the Earth's center of a longitude and a latitude, in radians."""
+    squared = FLATTENING * (2 - FLATTENING)
+    across = AXIS / np.sqrt(1 - squared * np.sin(latitude) ** 2)
+    flat = (across + height) * np.cos(latitude)
+    x, y = flat * np.cos(longitude), flat * np.sin(longitude)
+    return np.stack((x, y, (across * (1 - squared) + height) * np.sin(latitude)), axis=-1)
+
+
 def axes_at(middle: np.ndarray) -> np.ndarray:
     """Return east, north and up, (3, 3), at a point in the frame of the Earth's center."""
     x, y, z = middle

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import re
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from io import BytesIO
 from typing import Any
 
@@ -26,6 +26,8 @@ from .lens import Lens
 
 ZIP, NPY = b"PK\x03\x04", b"\x93NUMPY"
 KEY = "RAY_TABLE"
+ENTRIES = 64
+"""Entries of a table that is computed, along its longer side."""
 
 
 def looks(document: Document) -> bool:
@@ -102,6 +104,19 @@ def table(document: Document, directions: np.ndarray, origins: np.ndarray | None
         if array is not None:
             array.setflags(write=False)
     return Lens("", KEY, {**size, **settings, "ray_directions": directions, "ray_origins": origins})
+
+
+def sampled(document: Document, sides: Sequence[int], rays: Callable[..., tuple], axes: str) -> Lens:
+    """Return the lens of a camera with pictures of these sides whose rays have no model: ENTRIES along the longer one.
+
+    ``rays`` takes columns and rows, (rows, columns), with (0, 0) the center of the first pixel, y down, and returns
+    directions and origins, (rows, columns, 3), in ``axes``: see ``cameras.ray_table``.
+    """
+    columns, rows = (max(1, round(min(side, ENTRIES * side / max(sides)))) for side in sides)
+    x, y = ((np.arange(count) + 0.5) * side / count - 0.5 for count, side in zip((columns, rows), sides, strict=True))
+    directions, origins = rays(*np.meshgrid(x, y[::-1]))
+    lens = table(document, directions, origins, np.array((0.0, 0.0, 1.0, 1.0)))
+    return lens._replace(settings=lens.settings | document.size(*sides) | {"ray_axes": axes})
 
 
 def _arrays(document: Document) -> Mapping[str, np.ndarray]:
