@@ -33,17 +33,29 @@ ONLY_SOME = {
     "obscura_depth": 2.0, "obscura_width": 3.0, "obscura_hole": 0.01,
 }  # fmt: skip
 
+IN_TANK = {
+    "port": "FLAT", "port_distance": 50.0, "port_tilt_x": 0.1, "port_tilt_y": -0.2, "port_thickness": 10.0,
+    "port_glass": 1.49, "port_medium": 1.333,
+}  # fmt: skip
+IN_DOME = {
+    "port": "DOME", "port_radius": 80.0, "port_decenter": (3.0, -5.0, 20.0), "port_thickness": 4.0, "port_glass": 1.49,
+    "port_medium": 1.333,
+}  # fmt: skip
+"""Settings of a camera behind glass, which any model with an eye takes."""
+
 EXAMPLES = defaultdict(lambda: [{}], {
     **lens_examples.EXAMPLES,
     **central_examples.EXAMPLES,
     **multiperspective_examples.EXAMPLES,
     **table_examples.EXAMPLES,
-    "PERSP": [{}, PORTRAIT, WIDE_PIXELS, BORDER | {"lens": 4.0}, {"lens": 400.0, "matrix_world": TURNED}],
+    "PERSP": [{}, PORTRAIT, WIDE_PIXELS, BORDER | {"lens": 4.0}, {"lens": 400.0, "matrix_world": TURNED},
+              IN_TANK | {"lens": 18.0}, PORTRAIT | IN_DOME],
     "ORTHO": [{}, PORTRAIT, WIDE_PIXELS, BORDER | {"ortho_scale": 0.01}, {"ortho_scale": 50.0, "matrix_world": TURNED}],
     "EQUIRECTANGULAR": [{}, SHIFTED, BORDER, {"longitude_min": 0.5, "latitude_max": 0.1, "shift_y": 0.2}],
     "EQUIANGULAR_CUBEMAP_FACE": [{}, SHIFTED, BORDER, PORTRAIT],
     "MIRRORBALL": [{}, SHIFTED, BORDER, PORTRAIT],
-    "FISHEYE_EQUIDISTANT": [{}, SHIFTED, BORDER | {"fisheye_fov": 0.3}, PORTRAIT | {"fisheye_fov": 6.2}],
+    "FISHEYE_EQUIDISTANT": [{}, SHIFTED, BORDER | {"fisheye_fov": 0.3}, PORTRAIT | {"fisheye_fov": 6.2},
+                            IN_TANK | {"matrix_world": TURNED}, IN_DOME | {"fisheye_fov": 4.0}],
     "FISHEYE_EQUISOLID": [
         {},
         SHIFTED,

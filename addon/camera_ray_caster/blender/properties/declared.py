@@ -6,6 +6,7 @@ Files store the number of a choice's item, so numbers are never changed and neve
 from ...core.camera import pixel_time
 from ...core.cameras import MODELS
 from ...core.cameras.model import GROUPS
+from ...core.cameras.parts import port
 from ...core.cameras.parts.settings import OWN, Choice, Flag, Item, Setting, Whole
 from . import passes
 
@@ -30,9 +31,9 @@ def _models() -> list[Item]:
 
 
 def _of_cameras() -> list[Setting]:
-    read = (*(it.SETTINGS for it in MODELS), *pixel_time.SETTINGS.values())
+    read = (*(it.SETTINGS for it in MODELS), *port.SETTINGS.values(), *pixel_time.SETTINGS.values())
     own = {setting.name: setting for settings in read for setting in settings if setting.owner == OWN}
-    return [MODEL, pixel_time.MODE, *own.values()]
+    return [MODEL, port.PORT, pixel_time.MODE, *own.values()]
 
 
 def renew() -> None:
@@ -42,7 +43,7 @@ def renew() -> None:
 
 MODEL = Choice("model", "Model", "How the camera maps rays to pixels", BLENDERS_OWN, _models())
 CAMERA = _of_cameras()
-"""Settings in ``camera.camera_ray_caster``: the model, the pixel time mode, and the settings that these read."""
+"""Settings in ``camera.camera_ray_caster``: the model, the port, the pixel time mode, and the settings these read."""
 
 
 def files() -> list[Setting]:

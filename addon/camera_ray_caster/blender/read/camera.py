@@ -12,7 +12,9 @@ from ...core.arguments import shown
 from ...core.camera import pixel_time
 from ...core.camera.stereo import camera_name
 from ...core.cameras import find_model
+from ...core.cameras.behind_port import takes_port
 from ...core.cameras.parts import aperture
+from ...core.cameras.parts.port import PORT
 from ...core.cameras.parts.settings import OWN, RECORD_FIELDS, Setting
 from ...core.records import BlenderCamera, InputError
 from ...core.shaders.camera_shader import Mark, read_mark
@@ -74,6 +76,8 @@ def camera_record(camera_object, depsgraph) -> BlenderCamera:
     raw = raw if mark is None else replace(raw, type=mark.blender_type)
     chosen, mode = MODEL.read(raw), pixel_time.MODE.read(raw)
     raw = replace(raw, model="" if chosen == BLENDERS_OWN else chosen)
+    if takes_port(find_model(raw)) and own_value(data, PORT) != PORT.default:
+        raw = replace(raw, settings={**raw.settings, PORT.name: own_value(data, PORT)})
     read = (*find_model(raw).SETTINGS, *pixel_time.SETTINGS[mode])
     values = {one.name: _value(one, data, depsgraph) for one in read if one.name not in RECORD_FIELDS}
     return replace(raw, settings={**raw.settings, **values})

@@ -8,7 +8,7 @@ from .drawing import Sidebar, put_labels
 from .export_operators import ExportMenu
 from .gallery_operators import ExamplesMenu
 from .gallery_panels import draw_model
-from .model_drawing import PRESETS, draw_cycles, draw_lens, draw_model_settings, draw_times
+from .model_drawing import PRESETS, draw_cycles, draw_lens, draw_model_settings, draw_port, draw_times
 from .notes import Popover, draw_first, draw_notes, widen
 from .operators import LoadCalibration
 from .see_through import SeeThrough, is_seen_through
@@ -80,6 +80,7 @@ class SidebarSettings(Sidebar, bpy.types.Panel):
         else:
             drawn = missing(context, context.scene.camera)
             draw_model_settings(layout, context, camera, beside_lens=False, drawn=drawn)
+        draw_port(layout, context, camera)
         draw_times(layout, context, camera)
 
 

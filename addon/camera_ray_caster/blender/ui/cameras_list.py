@@ -13,7 +13,7 @@ from .cast_all import LatestRun, draw_all
 from .chosen_frames import usual
 from .drawing import Sidebar
 from .export_operators import Export
-from .gallery_panels import key_of
+from .model_settings import key_of
 from .needs import reporting
 from .notes import draw_line
 from .see_through import is_seen_through

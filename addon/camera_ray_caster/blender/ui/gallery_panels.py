@@ -13,7 +13,7 @@ from .. import gallery
 from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
 from ..properties.labels import label_of
 from .drawing import draw_message
-from .model_settings import blender_type
+from .model_settings import key_of
 from .needs import OfCamera, camera_object_of, objection
 
 LINES = 15
@@ -134,12 +134,6 @@ class ModelGallery(bpy.types.Menu):
                     column.template_icon(gallery.icon(gallery.scene_name(it.key)), scale=HEIGHT)
                     icon = "CHECKMARK" if it.key == chosen else "BLANK1"
                     column.operator(ChooseModel.bl_idname, text=it.label, icon=icon).key = it.key
-
-
-def key_of(camera) -> str:
-    """Return the key of the model of a camera's data."""
-    own = getattr(camera, GROUP)
-    return blender_type(camera) if own.model == BLENDERS_OWN else own.model
 
 
 def by_group() -> Iterator[tuple[str, list]]:

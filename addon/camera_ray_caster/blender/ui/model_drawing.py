@@ -15,7 +15,7 @@ from .add_line import AddGradient, AddLine, SelectLine
 from .cycles_operators import BackToBlender, FitLens, UseInCycles
 from .drawing import draw_field, draw_message
 from .lens_operators import draw_lens_file
-from .model_settings import lengths_in_words, not_used, of_type, read_settings, settings_of, shown
+from .model_settings import lengths_in_words, not_used, of_type, port_settings, read_settings, settings_of, shown
 
 PRESETS = "CAMERA_RAY_CASTER_PT_presets"
 """Identifier of the presets' panel."""
@@ -58,6 +58,13 @@ def draw_lens(layout, context, camera) -> None:
         row = column.row()
         row.active = LENS in read
         draw_field(row, context, camera, "lens_unit")
+
+
+def draw_port(layout, context, camera) -> None:
+    """Draw the choice of the glass before the lens, and its settings if it is chosen."""
+    column = layout.column(align=True)
+    for setting in port_settings(camera):
+        draw_setting(column, context, camera, setting)
 
 
 def draw_cycles(layout, camera) -> None:

@@ -7,7 +7,7 @@ from ..properties.declared import ENGINE
 from .drawing import draw_field, put_labels
 from .frame import frame_note
 from .gallery_panels import draw_model
-from .model_drawing import PRESETS, draw_cycles, draw_lens, draw_model_settings, draw_times
+from .model_drawing import PRESETS, draw_cycles, draw_lens, draw_model_settings, draw_port, draw_times
 from .model_settings import read_settings
 from .needs import camera_object_of
 from .notes import draw_notes
@@ -47,6 +47,7 @@ class ModelPanel(CameraPanel, bpy.types.Panel):
         row.operator(LoadCalibration.bl_idname, text="", icon="FILEBROWSER")
         put_labels(layout, context)
         draw_model_settings(layout, context, camera)
+        draw_port(layout, context, camera)
         item = camera_object_of(context)
         draw_notes(layout, context, filter(None, (frame_note(context, item), engine_note(context.scene, item))))
         draw_cycles(layout, camera)

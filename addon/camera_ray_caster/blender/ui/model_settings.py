@@ -1,8 +1,11 @@
 """Which settings a camera uses: those of its model, or of its type for Blender's own models."""
 
 from ...core.cameras import MODELS
+from ...core.cameras.behind_port import takes_port
 from ...core.cameras.parts.calibration import FILE_CAMERA, FROM_FILE, IN_PIXELS, MILLIMETERS, SIZE, UNIT
 from ...core.cameras.parts.film import FILM, LENS
+from ...core.cameras.parts.port import PORT
+from ...core.cameras.parts.port import SETTINGS as PORTS
 from ...core.cameras.parts.settings import CAMERA, OWN, STEREO, Setting
 from ..cycles.shader import CUSTOM
 from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
@@ -14,6 +17,13 @@ SHOWN_FOR = {"lens": "PERSP", "ortho_scale": "ORTHO"}
 
 def _of_model(key: str) -> tuple[Setting, ...]:
     return next((model.SETTINGS for model in MODELS if model.key == key), ())
+
+
+def port_settings(camera) -> tuple[Setting, ...]:
+    """Return the settings of the glass before a camera's lens; none for a model that cannot have any."""
+    if not any(takes_port(model) for model in MODELS if model.key == key_of(camera)):
+        return ()
+    return PORT, *PORTS.get(getattr(camera, GROUP).port, ())
 
 
 def shown(setting: Setting, camera, engine: str) -> bool:
@@ -36,10 +46,15 @@ def blender_type(camera) -> str:
     return camera.panorama_type if kind == "PANO" else kind
 
 
-def settings_of(camera) -> tuple[Setting, ...]:
-    """Return the settings of a camera's model, or of its type for Blender's own models: see ``blender_type``."""
+def key_of(camera) -> str:
+    """Return the key of a camera's model, or of its type for Blender's own models: see ``blender_type``."""
     model = getattr(camera, GROUP).model
-    return _of_model(blender_type(camera) if model == BLENDERS_OWN else model)
+    return blender_type(camera) if model == BLENDERS_OWN else model
+
+
+def settings_of(camera) -> tuple[Setting, ...]:
+    """Return the settings of a camera's model."""
+    return _of_model(key_of(camera))
 
 
 def read_settings(camera) -> list[Setting]:

@@ -11,7 +11,7 @@ from ...core.cameras.parts.settings import CAMERA, OWN
 from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
 from .frame import SET_FRAME, framed
 from .model_drawing import PRESETS
-from .model_settings import settings_of
+from .model_settings import port_settings, settings_of
 from .needs import OfCamera, camera_object_of, reporting
 
 TICK = f"{GROUP}_set_frame"
@@ -82,7 +82,7 @@ class AddModelPreset(AddPresetBase, bpy.types.Operator):
         """The values to store: the model, Blender's camera type for its own models, and the settings of the model."""
         camera = bpy.context.camera
         types = ["camera.type", "camera.panorama_type"] if getattr(camera, GROUP).model == BLENDERS_OWN else []
-        kept = [it for it in settings_of(camera) if it.owner in OWNERS and it.kind in KEPT]
+        kept = [it for it in (*settings_of(camera), *port_settings(camera)) if it.owner in OWNERS and it.kind in KEPT]
         return [f"own.{MODEL.name}", *types, *(f"{OWNERS[it.owner]}.{it.name}" for it in kept)]
 
 

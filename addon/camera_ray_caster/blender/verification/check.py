@@ -7,6 +7,7 @@ from typing import Any
 from ...core.camera.camera import Camera
 from ...core.camera.facts import camera_facts
 from ...core.camera.stereo import eye_record
+from ...core.cameras.parts.port import PORT
 from ...core.motion.means import same
 from ...core.records import Finding
 from ...core.report.report import Report
@@ -88,5 +89,5 @@ def _answers(camera: Camera, camera_object, depsgraph, view: str) -> Witness | N
     of its own.
     """
     apart = not view or depsgraph.scene_eval.render.views_format == "MULTIVIEW"
-    by_blender = camera.model.key == camera_object.data.type and apart
+    by_blender = camera.model.key == camera_object.data.type and apart and PORT.name not in camera.record.settings
     return witness.ask(camera_object, depsgraph) if by_blender else None

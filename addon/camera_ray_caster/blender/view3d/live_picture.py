@@ -12,6 +12,7 @@ from mathutils import Matrix
 from ...core.camera.build import camera_from
 from ...core.camera.camera import Camera
 from ...core.camera.stereo import eye_record
+from ...core.cameras.parts.port import PORT
 from ...core.faces.faces import Face, faces_of, refusal, turn_of
 from ...core.maths.recording import NotRecordable
 from ...core.records import InputError
@@ -123,7 +124,8 @@ def _eye(context) -> str:
 
 def is_blenders(camera: Camera) -> bool:
     """Return whether Blender's own drawing is the camera's picture."""
-    return not camera.record.model and camera.record.type in ("PERSP", "ORTHO")
+    record = camera.record
+    return not record.model and record.type in ("PERSP", "ORTHO") and PORT.name not in record.settings
 
 
 def _draw_directions(camera: Camera, view: LiveView, key) -> None:

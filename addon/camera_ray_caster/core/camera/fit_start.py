@@ -11,6 +11,7 @@ import numpy as np
 from ..cameras.model import Model
 from ..cameras.parts.calibration import CENTER, FOCAL, SIZE, UNIT
 from ..cameras.parts.film import OFF_AXIS, Film
+from ..cameras.parts.port import PORT
 from ..cameras.parts.settings import RECORD_FIELDS
 from ..records import BlenderCamera, InputError, Pose
 from .camera import Camera
@@ -26,7 +27,7 @@ def guesses(camera: Camera, kind: type[Model], given: Mapping[str, Any]) -> list
     """
     raw = camera.record
     settings = {one.name: one.default for one in kind.SETTINGS if one.name not in RECORD_FIELDS}
-    settings |= {name: value for name, value in raw.settings.items() if name not in (*settings, OFF_AXIS)}
+    settings |= {name: value for name, value in raw.settings.items() if name not in (*settings, OFF_AXIS, PORT.name)}
     fx, fy, cx, cy = _matrix(camera)
     if UNIT in kind.SETTINGS:
         width, height = camera.raster.size

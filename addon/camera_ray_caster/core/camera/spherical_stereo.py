@@ -33,7 +33,7 @@ from ..conventions import gamma
 from ..maths.panels import Disc
 from ..maths.recording import may_hold
 from ..maths.vector import along, components, difference, dot, inverse, matvec, norm
-from ..records import BlenderCamera, Pose
+from ..records import BlenderCamera, InputError, Pose
 
 EYE = "spherical_eye"
 """Key in a record's settings: -1.0 for the left eye, 1.0 for the right eye; without it the camera has one eye."""
@@ -243,11 +243,16 @@ class SphericalStereo(Model):
 
 
 def with_eye(lens: Model, raw: BlenderCamera, pose: Pose) -> Model:
-    """Return the model of an eye of spherical stereo if the record describes such an eye; else the lens."""
+    """Return the model of an eye of spherical stereo if the record describes such an eye; else the lens.
+
+    Raises InputError for a lens behind a port.
+    """
     settings = raw.settings
     side = settings.get(EYE, 0.0)
     if not side or not settings.get(INTEROCULAR.name, 0.0):
         return lens
+    if not lens.central:
+        raise InputError(f"camera {raw.name!r} has Spherical Stereo and a port: disable one of them")
     distance = INTEROCULAR.read(raw)
     convergence = inf if settings["convergence_mode"] == "PARALLEL" else CONVERGENCE.read(raw)
     begin, end = (float(settings[f"pole_merge_angle_{word}"]) for word in ("from", "to"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ..records import BlenderCamera, InputError
+from .behind_port import behind
 from .camera_obscura import CameraObscura
 from .central_cylindrical import CentralCylindrical
 from .cross_slit import CrossSlit
@@ -30,6 +31,7 @@ from .omnimax import Omnimax
 from .opencv_fisheye import OpencvFisheye
 from .opencv_pinhole import OpencvPinhole
 from .orthographic import Orthographic
+from .parts.port import PORT
 from .pencil import Pencil
 from .perspective import Perspective
 from .pushbroom import Pushbroom
@@ -63,11 +65,12 @@ REFUSED = {"CUSTOM": "it is an OSL shader, which only Cycles can run and which c
 def find_model(raw: BlenderCamera) -> type[Model]:
     """Return the model of a record: the chosen model of the add-on, or the model of Blender's type.
 
-    Raises InputError, which lists the known types, for a type without a model.
+    With a port it is the model of the lens behind it. Raises InputError for a type without a model, listing the known
+    types, and for a port before a model that has no eye.
     """
     key = raw.model or str(raw.settings["panorama_type"] if raw.type == "PANO" else raw.type)
     models = {model.key: model for model in MODELS}
     if key not in models:
         reason = REFUSED.get(key, "the add-on has no model for it")
         raise InputError(f"camera {raw.name!r} is of type {key}: {reason}: choose one of {', '.join(models)}")
-    return models[key]
+    return models[key] if PORT.name not in raw.settings else behind(models[key], PORT.read(raw))

@@ -14,8 +14,11 @@ from ..camera import pixel_time
 from ..camera.build import camera_from
 from ..camera.calibration_file import chosen_lens
 from ..camera.camera import Camera
+from ..cameras.behind_port import behind
 from ..cameras.parts.aperture import DEPTH_OF_FIELD
 from ..cameras.parts.calibration import FILE, SIZE
+from ..cameras.parts.port import PORT
+from ..cameras.parts.port import SETTINGS as PORTS
 from ..cameras.parts.pose import pose_matrix
 from ..cameras.parts.settings import RECORD_FIELDS, Line
 from ..programs.parts.lens import FRAME_SIZE, Lens
@@ -61,7 +64,8 @@ def camera(model: str, size, pose=None, **settings: Any) -> Camera:
         path is (n, 3) points; a time image is (rows, columns), a table of rays (rows, columns, 3), both from the bottom
         left. Every model also takes ``clip_start``, ``clip_end``, ``pixel_aspect_x``, ``use_border``,
         ``border_min_x``, ...; depth of field ``use_dof``, ``focus_distance``, ``aperture_fstop``, ...; and pixel times
-        ``time_mode`` with its settings, and ``frame``.
+        ``time_mode`` with its settings, and ``frame``. Models whose rays leave one eye may be behind glass: ``port``,
+        "FLAT" or "DOME", with ``port_thickness``, ``port_glass``, ``port_medium``, ... (lengths in mm).
         ``name`` is the camera's name, by default "Camera".
 
     Raises InputError, in one line, for a model or a setting that does not exist (it names the nearest one that does),
@@ -76,20 +80,30 @@ def camera(model: str, size, pose=None, **settings: Any) -> Camera:
     mode = settings.pop(pixel_time.MODE.name, pixel_time.NONE)
     if not isinstance(mode, str) or mode not in pixel_time.SETTINGS:
         raise unknown(pixel_time.MODE.name, mode, pixel_time.SETTINGS)
-    declared = {one.name: one for one in (*known[model].SETTINGS, *DEPTH_OF_FIELD, *pixel_time.SETTINGS[mode])}
+    port = settings.get(PORT.name, PORT.default)
+    if not isinstance(port, str) or port not in PORTS:
+        raise unknown(PORT.name, port, PORTS)
+    kind = behind(known[model], port)
+    declared = {one.name: one for one in (*kind.SETTINGS, *DEPTH_OF_FIELD, *pixel_time.SETTINGS[mode])}
     for key in settings:
-        if key not in declared and key not in ANY_MODEL:
-            raise unknown(f"setting of {model}", key, dict.fromkeys([*declared, *ANY_MODEL]))
+        with_ports = [repr(word) for word, read in PORTS.items() if key in {one.name for one in read}]
+        if with_ports and key not in declared:
+            words = " or ".join(with_ports)
+            raise InputError(f"{key} of {model} has no effect unless {PORT.name} is {words}: change one of them")
+        if key not in declared and key not in (*ANY_MODEL, PORT.name):
+            raise unknown(f"setting of {model}", key, dict.fromkeys([*declared, *ANY_MODEL, PORT.name]))
     for one in declared.values():
         if isinstance(one, Line) and one.name not in settings:
             raise InputError(f"{model} needs {one.name}: {line_in_words(one)}")
+    if port == PORT.default:
+        settings.pop(PORT.name, None)
     settings = with_angles(declared, settings)
     given = {
         key: plain(declared[key], value) if key in declared else ANY_MODEL[key](value, key)
         for key, value in settings.items()
     }
     given |= completed(model, declared, given, (width, height))
-    given = {**known[model].following(given), **given}
+    given = {**kind.following(given), **given}
     values = {key: one.default for key, one in declared.items() if key not in RECORD_FIELDS}
     values |= {key: value for key, value in given.items() if key not in RECORD_FIELDS}
     fields: dict[str, Any] = {"clip_start": 0.0, "clip_end": np.inf}

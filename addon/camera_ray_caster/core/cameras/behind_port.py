@@ -1,0 +1,224 @@
+"""A camera behind glass: any model whose rays leave one eye, and a port that refracts them.
+
+Assumptions: geometric optics, faces that are planes or spheres, air on the camera's side. Rays begin on the outer face,
+and so do distances: what is between the lens and that face is not cast. Depth is the distance along the ray.
+Formula: with d the unit direction in air, N the normal of a plate and c = d . N, the part of n d along a face is the
+same on both sides (Snell's law): r = d - c N + sqrt(n_m^2 - 1 + c^2) N; at a dome, so at one face after the other.
+See ``parts.port`` for the inverse and references.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import ClassVar
+
+import numpy as np
+
+from ..conventions import gamma
+from ..maths.vector import unit
+from ..records import BlenderCamera, InputError, Raster
+from .model import Model, Step
+from .parts.aperture import Aperture, focus_of
+from .parts.port import FLAT, PORT, PORTS, SETTINGS, DomePort, FlatPort, balls_in_air, check_port, in_air
+from .parts.pose import pose_from
+from .parts.silhouette import everywhere
+
+EYE = 0.0, 0.0, 0.0
+OF_FLAT = (
+    Step("Unit vector in air, and its cosine to the plate's normal N", "d = r / |r|, c = d · N"),
+    Step("In the glass and in the medium", "w_g = sqrt(n_g² - 1 + c²), w_m = sqrt(n_m² - 1 + c²)"),
+    Step("Origin on the outer face, D the distance, t the thickness", "o = D d / c + t ((d - c N) / w_g + N)"),
+    Step("Direction behind the port", "r = d - c N + w_m N"),
+)
+OF_DOME = (
+    Step("Unit vector in air; P, Q where the ray meets the inner and the outer face, from the center", "d = r / |r|"),
+    Step("In the glass, of length n_g; N = P / |P|", "g = d + (sqrt(n_g² - 1 + (d · N)²) - d · N) N"),
+    Step("Direction behind the port; N = Q / |Q|", "r = g + (sqrt(n_m² - n_g² + (g · N)²) - g · N) N"),
+)
+
+
+class AnyDepth(Aperture):
+    """An aperture whose blur is not bounded."""
+
+    def blur(self, centers, radii, planar):
+        """See Aperture."""
+        return np.full(np.shape(radii), np.inf)
+
+
+@dataclass(frozen=True)
+class BehindPort(Model):
+    """A lens and a port; the classes that ``behind`` returns have the settings of both."""
+
+    lens: Model
+    port: FlatPort | DomePort
+    focus: float
+    """Depth of the plane of focus, Blender units."""
+
+    kind: ClassVar[type[Model]]
+    """The model of the lens."""
+    port_class: ClassVar[type[FlatPort] | type[DomePort]]
+    central = False
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Model:  # type: ignore[override]
+        """Return the lens behind its port; the lens alone if there is nothing but air. Raises InputError for a lens
+        whose rays do not leave one eye.
+        """
+        lens, port = cls.kind.from_blender(raw, raster), cls.port_class.from_blender(raw)
+        check_port(raw, lens.central)
+        if isinstance(port.glass, float) and port.glass == port.medium == 1:
+            return lens
+        return cls(raster.size, lens, port, float(focus_of(raw, pose_from(raw))))
+
+    @classmethod
+    def following(cls, given):
+        """See Model."""
+        return cls.kind.following(given)
+
+    @classmethod
+    def eye(cls, raw, view):
+        """See Model."""
+        return cls.kind.eye(raw, view)
+
+    @classmethod
+    def off_axis(cls, raw, slope):
+        """See Model."""
+        return cls.kind.off_axis(raw, slope)
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """See Model: those of the lens, then those of the port."""
+        return *self.lens.steps, *(OF_FLAT if isinstance(self.port, FlatPort) else OF_DOME)
+
+    def formula_values(self, x, y):
+        """See Model."""
+        port, known = self.port, self.lens.formula_values(x, y)
+        known |= {"n_g": float(port.glass), "n_m": float(port.medium), "t": float(port.thickness)}
+        return known | ({"N": port.axis, "D": float(port.distance)} if isinstance(port, FlatPort) else {})
+
+    def rays(self, x, y):
+        """See Model."""
+        return self.port.bent(EYE, self._unit(self.lens.rays(x, y)[1]))
+
+    def _unit(self, direction):
+        return unit(direction) if self.lens.planar else direction
+
+    def project(self, points):
+        """See Model: the direction in air by Newton's method, then the inverse of the lens."""
+        points = np.asarray(points, np.float64)
+        with np.errstate(all="ignore"):  # NaN means no pixel
+            return self.lens.project(in_air(self.port, points.reshape(-1, 3))).reshape(*points.shape[:-1], 2)
+
+    def bounds(self, centers, radii):
+        """See Model: those of balls in air that hold what may be seen."""
+        if np.isinf(radii).any():
+            return everywhere(len(radii))
+        with np.errstate(all="ignore"):  # a plate at the eye has points without a ray
+            held, grown = balls_in_air(self.port, centers, radii)
+        unseen = np.isnan(grown)
+        bounds = self.lens.bounds(held, np.where(unseen, 0.0, grown))
+        bounds[unseen] = np.nan
+        return bounds
+
+    def aperture(self, raw, pose):
+        """See Model: the lens's own, sharp at its focus distance in air."""
+        thin = self.lens.aperture(raw, pose)
+        return None if thin is None else AnyDepth(**vars(thin))
+
+    def through(self, aperture, chief, x, y, point):
+        """See Model."""
+        origin, direction = self.lens.through(aperture, self.lens.rays(x, y), x, y, point)
+        return self.port.bent(origin, self._unit(direction))
+
+    def light(self, aperture, x, y, point):
+        """See Model."""
+        return self.lens.light(aperture, x, y, point)
+
+    def posed(self, pose):
+        """See Model."""
+        return replace(self, lens=self.lens.posed(pose))
+
+    def settled(self):
+        """See Model."""
+        return replace(self, lens=self.lens.settled())
+
+    def facts(self):
+        """See Model."""
+        return self.lens.facts()
+
+    @property
+    def focused_at(self) -> float:  # type: ignore[override]
+        """See Model."""
+        return self.focus
+
+    @property
+    def smooth(self) -> bool:  # type: ignore[override]
+        """See Model."""
+        return self.lens.smooth
+
+    @property
+    def guarded(self) -> bool:  # type: ignore[override]
+        """See Model."""
+        return self.lens.guarded
+
+    @property
+    def size(self):
+        """See Model."""
+        return self.lens.size
+
+    @property
+    def shape(self):
+        """See Model."""
+        return self.lens.shape
+
+    @property
+    def formula_reach(self) -> float:
+        """See Model."""
+        return self.lens.formula_reach + self.port.reach
+
+    def pixel_rounding(self, x, y):
+        """See Model."""
+        return self.lens.pixel_rounding(x, y)
+
+    @property
+    def ray_rounding(self) -> float:
+        """See Model."""
+        return self.lens.ray_rounding + gamma(16)
+
+    def formula_rounding(self, x, y):
+        """See Model: the rounding of the ray in air, as the port lets it grow."""
+        moved, turned = self.port.growth(self._unit(self.lens.rays(x, y)[1]))
+        rounding = self.ray_rounding + self.lens.formula_rounding(x, y)[1]
+        return rounding * moved, rounding * turned
+
+
+def takes_port(kind: type[Model]) -> bool:
+    """Whether a port can be before a model: its rays leave one eye, and its pixels are parts of a picture."""
+    return bool(kind.central) and kind.differentiable
+
+
+@cache
+def behind(kind: type[Model], port: str) -> type[Model]:
+    """Return the model of a lens behind a port, an item of PORT. Raises InputError for a model without an eye."""
+    if port not in PORTS:
+        return kind
+    if not takes_port(kind):
+        raise InputError(f"{kind.label} has no {PORT.name}: choose a model whose rays leave one eye")
+    word = replace(PORT, items=tuple(item for item in PORT.items if item.key == port))
+    settings = word, *SETTINGS[port]
+    return type(
+        f"{kind.__name__}Behind{PORTS[port].__name__}",
+        (BehindPort,),
+        {
+            **{name: getattr(kind, name) for name in ("key", "group", "number", "FORMULA")},
+            "label": f"{kind.label} behind a {'Flat Port' if port == FLAT else 'Dome Port'}",
+            "description": kind.description,
+            "kind": kind,
+            "port_class": PORTS[port],
+            "SETTINGS": (*kind.SETTINGS, *settings),
+            "BESIDE_FILE": (*kind.BESIDE_FILE, *settings),
+            "__doc__": BehindPort.__doc__,
+            "__module__": __name__,
+        },
+    )

@@ -1,0 +1,302 @@
+"""Ports: a flat plate or a dome of glass between a camera and another medium, such as water.
+
+Light goes from air (index 1) through the glass into the medium; every index is at least 1, so that there is no total
+reflection. Rays lie in planes through one axis, the plate's normal or the line from the dome's center to the eye. One
+whose angle in air has the tangent q runs away from a plate's axis by h q / sqrt(n^2 + (n^2 - 1) q^2) in a layer of the
+depth h and the index n; through a dome n r sin i is the same all along it. Both give a place that increases with the
+angle, so that each point has one direction in air.
+References: A. Agrawal et al., A Theory of Multi-Layer Flat Refractive Geometry (2012); M. Born and E. Wolf, Principles
+of Optics, 7th ed. (1999), section 3.2 (Bouguer's formula).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...maths.recording import cos, sin
+from ...maths.vector import along, components, cross, difference, dot, norm, unit
+from ...records import BlenderCamera, InputError
+from .settings import Choice, Item, Number, Numbers, Setting
+
+NONE, FLAT, DOME = "NONE", "FLAT", "DOME"
+MILLIMETER = 1e-3
+"""In Blender units, as for a thin lens."""
+STEEPEST = np.pi / 2 - 1e-3
+"""Largest tilt of a plate, rad."""
+STEPS, SETTLED = 200, 4e-16
+"""Steps of the inverse at most, and the relative change at which it has settled. Most points take five; with the eye on
+the plate more, as the direction nears the plate's own.
+"""
+SLACK = 1e-9
+"""Angle, rad, by which bounds are larger: far more than rounding."""
+
+PORT = Choice(
+    "port", "Port", "Glass before the lens and what is behind it; lengths are in mm, 1/1000 of a Blender unit", NONE,
+    (
+        Item(NONE, "None", "Light reaches the lens straight", 0),
+        Item(FLAT, "Flat", "A plate: an underwater housing, a fish tank, a windshield", 1),
+        Item(DOME, "Dome", "A spherical shell around the eye: a dome port, a bubble", 2),
+    ),
+)  # fmt: skip
+THICKNESS = Number("port_thickness", "Thickness", "Of the glass of the port", 10.0, 0.0, unit="mm")
+GLASS = Number("port_glass", "Index of Glass", "Refractive index of the port's glass", 1.49, 1.0, 10.0, digits=4)
+MEDIUM = Number(
+    "port_medium", "Index of Medium", "Refractive index of what is behind the port", 1.333, 1.0, 10.0, digits=4
+)
+DISTANCE = Number(
+    "port_distance", "Distance", "From the eye to the inner face of the plate, along its normal", 50.0, 0.0, unit="mm"
+)
+TILTS = tuple(
+    Number(f"port_tilt_{axis}", f"Tilt {axis.upper()}", f"Rotation of the plate about the camera's {axis.upper()} axis",
+           0.0, -STEEPEST, STEEPEST, "angle")
+    for axis in "xy"
+)  # fmt: skip
+RADIUS = Number("port_radius", "Radius", "Of the outer face of the dome", 100.0, 0.0, unit="mm")
+DECENTER = Numbers("port_decenter", "Decentering", "Center of the dome in the camera's frame, in mm: the eye is at 0",
+                   (0.0, 0.0, 0.0), ("X", "Y", "Z"))  # fmt: skip
+SETTINGS: dict[str, tuple[Setting, ...]] = {
+    NONE: (),
+    FLAT: (DISTANCE, *TILTS, THICKNESS, GLASS, MEDIUM),
+    DOME: (RADIUS, DECENTER, THICKNESS, GLASS, MEDIUM),
+}
+"""The settings that each item of PORT reads."""
+
+
+@dataclass(frozen=True)
+class FlatPort:
+    """A plate. Lengths are in Blender units, in the camera's frame."""
+
+    normal: tuple[float, float, float]
+    """Unit vector away from the eye."""
+    distance: float
+    thickness: float
+    glass: float
+    medium: float
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera) -> FlatPort:
+        """Return the plate of a record. Raises InputError for values without meaning."""
+        x, y = (tilt.read(raw) for tilt in TILTS)
+        distance, thickness = (length.read(raw) * MILLIMETER for length in (DISTANCE, THICKNESS))
+        normal = -cos(x) * sin(y), sin(x), -cos(x) * cos(y)
+        return cls(normal, distance, thickness, GLASS.read(raw), MEDIUM.read(raw))
+
+    @property
+    def reach(self) -> float:
+        """Distance of the outer face from the eye."""
+        return self.distance + self.thickness
+
+    @property
+    def axis(self) -> np.ndarray:
+        """The axis of symmetry, through the eye, (3,)."""
+        return np.array(self.normal)
+
+    def bent(self, origin, direction):
+        """Return origin, on the outer face, and direction of rays in the medium; see ``Model.rays`` for their form."""
+        c = dot(self.normal, direction)
+        c = np.where(c > 0, c, np.nan)
+        flat = along(direction, self.normal, -c)
+        glass, medium = (np.sqrt((index * index - 1) + c * c) for index in (self.glass, self.medium))
+        inner = along(origin, direction, (self.distance - dot(self.normal, origin)) / c)
+        share = self.thickness / glass
+        outer = tuple(o + (share * k + self.thickness * n) for o, k, n in zip(inner, flat, self.normal, strict=True))
+        return outer, unit(along(flat, self.normal, medium))
+
+    def growth(self, direction):
+        """Return how much a small turn of rays, unit vectors, moves their origins (a length) and turns them."""
+        c = np.maximum(dot(self.normal, direction), np.finfo(float).tiny)
+        glass = (self.glass * self.glass - 1) + c * c
+        return 2 * (self.distance / (c * c) + self.glass * self.thickness / glass), 2.0
+
+    def places(self, points):
+        """Return where points (n, 3) are: behind the outer face and from the axis, (n,) each; the first is negative for
+        points before it.
+        """
+        depth = points @ self.axis
+        return depth - self.reach, norm(components(points - depth[:, None] * self.axis))
+
+    def spread(self, behind, across, radii):
+        """Return the least and the largest angle in air of what balls hold, and half the angle around the axis."""
+        far, near = np.maximum(behind + radii, 0.0), np.maximum(behind - radii, 0.0)
+        least, most = self.angle(far, np.maximum(across - radii, 0.0)), self.angle(near, across + radii)
+        around = np.arcsin(np.minimum(radii / np.maximum(across, np.finfo(float).tiny), 1.0))
+        return least, most, np.where(radii < across, around, np.pi)
+
+    def angle(self, behind, across):
+        """Return the angles from the axis in air of rays that meet points; NaN where there is none.
+
+        Newton's method from the axis: ``rho`` is concave, so that no step goes too far.
+        """
+        layers = (self.distance, 1.0), (self.thickness, self.glass), (behind, self.medium)
+        q = np.zeros(np.shape(across))
+        for _ in range(STEPS):
+            square, rho, slope = q * q, 0.0, 0.0
+            for depth, index in layers:
+                root = index * index + (index * index - 1) * square
+                part = depth / np.sqrt(root)
+                rho, slope = rho + part * q, slope + part * (index * index) / root
+            step = np.where(across > 0, (across - rho) / slope, 0.0)
+            q = q + np.maximum(step, 0.0)
+            if not (step > SETTLED * q).any():
+                break
+        return np.arctan(np.where(np.isnan(q), np.inf, q))
+
+
+@dataclass(frozen=True)
+class DomePort:
+    """A shell between two spheres about one center. Lengths are in Blender units, in the camera's frame."""
+
+    center: tuple[float, float, float]
+    inner: float
+    thickness: float
+    glass: float
+    medium: float
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera) -> DomePort:
+        """Return the dome of a record. Raises InputError for values without meaning."""
+        outer, thickness = RADIUS.read(raw), THICKNESS.read(raw)
+        if not thickness < outer:
+            raise THICKNESS.refusal(raw, f"{float(thickness):.6g}", f"below {RADIUS.name}, {float(outer):.6g}")
+        x, y, z = DECENTER.read(raw)
+        away = float(norm((float(x), float(y), float(z))))
+        if not away < outer - thickness:
+            most = float(outer - thickness)
+            said = f"{away:.6g} mm long"
+            raise DECENTER.refusal(raw, said, f"below {most:.6g}, the inner radius, so that the eye is inside the dome")
+        return cls(
+            (x * MILLIMETER, y * MILLIMETER, z * MILLIMETER), (outer - thickness) * MILLIMETER, thickness * MILLIMETER,
+            GLASS.read(raw), MEDIUM.read(raw),
+        )  # fmt: skip
+
+    @property
+    def outer(self) -> float:
+        """Radius of the outer face."""
+        return self.inner + self.thickness
+
+    @property
+    def reach(self) -> float:
+        """Largest distance of the outer face from the eye."""
+        return self.outer + self.away
+
+    @property
+    def away(self) -> float:
+        """Distance of the eye from the center."""
+        return norm(self.center)
+
+    @property
+    def axis(self) -> np.ndarray:
+        """The axis of symmetry, from the center to the eye, (3,); the viewing direction if they coincide."""
+        return -np.array(self.center) / self.away if self.away else np.array((0.0, 0.0, -1.0))
+
+    def bent(self, origin, direction):
+        """See FlatPort. With p the distance of a ray's line from the center, sqrt(n^2 r^2 - p^2) is n r cos i."""
+        start = difference(origin, self.center)
+        p = cross(start, direction)
+        square, inner, outer = dot(p, p), self.inner * self.inner, self.outer * self.outer
+        glass, medium = self.glass * self.glass, self.medium * self.medium
+        before, entering = np.sqrt(inner - square), np.sqrt(glass * inner - square)
+        leaving, behind = np.sqrt(glass * outer - square), np.sqrt(medium * outer - square)
+        first = along(start, direction, before - dot(start, direction))
+        inside = along(direction, first, (glass - 1) / (entering + before))  # of length n
+        last = along(first, inside, self.thickness * (self.outer + self.inner) / (entering + leaving))
+        beyond = along(inside, last, (medium - glass) / (leaving + behind))
+        return along(self.center, last, 1.0), unit(beyond)
+
+    def growth(self, direction):
+        """See FlatPort: the factor is one over the least cosine at the inner face."""
+        turn = 4 / np.sqrt(1 - (self.away / self.inner) ** 2)
+        return turn * self.outer, turn
+
+    def places(self, points):
+        """Return where points (n, 3) are: behind the outer face and, as an angle at the center, from the axis."""
+        start = points - np.array(self.center)
+        around = np.arctan2(norm(cross(components(start), self.axis)), start @ self.axis)
+        return norm(components(start)) - self.outer, around
+
+    def spread(self, behind, around, radii):
+        """See FlatPort."""
+        distance = np.maximum(behind + self.outer, np.finfo(float).tiny)
+        half = np.where(radii < distance, np.arcsin(np.minimum(radii / distance, 1.0)), np.pi)
+        far, near = np.maximum(behind + radii, 0.0), np.maximum(behind - radii, 0.0)
+        low, high = around - half, around + half
+        least, most = self.angle(far, np.maximum(low, 0.0)), self.angle(near, np.minimum(high, np.pi))
+        turn = np.arcsin(np.minimum(np.sin(half) / np.maximum(np.sin(around), np.finfo(float).tiny), 1.0))
+        return least, most, np.where((low > 0) & (high < np.pi), turn, np.pi)
+
+    def angle(self, behind, around):
+        """Return the angles from the axis in air of rays that meet points: Newton's method in a bracket."""
+        if not self.away:
+            return around
+        radii = self.inner, self.glass * self.inner, self.glass * self.outer, self.medium * self.outer
+        last = self.medium * (self.outer + behind)
+        low, high = np.zeros(np.shape(around)), np.full(np.shape(around), np.pi)
+        theta = np.array(around, np.float64)
+        for _ in range(STEPS):
+            p, turn = self.away * np.sin(theta), self.away * np.cos(theta)
+            off, slope = theta - around, np.ones(np.shape(theta))
+            for sign, reach in zip((-1, 1, -1, 1, -1), (*radii, last), strict=True):
+                off = off + sign * np.arcsin(np.minimum(p / reach, 1.0))
+                slope = slope + sign * turn / np.sqrt(np.maximum(reach * reach - p * p, np.finfo(float).tiny))
+            low, high = np.where(off <= 0, theta, low), np.where(off >= 0, theta, high)
+            moved = theta - off / slope
+            moved = np.where((moved >= low) & (moved <= high), moved, (low + high) / 2)
+            settled = ~(np.abs(moved - theta) > SETTLED * theta)
+            theta = moved
+            if settled.all():
+                break
+        return theta
+
+
+PORTS = {FLAT: FlatPort, DOME: DomePort}
+Port = FlatPort | DomePort
+
+
+def in_air(port: Port, points: np.ndarray) -> np.ndarray:
+    """Return the unit directions (n, 3) at the eye of the rays that meet points (n, 3); NaN for points that are not
+    behind the port, and for those that no ray meets.
+    """
+    behind, across = port.places(points)
+    theta = port.angle(behind, across)
+    directions = _turned(port, points, theta)
+    seen = (behind > 0) & ~((theta >= np.pi / 2) & isinstance(port, FlatPort))
+    return np.where(seen[:, None], directions, np.nan)
+
+
+def balls_in_air(port: Port, centers: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return centers (n, 3) and radii (n,) of balls that hold, as the eye sees them in air, all that may be seen of
+    balls behind the port; NaN for balls before it, and radii above 1, the distance, for balls that may be anywhere.
+    """
+    behind, across = port.places(centers)
+    least, most, around = port.spread(behind, across, radii)
+    middle = (least + most) / 2
+
+    def away(theta):
+        flat = np.sin(middle) * np.sin(theta) * np.sin(around / 2) ** 2
+        return 2 * np.arcsin(np.minimum(np.sqrt(np.sin((theta - middle) / 2) ** 2 + flat), 1.0))
+
+    on_axis = around > np.pi / 2
+    middle = np.where(on_axis, 0.0, middle)
+    angle = np.where(on_axis, most, np.maximum(away(least), away(most))) + SLACK
+    seen = behind + radii > 0
+    grown = np.where(angle < np.pi / 2, np.sin(angle), 2.0)
+    return _turned(port, centers, middle), np.where(seen, np.where(np.isnan(angle), 2.0, grown), np.nan)
+
+
+def _turned(port: Port, points: np.ndarray, theta: np.ndarray) -> np.ndarray:
+    """Return the unit vectors at angles from the port's axis towards points."""
+    axis = port.axis
+    beside = points - (points @ axis)[:, None] * axis
+    beside = beside - (beside @ axis)[:, None] * axis
+    length = norm(components(beside))[:, None]
+    aside = np.where(length > 0, beside / np.where(length > 0, length, 1.0), 0.0)
+    return np.cos(theta)[:, None] * axis + np.sin(theta)[:, None] * aside
+
+
+def check_port(raw: BlenderCamera, is_central: bool) -> None:
+    """Raise InputError if the rays of a camera with a port do not leave one eye."""
+    if not is_central:
+        raise InputError(f"{PORT.name} of camera {raw.name!r} is {PORT.read(raw)}, and its rays have no eye in common: "
+                         "a port needs a camera whose rays leave one eye")  # fmt: skip
