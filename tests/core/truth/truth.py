@@ -176,9 +176,12 @@ def ray(raw, x, y):
     where there is one, else by its recorded one.
     """
     key = raw.model or (raw.settings["panorama_type"] if raw.type == "PANO" else raw.type)
+    from .ports import behind  # which is written in the words of this module
+
     models, depths = formulas()
     if key in models:
-        return in_world(raw, models[key](raw, mpf(x), mpf(y)), key in depths)
+        found = behind(raw, models[key](raw, mpf(x), mpf(y)))
+        return in_world(raw, found, key in depths and "port" not in raw.settings)
     return recorded_ray(raw, x, y)
 
 

@@ -20,21 +20,26 @@ from ..maths.vector import unit
 from ..records import BlenderCamera, InputError, Raster
 from .model import Model, Step
 from .parts.aperture import Aperture, focus_of
-from .parts.port import FLAT, PORT, PORTS, SETTINGS, DomePort, FlatPort, balls_in_air, check_port, in_air
+from .parts.port import FLAT, PORT, PORTS, SETTINGS, DomePort, FlatPort, balls_in_air, check_port, rays_in_air
 from .parts.pose import pose_from
 from .parts.silhouette import everywhere
 
 EYE = 0.0, 0.0, 0.0
 OF_FLAT = (
-    Step("Unit vector in air, and its cosine to the plate's normal N", "d = r / |r|, c = d · N"),
-    Step("In the glass and in the medium", "w_g = sqrt(n_g² - 1 + c²), w_m = sqrt(n_m² - 1 + c²)"),
-    Step("Origin on the outer face, D the distance, t the thickness", "o = D d / c + t ((d - c N) / w_g + N)"),
-    Step("Direction behind the port", "r = d - c N + w_m N"),
+    Step("Unit vector in air", "d = r / sqrt(r . r)"),
+    Step("Cosine of the angle in air to the plate's normal N", "c = d . N"),
+    Step("The same in the glass and in the medium, times the index", "g = sqrt(ng² - 1 + c²), m = sqrt(nm² - 1 + c²)"),
+    Step("Origin on the outer face, D the distance and T the thickness", "o = d D/c + (d - N c) T/g + N T"),
+    Step("Direction behind the port", "r = (d - N c + N m) / nm"),
 )
 OF_DOME = (
-    Step("Unit vector in air; P, Q where the ray meets the inner and the outer face, from the center", "d = r / |r|"),
-    Step("In the glass, of length n_g; N = P / |P|", "g = d + (sqrt(n_g² - 1 + (d · N)²) - d · N) N"),
-    Step("Direction behind the port; N = Q / |Q|", "r = g + (sqrt(n_m² - n_g² + (g · N)²) - g · N) N"),
+    Step("Unit vector in air", "d = r / sqrt(r . r)"),
+    Step("Square of its line's distance from the dome's center, from which the eye is at E", "s = (E × d) . (E × d)"),
+    Step("Radius, cosine and index at the inner face, in air and in glass", "a = sqrt(A² - s), b = sqrt(ng² A² - s)"),
+    Step("At the outer face, in glass and in the medium", "f = sqrt(ng² B² - s), h = sqrt(nm² B² - s)"),
+    Step("On the inner face, and in the glass", "P = E + d (a - E . d), k = d + P (b - a)/A²"),
+    Step("On the outer face", "Q = P + k (f - b)/ng²"),
+    Step("Origin and direction behind the port", "o = Q - E, r = (k + Q (h - f)/B²) / nm"),
 )
 
 
@@ -93,9 +98,12 @@ class BehindPort(Model):
 
     def formula_values(self, x, y):
         """See Model."""
-        port, known = self.port, self.lens.formula_values(x, y)
-        known |= {"n_g": float(port.glass), "n_m": float(port.medium), "t": float(port.thickness)}
-        return known | ({"N": port.axis, "D": float(port.distance)} if isinstance(port, FlatPort) else {})
+        port, known = self.port, {"ng": float(self.port.glass), "nm": float(self.port.medium)}
+        if isinstance(port, FlatPort):
+            known |= {"N": port.axis, "D": float(port.distance), "T": float(port.thickness)}
+        else:
+            known |= {"E": -np.array(port.center), "A": float(port.inner), "B": float(port.outer)}
+        return self.lens.formula_values(x, y) | known
 
     def rays(self, x, y):
         """See Model."""
@@ -108,7 +116,7 @@ class BehindPort(Model):
         """See Model: the direction in air by Newton's method, then the inverse of the lens."""
         points = np.asarray(points, np.float64)
         with np.errstate(all="ignore"):  # NaN means no pixel
-            return self.lens.project(in_air(self.port, points.reshape(-1, 3))).reshape(*points.shape[:-1], 2)
+            return self.lens.project(rays_in_air(self.port, points.reshape(-1, 3))).reshape(*points.shape[:-1], 2)
 
     def bounds(self, centers, radii):
         """See Model: those of balls in air that hold what may be seen."""
@@ -184,13 +192,18 @@ class BehindPort(Model):
     @property
     def ray_rounding(self) -> float:
         """See Model."""
-        return self.lens.ray_rounding + gamma(16)
+        return gamma(8)
 
     def formula_rounding(self, x, y):
         """See Model: the rounding of the ray in air, as the port lets it grow."""
         moved, turned = self.port.growth(self._unit(self.lens.rays(x, y)[1]))
-        rounding = self.ray_rounding + self.lens.formula_rounding(x, y)[1]
+        rounding = self.lens.ray_rounding + gamma(12) + self.lens.formula_rounding(x, y)[1]
         return rounding * moved, rounding * turned
+
+
+def in_air(model: Model) -> Model:
+    """Return the lens of a model behind a port; any other model as it is."""
+    return model.lens if isinstance(model, BehindPort) else model
 
 
 def takes_port(kind: type[Model]) -> bool:

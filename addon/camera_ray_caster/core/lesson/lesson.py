@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..camera.camera import Camera
+from ..cameras.behind_port import in_air
 from ..cameras.model import WindowModel
 from ..cameras.parts.calibrated import Calibrated
 from ..cameras.parts.calibration import PRINCIPAL_POINT, Calibration
@@ -182,9 +183,10 @@ def _formula(camera: Camera, seen: Probe):
     given = {name: number for name, number in given.items() if np.isfinite(number).all()}
     if given:
         yield f"with {', '.join(f'{name} = {shown(number)}' for name, number in given.items())}"
-    if isinstance(model, WindowModel):
-        plane = model.window.plane_from_pixels(x, y)
-        pitch = model.window.pitch_x, model.window.pitch_y
+    lens = in_air(model)
+    if isinstance(lens, WindowModel):
+        plane = lens.window.plane_from_pixels(x, y)
+        pitch = lens.window.pitch_x, lens.window.pitch_y
         moved = {name: 2 * X / (q * side) for name, X, q, side in zip("xy", plane, pitch, model.frame, strict=True)}
     formulas = [(step.symbols, moved if NORMALIZED in step.words else {}) for step in model.steps]
     for step, lines in zip(model.steps, worked_out(formulas, _known(camera, x, y) | given), strict=True):
@@ -194,7 +196,7 @@ def _formula(camera: Camera, seen: Probe):
         origin, direction = (np.array([float(part) for part in v]) for v in camera.camera_rays(x, y))
     if np.isnan(direction).any():
         return
-    if isinstance(model, WindowModel):
+    if isinstance(lens, WindowModel):
         yield f"on the image plane: ({plane[0]:.6g}, {plane[1]:.6g})"
     yield f"in the camera's frame (x right, y up, -z ahead): origin {words(origin)}"
     length = np.linalg.norm(direction)
@@ -204,7 +206,7 @@ def _formula(camera: Camera, seen: Probe):
 
 def _known(camera: Camera, x: float, y: float) -> dict[str, Any]:
     """Return the values of the names in a model's formula. Settings are also known without their prefixes."""
-    model, raster = camera.model, camera.raster
+    model, raster = in_air(camera.model), camera.raster
     facts: dict[str, Any] = dict(model.facts())
     numbers = {name: number for name, number in (camera.settings | facts).items() if type(number) in (int, float)}
     known: dict[str, Any] = dict(zip("uvw", np.diag([1.0, 1.0, -1.0]), strict=True))
@@ -216,8 +218,8 @@ def _known(camera: Camera, x: float, y: float) -> dict[str, Any]:
     known |= {"pi": np.pi, "W": raster.width, "H": raster.height, "x": x, "y": y, "p": raster.pixel_aspect}
     if "field_of_view" in facts:
         known["fov"] = np.radians(facts["field_of_view"][0])
-    if camera.K is not None:
-        (known["fx"], known["skew"], known["cx"]), (_, known["fy"], known["cy"]), _ = camera.K
+    if model.K is not None:
+        (known["fx"], known["skew"], known["cx"]), (_, known["fy"], known["cy"]), _ = model.K
     if isinstance(model, Calibrated):
         calibration = Calibration.from_blender(camera.record, raster, settings=PRINCIPAL_POINT)
         known |= dict(zip(("x_0", "y_0", "s_x", "s_y"), calibration.center + calibration.scale, strict=True))

@@ -108,7 +108,7 @@ class FlatPort:
         """Return how much a small turn of rays, unit vectors, moves their origins (a length) and turns them."""
         c = np.maximum(dot(self.normal, direction), np.finfo(float).tiny)
         glass = (self.glass * self.glass - 1) + c * c
-        return 2 * (self.distance / (c * c) + self.glass * self.thickness / glass), 2.0
+        return 2 * (self.distance / (c * c) + self.glass * self.thickness / glass), 1.0
 
     def places(self, points):
         """Return where points (n, 3) are: behind the outer face and from the axis, (n,) each; the first is negative for
@@ -206,9 +206,9 @@ class DomePort:
         return along(self.center, last, 1.0), unit(beyond)
 
     def growth(self, direction):
-        """See FlatPort: the factor is one over the least cosine at the inner face."""
-        turn = 4 / np.sqrt(1 - (self.away / self.inner) ** 2)
-        return turn * self.outer, turn
+        """See FlatPort: most for the line that is farthest from the center."""
+        turn = 1 + self.away / np.sqrt(self.inner**2 - self.away**2)
+        return 2 * turn * self.outer, turn
 
     def places(self, points):
         """Return where points (n, 3) are: behind the outer face and, as an angle at the center, from the axis."""
@@ -254,7 +254,7 @@ PORTS = {FLAT: FlatPort, DOME: DomePort}
 Port = FlatPort | DomePort
 
 
-def in_air(port: Port, points: np.ndarray) -> np.ndarray:
+def rays_in_air(port: Port, points: np.ndarray) -> np.ndarray:
     """Return the unit directions (n, 3) at the eye of the rays that meet points (n, 3); NaN for points that are not
     behind the port, and for those that no ray meets.
     """
