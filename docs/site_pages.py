@@ -26,7 +26,7 @@ CONTRACTS = {
 CONTENTS = {
     "Tutorials": (
         "tutorials/walks", "tutorials/data_set", "tutorials/lesson", "tutorials/camera_of_your_own",
-        "tutorials/strange_camera_in_cycles", "tutorials/real_lens",
+        "tutorials/strange_camera_in_cycles", "tutorials/real_lens", "tutorials/behind_glass",
     ),
     "Look up": (
         "cameras/index", "conventions", "python", "terminal", "live", "api/index", "formats",

@@ -10,7 +10,8 @@ from pathlib import Path
 from camera_ray_caster.core.camera import pixel_time
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cameras.model import GROUPS, Model
-from camera_ray_caster.core.cameras.parts.settings import OWN, Coefficients, Setting
+from camera_ray_caster.core.cameras.parts import port_settings
+from camera_ray_caster.core.cameras.parts.settings import OWN, Choice, Coefficients, Setting
 from camera_ray_caster.core.exports import FORMATS
 from camera_ray_caster.core.programs import PROGRAMS
 from camera_ray_caster.core.programs.parts.program import ProgramFiles
@@ -29,6 +30,12 @@ TIMES = """
 ## The time of each pixel
 
 With any model each pixel may have its own time: `time_mode` is one of these.
+"""
+
+PORTS = """
+## Behind glass
+
+Any model whose rays leave one eye may be behind glass: `port` is one of these. Distances are from the outer face.
 """
 
 FILES = """\
@@ -118,15 +125,21 @@ def models() -> str:
     """Return the page of models: a section for each group of models, and a section for pixel times."""
     groups = {group: those for group in GROUPS if (those := [model for model in MODELS if model.group == group])}
     sections = [f"\n## {group}\n" + "".join(map(section, those)) for group, those in groups.items()]
-    items = {item.key: item for item in pixel_time.MODE.items}
     labels = {group: [model.label for model in those] for group, those in groups.items()}
-    labels["The time of each pixel"] = [items[key].label for key in pixel_time.SETTINGS]
+    labels["The time of each pixel"] = [item.label for item in pixel_time.MODE.items]
+    labels["Behind glass"] = [item.label for item in port_settings.PORT.items[1:]]
     contents = "".join(f"| {group} | {', '.join(map(link, those))} |\n" for group, those in labels.items())
-    modes = [
-        f"\n### {items[key].label}\n\n`{key}`: {items[key].text}.\n" + table(settings)
-        for key, settings in pixel_time.SETTINGS.items()
+    modes, ports = choices(pixel_time.MODE, pixel_time.SETTINGS), choices(port_settings.PORT, port_settings.SETTINGS)
+    return "".join((HEAD, CONTENTS, contents, *sections, TIMES, *modes, PORTS, *ports))
+
+
+def choices(choice: Choice, settings: dict[str, tuple[Setting, ...]]) -> list[str]:
+    """Return a section for each item of a choice, with the settings that it reads."""
+    return [
+        f"\n### {item.label}\n\n`{item.key}`: {item.text}.\n" + table(settings[item.key])
+        for item in choice.items
+        if item.key in settings and (settings[item.key] or choice is pixel_time.MODE)
     ]
-    return "".join((HEAD, CONTENTS, contents, *sections, TIMES, *modes))
 
 
 def link(title: str) -> str:

@@ -23,6 +23,10 @@ STORED = {
         "CROSS_SLIT", {"slit_1": ((0, 8.8, 0), (0, 8.8, 1)), "slit_2": ((0, -18, 8), (1, -18, 8)), "lens": 18 / 5.8},
     ),
     "real_lens": ("REAL_LENS", {"lens": 500, "sensor_width": 360, "aperture_fstop": 2, "focus_distance": 10}),
+    "fish_tank": (
+        "PERSP",
+        {"lens": 14, "port": "FLAT", "port_distance": 600, "port_thickness": 100, "port_tilt_y": radians(20)},
+    ),
     "living_room": ("PERSP", {"lens": 18.5}),
     "living_room_equirectangular": ("EQUIRECTANGULAR", {"longitude_min": -pi, "latitude_max": pi / 2}),
     "living_room_omnimax": ("OMNIMAX", {"tilt": radians(15)}),

@@ -47,6 +47,7 @@ GALLERY = {
         lenses.isometric,
         lenses.camera_obscura,
         lenses.thin_lens,
+        lenses.fish_tank,
         lenses.fisheye_orthographic,
         lenses.fisheye_stereographic,
         lenses.omnimax,

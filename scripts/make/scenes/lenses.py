@@ -45,6 +45,15 @@ def thin_lens(scene):
     scene.camera_ray_caster.samples = 64
 
 
+def fish_tank(scene):
+    """The room under water, seen askew through the side of a fish tank. Both faces of the glass refract each ray: all
+    is larger than from air, more so to the sides, and straight lines are bent.
+    """
+    room(scene)
+    tank = {"port": "FLAT", "port_distance": 600, "port_thickness": 100, "port_tilt_y": radians(20)}
+    photograph(scene, CORNER, AHEAD, lens=14, own=tank)
+
+
 def fisheye_orthographic(scene):
     """An orthographic fisheye shows the hemisphere ahead as if seen from far away. The rim is compressed into the last
     pixels of the disc.

@@ -3,7 +3,7 @@
 import pytest
 
 from camera_ray_caster.blender.cycles import to_cycles
-from camera_ray_caster.blender.ui.model_panels import LensPanel, ModelPanel, SensorPanel, TimePanel
+from camera_ray_caster.blender.ui.model_panels import LensPanel, ModelPanel, PortPanel, SensorPanel, TimePanel
 from camera_ray_caster.core.records import InputError
 
 MATRIX = ("calibration_width", "calibration_height", "fx", "fy", "cx", "cy", "skew")
@@ -128,6 +128,18 @@ def test_the_settings_of_the_chosen_model_are_shown_in_order(blender, data):
     assert set(SHOWN) <= {item.identifier for item in own.bl_rna.properties["model"].enum_items}
     for own.model, names in SHOWN.items():
         assert drawn(blender, ModelPanel, data) == (names, ())
+
+
+def test_glass_is_offered_to_models_with_an_eye_and_its_settings_appear_when_it_is_chosen(blender, data):
+    own, context = data.camera_ray_caster, type("Context", (), {"camera": data})
+    assert drawn(blender, PortPanel, data) == (("port",), ())
+    own.port = "DOME"
+    names, _ = drawn(blender, PortPanel, data)
+    assert names == ("port", "port_radius", "port_decenter", "port_thickness", "port_glass", "port_medium")
+    own.model = "PUSHBROOM"
+    assert not PortPanel.poll(context)
+    data.type, own.model = "PERSP", "BLENDER"
+    assert PortPanel.poll(context)
 
 
 def test_in_a_narrow_editor_the_same_is_shown_with_labels_that_are_not_cut_off(blender, data):

@@ -6,7 +6,7 @@ Files store the number of a choice's item, so numbers are never changed and neve
 from ...core.camera import pixel_time
 from ...core.cameras import MODELS
 from ...core.cameras.model import GROUPS
-from ...core.cameras.parts import port
+from ...core.cameras.parts import port_settings
 from ...core.cameras.parts.settings import OWN, Choice, Flag, Item, Setting, Whole
 from . import passes
 
@@ -31,9 +31,9 @@ def _models() -> list[Item]:
 
 
 def _of_cameras() -> list[Setting]:
-    read = (*(it.SETTINGS for it in MODELS), *port.SETTINGS.values(), *pixel_time.SETTINGS.values())
+    read = (*(it.SETTINGS for it in MODELS), *port_settings.SETTINGS.values(), *pixel_time.SETTINGS.values())
     own = {setting.name: setting for settings in read for setting in settings if setting.owner == OWN}
-    return [MODEL, port.PORT, pixel_time.MODE, *own.values()]
+    return [MODEL, port_settings.PORT, pixel_time.MODE, *own.values()]
 
 
 def renew() -> None:

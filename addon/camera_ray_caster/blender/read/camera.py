@@ -14,7 +14,7 @@ from ...core.camera.stereo import camera_name
 from ...core.cameras import find_model
 from ...core.cameras.behind_port import takes_port
 from ...core.cameras.parts import aperture
-from ...core.cameras.parts.port import PORT
+from ...core.cameras.parts.port_settings import PORT
 from ...core.cameras.parts.settings import OWN, RECORD_FIELDS, Setting
 from ...core.records import BlenderCamera, InputError
 from ...core.shaders.camera_shader import Mark, read_mark

@@ -8,7 +8,7 @@ from .drawing import draw_field, put_labels
 from .frame import frame_note
 from .gallery_panels import draw_model
 from .model_drawing import PRESETS, draw_cycles, draw_lens, draw_model_settings, draw_port, draw_times
-from .model_settings import read_settings
+from .model_settings import port_settings, read_settings
 from .needs import camera_object_of
 from .notes import draw_notes
 from .operators import LoadCalibration
@@ -47,7 +47,6 @@ class ModelPanel(CameraPanel, bpy.types.Panel):
         row.operator(LoadCalibration.bl_idname, text="", icon="FILEBROWSER")
         put_labels(layout, context)
         draw_model_settings(layout, context, camera)
-        draw_port(layout, context, camera)
         item = camera_object_of(context)
         draw_notes(layout, context, filter(None, (frame_note(context, item), engine_note(context.scene, item))))
         draw_cycles(layout, camera)
@@ -120,4 +119,23 @@ class TimePanel(CameraPanel, bpy.types.Panel):
         draw_times(self.layout, context, context.camera)
 
 
-CLASSES = (ModelPanel, LensPanel, SensorPanel, TimePanel)
+class PortPanel(CameraPanel, bpy.types.Panel):
+    """Camera properties: the glass before the lens, for models whose rays leave one eye."""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_port"
+    bl_label = "Behind Glass"
+    bl_parent_id = ModelPanel.bl_idname
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        """Show the panel for models that may be behind glass."""
+        return context.camera is not None and bool(port_settings(context.camera))
+
+    def draw(self, context):
+        """Draw the list of ports; below it the settings of the chosen port."""
+        put_labels(self.layout, context)
+        draw_port(self.layout, context, context.camera)
+
+
+CLASSES = (ModelPanel, LensPanel, SensorPanel, PortPanel, TimePanel)

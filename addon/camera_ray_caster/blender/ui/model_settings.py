@@ -4,8 +4,8 @@ from ...core.cameras import MODELS
 from ...core.cameras.behind_port import takes_port
 from ...core.cameras.parts.calibration import FILE_CAMERA, FROM_FILE, IN_PIXELS, MILLIMETERS, SIZE, UNIT
 from ...core.cameras.parts.film import FILM, LENS
-from ...core.cameras.parts.port import PORT
-from ...core.cameras.parts.port import SETTINGS as PORTS
+from ...core.cameras.parts.port_settings import PORT
+from ...core.cameras.parts.port_settings import SETTINGS as PORTS
 from ...core.cameras.parts.settings import CAMERA, OWN, STEREO, Setting
 from ..cycles.shader import CUSTOM
 from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP

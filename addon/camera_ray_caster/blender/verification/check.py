@@ -7,7 +7,7 @@ from typing import Any
 from ...core.camera.camera import Camera
 from ...core.camera.facts import camera_facts
 from ...core.camera.stereo import eye_record
-from ...core.cameras.parts.port import PORT
+from ...core.cameras.parts.port_settings import PORT
 from ...core.motion.means import same
 from ...core.records import Finding
 from ...core.report.report import Report

@@ -12,7 +12,7 @@ from mathutils import Matrix
 from ...core.camera.build import camera_from
 from ...core.camera.camera import Camera
 from ...core.camera.stereo import eye_record
-from ...core.cameras.parts.port import PORT
+from ...core.cameras.parts.port_settings import PORT
 from ...core.faces.faces import Face, faces_of, refusal, turn_of
 from ...core.maths.recording import NotRecordable
 from ...core.records import InputError

@@ -11,7 +11,7 @@ import numpy as np
 from ..cameras.model import Model
 from ..cameras.parts.calibration import CENTER, FOCAL, SIZE, UNIT
 from ..cameras.parts.film import OFF_AXIS, Film
-from ..cameras.parts.port import PORT
+from ..cameras.parts.port_settings import PORT
 from ..cameras.parts.settings import RECORD_FIELDS
 from ..records import BlenderCamera, InputError, Pose
 from .camera import Camera

@@ -31,7 +31,7 @@ from .omnimax import Omnimax
 from .opencv_fisheye import OpencvFisheye
 from .opencv_pinhole import OpencvPinhole
 from .orthographic import Orthographic
-from .parts.port import PORT
+from .parts.port_settings import PORT
 from .pencil import Pencil
 from .perspective import Perspective
 from .pushbroom import Pushbroom

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -20,7 +20,8 @@ from ..maths.vector import unit
 from ..records import BlenderCamera, InputError, Raster
 from .model import Model, Step
 from .parts.aperture import Aperture, focus_of
-from .parts.port import FLAT, PORT, PORTS, SETTINGS, DomePort, FlatPort, balls_in_air, check_port, rays_in_air
+from .parts.port import PORTS, DomePort, FlatPort, balls_in_air, rays_in_air
+from .parts.port_settings import PORT, SETTINGS
 from .parts.pose import pose_from
 from .parts.silhouette import everywhere
 
@@ -71,7 +72,8 @@ class BehindPort(Model):
         whose rays do not leave one eye.
         """
         lens, port = cls.kind.from_blender(raw, raster), cls.port_class.from_blender(raw)
-        check_port(raw, lens.central)
+        if not lens.central:
+            raise InputError(f"the rays of camera {raw.name!r} have no eye in common: set {PORT.name} to NONE")
         if isinstance(port.glass, float) and port.glass == port.medium == 1:
             return lens
         return cls(raster.size, lens, port, float(focus_of(raw, pose_from(raw))))
@@ -98,7 +100,8 @@ class BehindPort(Model):
 
     def formula_values(self, x, y):
         """See Model."""
-        port, known = self.port, {"ng": float(self.port.glass), "nm": float(self.port.medium)}
+        port = self.port
+        known: dict[str, Any] = {"ng": float(port.glass), "nm": float(port.medium)}
         if isinstance(port, FlatPort):
             known |= {"N": port.axis, "D": float(port.distance), "T": float(port.thickness)}
         else:
@@ -218,14 +221,14 @@ def behind(kind: type[Model], port: str) -> type[Model]:
         return kind
     if not takes_port(kind):
         raise InputError(f"{kind.label} has no {PORT.name}: choose a model whose rays leave one eye")
-    word = replace(PORT, items=tuple(item for item in PORT.items if item.key == port))
-    settings = word, *SETTINGS[port]
+    item = next(item for item in PORT.items if item.key == port)
+    settings = replace(PORT, items=(item,)), *SETTINGS[port]
     return type(
         f"{kind.__name__}Behind{PORTS[port].__name__}",
         (BehindPort,),
         {
             **{name: getattr(kind, name) for name in ("key", "group", "number", "FORMULA")},
-            "label": f"{kind.label} behind a {'Flat Port' if port == FLAT else 'Dome Port'}",
+            "label": f"{kind.label} behind a {item.label}",
             "description": kind.description,
             "kind": kind,
             "port_class": PORTS[port],

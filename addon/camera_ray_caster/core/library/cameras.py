@@ -17,8 +17,8 @@ from ..camera.camera import Camera
 from ..cameras.behind_port import behind
 from ..cameras.parts.aperture import DEPTH_OF_FIELD
 from ..cameras.parts.calibration import FILE, SIZE
-from ..cameras.parts.port import PORT
-from ..cameras.parts.port import SETTINGS as PORTS
+from ..cameras.parts.port_settings import PORT
+from ..cameras.parts.port_settings import SETTINGS as PORTS
 from ..cameras.parts.pose import pose_matrix
 from ..cameras.parts.settings import RECORD_FIELDS, Line
 from ..programs.parts.lens import FRAME_SIZE, Lens

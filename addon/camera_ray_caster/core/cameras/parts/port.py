@@ -17,51 +17,17 @@ import numpy as np
 
 from ...maths.recording import cos, sin
 from ...maths.vector import along, components, cross, difference, dot, norm, unit
-from ...records import BlenderCamera, InputError
-from .settings import Choice, Item, Number, Numbers, Setting
+from ...records import BlenderCamera
+from .port_settings import DECENTER, DISTANCE, DOME, FLAT, GLASS, MEDIUM, RADIUS, THICKNESS, TILTS
 
-NONE, FLAT, DOME = "NONE", "FLAT", "DOME"
 MILLIMETER = 1e-3
 """In Blender units, as for a thin lens."""
-STEEPEST = np.pi / 2 - 1e-3
-"""Largest tilt of a plate, rad."""
 STEPS, SETTLED = 200, 4e-16
 """Steps of the inverse at most, and the relative change at which it has settled. Most points take five; with the eye on
 the plate more, as the direction nears the plate's own.
 """
 SLACK = 1e-9
 """Angle, rad, by which bounds are larger: far more than rounding."""
-
-PORT = Choice(
-    "port", "Port", "Glass before the lens and what is behind it; lengths are in mm, 1/1000 of a Blender unit", NONE,
-    (
-        Item(NONE, "None", "Light reaches the lens straight", 0),
-        Item(FLAT, "Flat", "A plate: an underwater housing, a fish tank, a windshield", 1),
-        Item(DOME, "Dome", "A spherical shell around the eye: a dome port, a bubble", 2),
-    ),
-)  # fmt: skip
-THICKNESS = Number("port_thickness", "Thickness", "Of the glass of the port", 10.0, 0.0, unit="mm")
-GLASS = Number("port_glass", "Index of Glass", "Refractive index of the port's glass", 1.49, 1.0, 10.0, digits=4)
-MEDIUM = Number(
-    "port_medium", "Index of Medium", "Refractive index of what is behind the port", 1.333, 1.0, 10.0, digits=4
-)
-DISTANCE = Number(
-    "port_distance", "Distance", "From the eye to the inner face of the plate, along its normal", 50.0, 0.0, unit="mm"
-)
-TILTS = tuple(
-    Number(f"port_tilt_{axis}", f"Tilt {axis.upper()}", f"Rotation of the plate about the camera's {axis.upper()} axis",
-           0.0, -STEEPEST, STEEPEST, "angle")
-    for axis in "xy"
-)  # fmt: skip
-RADIUS = Number("port_radius", "Radius", "Of the outer face of the dome", 100.0, 0.0, unit="mm")
-DECENTER = Numbers("port_decenter", "Decentering", "Center of the dome in the camera's frame, in mm: the eye is at 0",
-                   (0.0, 0.0, 0.0), ("X", "Y", "Z"))  # fmt: skip
-SETTINGS: dict[str, tuple[Setting, ...]] = {
-    NONE: (),
-    FLAT: (DISTANCE, *TILTS, THICKNESS, GLASS, MEDIUM),
-    DOME: (RADIUS, DECENTER, THICKNESS, GLASS, MEDIUM),
-}
-"""The settings that each item of PORT reads."""
 
 
 @dataclass(frozen=True)
@@ -293,10 +259,3 @@ def _turned(port: Port, points: np.ndarray, theta: np.ndarray) -> np.ndarray:
     length = norm(components(beside))[:, None]
     aside = np.where(length > 0, beside / np.where(length > 0, length, 1.0), 0.0)
     return np.cos(theta)[:, None] * axis + np.sin(theta)[:, None] * aside
-
-
-def check_port(raw: BlenderCamera, is_central: bool) -> None:
-    """Raise InputError if the rays of a camera with a port do not leave one eye."""
-    if not is_central:
-        raise InputError(f"{PORT.name} of camera {raw.name!r} is {PORT.read(raw)}, and its rays have no eye in common: "
-                         "a port needs a camera whose rays leave one eye")  # fmt: skip
