@@ -54,7 +54,7 @@ def test_the_light_of_a_picture_is_what_passes_the_rims_and_falls_off(vignetting
     optics, film = camera.model.optics, camera.model.film
     plane, side = optics.exit_pupil[0], np.linspace(-15.0, 15.0, 301)  # rays pass up to 13.8 mm from the axis
     middle, edge = (
-        _passing(optics, (place, 0.0, film), (side[:, None], side, plane), falloff) for place in (0.0, -17.45)
+        passing(optics, (place, 0.0, film), (side[:, None], side, plane), falloff) for place in (0.0, -17.45)
     )
     assert light[:, 15:18].mean() == pytest.approx(1.0, abs=noise(0.91, 9 * SAMPLES))
     fall = edge.sum() / middle.sum()
@@ -63,7 +63,7 @@ def test_the_light_of_a_picture_is_what_passes_the_rims_and_falls_off(vignetting
     assert light[:, [0, -1]].mean() == pytest.approx(fall, rel=noise(0.35, 6 * SAMPLES))
 
 
-def _passing(optics, origin, target, falloff):
+def passing(optics, origin, target, falloff):
     """cos^4 (or 1) of rays from the film to places of the exit pupil that pass all rims; 0 for the others."""
     ahead = np.broadcast_arrays(*(there - here for there, here in zip(target, origin, strict=True)))
     length = np.sqrt(sum(part * part for part in ahead))
@@ -81,7 +81,7 @@ def test_light_beyond_the_last_chief_ray_is_that_of_the_rays_that_pass():
     assert camera.model.chief.end < 21.2
     side = np.linspace(-20.0, 20.0, 401)
     middle, *edge = (
-        _passing(optics, (place, 0.0, film), (side[:, None], side, optics.exit_pupil[0]), True).sum()
+        passing(optics, (place, 0.0, film), (side[:, None], side, optics.exit_pupil[0]), True).sum()
         for place in (0.0, *(-21.3 + camera.model.window.pitch_x * np.linspace(-0.4, 0.4, 5)))
     )
     assert light[:, [0, -1]].mean() == pytest.approx(np.mean(edge) / middle, rel=noise(0.06, 6 * 512))
