@@ -26,6 +26,7 @@ from . import (
     meshroom,
     metashape,
     mrcal,
+    ncore,
     nerf,
     nerfstudio,
     nvidia,
@@ -60,7 +61,7 @@ from .parts.program import ProgramFiles, in_words
 
 MODULES = (
     opencv, ros, colmap, nerfstudio, kalibr, euroc, okvis, vins, orbslam, stella, basalt, bop, realsense, mrcal, aria,
-    nvidia, woodscape, opensfm, maplab, hot3d, metashape, meshroom, realitycapture, openmvg, bundler, nvm,
+    nvidia, ncore, woodscape, opensfm, maplab, hot3d, metashape, meshroom, realitycapture, openmvg, bundler, nvm,
     gaussian_splatting, camera_path, llff, open3d, surround360, fspy, polycam, arkitscenes, tum,
     kitti, gyroflow, ocam, lensfun, hugin, ptgui, velodyne,
     ouster, hesai, recorded, schops, ray_table, rpc, nerf, euroc_trajectory, stmap,

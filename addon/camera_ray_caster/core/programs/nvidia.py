@@ -26,8 +26,10 @@ REFERENCES = {
     "pixeldistance-to-angle": "RADIUS_TO_ANGLE",
     "ANGLE_TO_PIXELDIST": "ANGLE_TO_RADIUS",
     "PIXELDIST_TO_ANGLE": "RADIUS_TO_ANGLE",
+    "1": "RADIUS_TO_ANGLE",
+    "2": "ANGLE_TO_RADIUS",
 }
-"""Names of the polynomial that is the model, in the files of both families, and our key of it."""
+"""Names of the polynomial that is the model, or NCore's number of it, and our key of it."""
 NOMINAL = "cameraFisheyeNominalWidth", "cameraFisheyeNominalHeight"
 FISHEYE, PINHOLE = "fisheyePolynomial", "pinhole"
 
@@ -60,7 +62,7 @@ def read(document: Document) -> list[Lens]:
         named = [(one.text("logical_sensor_name", key), one) for key, one in calibrations]
         return [one_of_several(name, _of_nurec, one.labeled(name)) for name, one in named]
     inside = entries.part("camera_model_parameters")
-    return [_of_parameters(entries if entries.has("reference_poly") else inside)]
+    return [of_parameters(entries if entries.has("reference_poly") else inside)]
 
 
 def _of_rig(properties: Fields) -> Lens:
@@ -80,10 +82,11 @@ def _of_nurec(calibration: Fields) -> Lens:
     if model.text("type") != "ftheta":
         said = f"camera_model of {calibration.label} is of type {model.text('type')!r}"
         raise calibration.document.refusal(f"{said}: it must be 'ftheta'")
-    return _of_parameters(model.part("parameters"))
+    return of_parameters(model.part("parameters"))
 
 
-def _of_parameters(parameters: Fields) -> Lens:
+def of_parameters(parameters: Fields) -> Lens:
+    """Return the lens of NCore's parameters."""
     if parameters.has("external_distortion_parameters") and len(parameters.part("external_distortion_parameters")):
         raise parameters.document.refusal("it has external_distortion_parameters, of a windshield: they must be null")
     kind = parameters.text("reference_poly")
@@ -92,7 +95,8 @@ def _of_parameters(parameters: Fields) -> Lens:
     center, linear = parameters.numbers("principal_point", 2), parameters.numbers("linear_cde", 3, [1, 0, 0])
     sides = parameters.numbers("resolution", 2)
     lens = _lens(parameters, reference, parameters.numbers(entry), center, linear, sides)
-    widest = {"ftheta_max_angle": parameters.number("max_angle")} if parameters.has("max_angle") else {}
+    angle = parameters.first("max_angle", "max_angle_rad")
+    widest = {"ftheta_max_angle": parameters.number(angle)} if parameters.has(angle) else {}
     return lens._replace(settings=lens.settings | widest)
 
 
