@@ -34,6 +34,7 @@ LENSES = {
     },
     "THIN_PRISM_FISHEYE": {"k1": -0.03, "k2": 0.01, "p1": 1e-3, "p2": -5e-4, "s1": 2e-3, "s3": -1e-3, **FRAME},
     "FOV": {"fov_omega": 0.9, **FRAME},
+    "RADIAL_POLYNOMIAL": {"radial_polynomial": "0 1 -0.04 -0.03 0.004", **FRAME},
     "DIVISION": {"division_lambda": -0.3, **FRAME},
     "FTHETA": {"ftheta_angle_to_radius": "0 58 0.5 -1.5 0.3", "ftheta_c": 1.001, "ftheta_d": 1e-3, **FRAME},
     "OCAM": {"ocam_polynomial": "-40 0 0.008 1e-5 2e-7", "ocam_c": 0.999, "ocam_d": 1e-3, **FRAME},

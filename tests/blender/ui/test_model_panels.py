@@ -26,6 +26,7 @@ SHOWN = {
     "THIN_PRISM_FISHEYE": (*CALIBRATION, "k1", "k2", "p1", "p2", "k3", "k4", "s1", "s3"),
     "FOV": (*CALIBRATION, "fov_omega"),
     "DIVISION": (*CALIBRATION, "division_lambda"),
+    "RADIAL_POLYNOMIAL": (*CALIBRATION, "radial_polynomial"),
     "FTHETA": (
         *POINT, "ftheta_reference", "ftheta_angle_to_radius", "ftheta_radius_to_angle",
         "ftheta_c", "ftheta_d", "ftheta_e", "ftheta_max_angle",

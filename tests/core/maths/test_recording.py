@@ -19,7 +19,7 @@ from ..cameras.model_examples import EXAMPLES, camera
 ITERATED = 32 * EPS
 """Between two iterations that start elsewhere, each right to some EPS over the slope at its end; measured is 23."""
 
-ITERATE = {"OPENCV_PINHOLE", "OPENCV_FISHEYE", "UCM", "FISHEYE624", "THIN_PRISM_FISHEYE", "FTHETA"}
+ITERATE = {"OPENCV_PINHOLE", "OPENCV_FISHEYE", "UCM", "FISHEYE624", "THIN_PRISM_FISHEYE", "FTHETA", "RADIAL_POLYNOMIAL"}
 
 NAN, INF = float("nan"), float("inf")
 NUMBERS = np.array([-2.5, -1.0, -0.5, -0.0, 0.0, 0.3, 1.0, 1.5, 2.0, NAN])

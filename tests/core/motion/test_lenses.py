@@ -27,6 +27,7 @@ CHANGES = [
     ("UCM", lambda u: focal(10.0) | {"unified_xi": 0.7 + 0.6 * u}),  # no rim up to 1
     ("EUCM", lambda u: focal(10.0) | {"unified_alpha": 0.3 + 0.4 * u}),  # no rim up to 1/2
     ("DOUBLE_SPHERE", lambda u: focal(10.0) | {"unified_xi": -0.2, "unified_alpha": 0.4 + 0.3 * u}),
+    ("RADIAL_POLYNOMIAL", lambda u: focal(20.0) | {"radial_polynomial": f"0 1 {-0.1 * u} {-0.02 - 0.01 * u}"}),
     ("DIVISION", lambda u: focal(20.0) | {"division_lambda": -0.2 + 0.8 * u}),  # no rim up to 0
     ("FOV", lambda u: focal(15.0) | {"fov_omega": 0.6 + 1.4 * u}),
     ("OPENCV_FISHEYE", lambda u: focal(15.0) | {"k1": -0.08 - 0.04 * u, "k2": 0.0045}),  # the rim jumps at -0.1

@@ -29,7 +29,7 @@ def calibrations(camera: Camera) -> list[Lens]:
     corner = {"cx": x0, "cy": camera.raster.height - y1}
     size = dict(zip(FRAME_SIZE, map(float, camera.raster.picture_size), strict=True))
     lenses = [
-        lens._replace(settings=size | {name: value - corner.get(name, 0) for name, value in lens.settings.items()})
+        lens._replace(settings=lens.settings | size | {name: lens.settings[name] - corner[name] for name in corner})
         for lens in _of_frame(camera)
     ]
     return [_sphere(lens) if lens.model == Equirectangular.key else lens for lens in lenses]

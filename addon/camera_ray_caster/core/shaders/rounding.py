@@ -134,14 +134,6 @@ def _remainder(a: Rounded, b: Rounded) -> Rounded:
     return _bounded(value, error, a, b, lost=np.floor(times - near) != np.floor(times + near))
 
 
-def _larger_error(name: str) -> Callable[..., Rounded]:
-    return lambda *given: _bounded(
-        NUMPY[name](*(one.value for one in given)),
-        np.maximum.reduce(np.broadcast_arrays(*(one.error for one in given))),
-        *given,
-    )
-
-
 def _compared(name: str) -> Callable[..., Rounded]:
     def compare(a: Rounded, b: Rounded) -> Rounded:
         error = a.error + b.error
@@ -155,6 +147,18 @@ def _logical(name: str) -> Callable[..., Rounded]:
     return lambda *given: Rounded(
         NUMPY[name](*(one.value for one in given)), np.logical_or.reduce(np.broadcast_arrays(*(o.error for o in given)))
     )
+
+
+def _extreme(name: str) -> Callable[..., Rounded]:
+    """Return the minimum or maximum, with the error of the operand that it is; the larger one if that is undecided."""
+
+    def apply(a: Rounded, b: Rounded) -> Rounded:
+        least = _compared("less")(a, b)
+        of_first = least.value if name == "minimum" else np.logical_not(least.value)
+        error = np.where(least.error, np.maximum(a.error, b.error), np.where(of_first, a.error, b.error))
+        return _bounded(NUMPY[name](a.value, b.value), error, a, b)
+
+    return apply
 
 
 def _chosen(condition: Rounded, yes: Rounded, no: Rounded) -> Rounded:
@@ -174,7 +178,8 @@ ARITHMETIC: Arithmetic = {
     "hypot": _longer,
     "remainder": _remainder,
     **{name: _stepped(name) for name in ("floor", "ceil", "rint", "sign")},
-    **{name: _larger_error(name) for name in ("absolute", "minimum", "maximum")},
+    "absolute": lambda a: _bounded(np.abs(a.value), a.error, a),
+    **{name: _extreme(name) for name in ("minimum", "maximum")},
     "where": _chosen,
     "constant": lambda value: Rounded(value, 0.0 if isinstance(value, bool) or isnan(value) else EPS32 * abs(value)),
     "parameter": lambda value, name: Rounded(value, EPS32 * abs(value)),
