@@ -20,7 +20,7 @@ PINHOLE = {
     "radial_coeffs": ("k1", "k2", "k3", "k4", "k5", "k6"), "tangential_coeffs": ("p1", "p2"),
     "thin_prism_coeffs": ("s1", "s2", "s3", "s4"),
 }  # fmt: skip
-MODELS = {
+MODELS: dict[str, tuple[str, dict[str, tuple[str, ...]]]] = {
     "opencv-pinhole": ("OPENCV_PINHOLE", PINHOLE),
     "opencv-fisheye": ("OPENCV_FISHEYE", {"radial_coeffs": ("k1", "k2", "k3", "k4")}),
 }
