@@ -7,7 +7,8 @@ from pathlib import Path
 
 import bpy
 
-SOURCE = Path(__file__).resolve().parents[2] / "addon" / "camera_ray_caster"
+ROOT = Path(__file__).resolve().parents[2]
+SOURCE = ROOT / "addon" / "camera_ray_caster"
 
 
 def run(*command, folder=None, **environment):
@@ -31,6 +32,14 @@ def blender_command(script):
         return [sys.executable, "-P", script, "--"]  # -P: modules beside the script are not to stand before Blender's
     options = ["--background", "--factory-startup", "--python-exit-code", "1"]
     return [bpy.app.binary_path, *options, "--python", script, "--"]
+
+
+def script_command(name, scene):
+    """The words that run a script of the project on a scene: in pip's bpy, or in another Blender of this kind."""
+    script = str(ROOT / "scripts" / name)
+    if not bpy.app.binary_path:
+        return [sys.executable, script, str(scene)]
+    return [bpy.app.binary_path, "--background", "--factory-startup", str(scene), "--python", script, "--"]
 
 
 def extension_tool(*arguments):

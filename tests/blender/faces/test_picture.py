@@ -6,10 +6,7 @@ skipped.
 
 import os
 import subprocess
-import sys
-from pathlib import Path
 
-import bpy
 import numpy as np
 import pytest
 from numpy.lib.stride_tricks import sliding_window_view
@@ -18,7 +15,8 @@ from camera_ray_caster import InputError, cast, cast_rays, read_camera, read_sha
 from camera_ray_caster.blender.faces.driver import check_driver
 from camera_ray_caster.blender.faces.picture import EEVEE, WORKBENCH, picture_of
 
-ROOT = Path(__file__).parents[3]
+from ..processes import ROOT, script_command
+
 COLORS = [(1.0, 0.0, 0.0, 1.0), (0.0, 1.0, 0.0, 1.0), (0.0, 0.0, 1.0, 1.0), (1.0, 1.0, 0.0, 1.0), (0.0, 1.0, 1.0, 1.0)]
 PLACES = [(0, 0, -3), (3, 0.5, -1), (-3, -0.5, 0.5), (0.5, 3, 0.5), (0, -3, -1.5)]
 """Cubes before the camera, to its right and left, above and below it."""
@@ -157,10 +155,9 @@ def test_eevee_has_the_edges_of_the_cast_too(cubes):
     assert (pixels[..., 3] > 0.5)[flat].tolist() == (index >= 0)[flat].tolist()
 
 
-@pytest.mark.skipif(bool(bpy.app.binary_path), reason="starts a script of pip's bpy")
 def test_without_a_driver_it_says_so_in_a_line():
     """In a process of its own, whose EGL has no drivers: Blender would end the process."""
-    words = [sys.executable, str(ROOT / "scripts" / "cast.py"), str(ROOT / "blend_scenes" / "toys.blend")]
+    words = script_command("cast.py", ROOT / "blend_scenes" / "toys.blend")
     no_drivers = {"__EGL_VENDOR_LIBRARY_FILENAMES": os.devnull, "LIBGL_DRIVERS_PATH": os.devnull}
     made = subprocess.run(
         [*words, "--engine", WORKBENCH], env=os.environ | no_drivers, capture_output=True, text=True, timeout=100

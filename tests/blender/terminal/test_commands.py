@@ -3,22 +3,18 @@
 import json
 import re
 import subprocess
-import sys
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[3]
+from ..processes import ROOT, script_command
+
 SCENE = ROOT / "blend_scenes" / "orthographic.blend"
 
 
 @pytest.fixture
 def cast(blender):
     """A function that runs scripts/cast.py with arguments on the scene to its end."""
-    script = str(ROOT / "scripts" / "cast.py")
-    words = [sys.executable, script, str(SCENE)]
-    if blender.app.binary_path:
-        words = [blender.app.binary_path, "--background", "--factory-startup", str(SCENE), "--python", script, "--"]
+    words = script_command("cast.py", SCENE)
     return lambda *arguments: subprocess.run([*words, *arguments], capture_output=True, text=True, timeout=120)
 
 
