@@ -1,14 +1,16 @@
-"""Operators that turn a camera into a custom camera of Cycles, and back, or into the nearest one of Blender's own."""
+"""Operators that turn a camera into a custom camera of Cycles, and back, or into the nearest one of Blender's own, or
+give it a lamp that projects a picture.
+"""
 
 import bpy
 from bpy.props import BoolProperty
 
 from ...core.camera.blender_lens import blender_lens
-from ..cycles import from_cycles, to_cycles
+from ..cycles import add_projector, from_cycles, to_cycles
 from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
 from ..read.camera import shader_mark
 from ..read.scene import read_camera
-from .needs import OfCamera, camera_object_of, reporting
+from .needs import OfCamera, camera_object_of, reporting, select_alone
 
 
 class UseInCycles(OfCamera, bpy.types.Operator):
@@ -79,4 +81,21 @@ class FitLens(OfCamera, bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (UseInCycles, BackToBlender, FitLens)
+class AddProjector(OfCamera, bpy.types.Operator):
+    """Add a lamp that shines a picture through this camera's model in Cycles, on any device. The picture is a color
+    grid, to be exchanged in the lamp's nodes"""
+
+    bl_idname = "camera_ray_caster.add_projector"
+    bl_label = "Add Projector"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @reporting
+    def execute(self, context):
+        """Add the lamp, select it, and report the error of its table."""
+        lamp, error = add_projector(context.scene, camera_object_of(context))
+        select_alone(context, lamp)
+        self.report({"INFO"}, f"{lamp.name} shines in Cycles, exact to {error:.2g} pixels; the picture is in its nodes")
+        return {"FINISHED"}
+
+
+CLASSES = (UseInCycles, BackToBlender, FitLens, AddProjector)

@@ -4,7 +4,7 @@ import bpy
 
 from .add_line import SETTINGS, AddGradient, AddLine
 from .cast_operator import Cast
-from .cycles_operators import BackToBlender, FitLens, UseInCycles
+from .cycles_operators import AddProjector, BackToBlender, FitLens, UseInCycles
 from .export_operators import CopyK, CopyWorldToCamera, ExportMenu
 from .follow_timeline import FollowTimeline
 from .frame import SetFrame
@@ -22,7 +22,7 @@ from .through_model import RenderThroughModel
 LISTED = (
     SeeThrough, RenderThroughModel, Cast, Verify, StepThrough, PixelOfPoint, EmptyAtHit, CopySteps, ClearSteps,
     SetFrame, LoadCalibration, AddCameras, AddGradient, FollowTimeline, UseThisEngine, UseInCycles, FitLens,
-    BackToBlender, CopyFacts, CopyK, CopyWorldToCamera, WriteReport,
+    BackToBlender, AddProjector, CopyFacts, CopyK, CopyWorldToCamera, WriteReport,
 )  # fmt: skip
 MENUS = (ModelMenu, TimeMenu, ResultsMenu, ExportMenu, ExamplesMenu, CamerasMenu)
 

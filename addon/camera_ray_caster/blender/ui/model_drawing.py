@@ -12,7 +12,7 @@ from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
 from ..properties.owners import owner_of
 from ..read.camera import shader_mark
 from .add_line import AddGradient, AddLine, SelectLine
-from .cycles_operators import BackToBlender, FitLens, UseInCycles
+from .cycles_operators import AddProjector, BackToBlender, FitLens, UseInCycles
 from .drawing import draw_field, draw_message
 from .lens_operators import draw_lens_file
 from .model_settings import lengths_in_words, not_used, of_type, port_settings, read_settings, settings_of, shown
@@ -74,6 +74,7 @@ def draw_cycles(layout, camera) -> None:
         row.operator(UseInCycles.bl_idname, icon="SHADING_RENDERED")
         if getattr(camera, GROUP).model != BLENDERS_OWN:
             row.operator(FitLens.bl_idname)
+        row.operator(AddProjector.bl_idname, text="", icon="LIGHT_SPOT")
         return
     row.operator(BackToBlender.bl_idname, icon="LOOP_BACK")
     row.operator(UseInCycles.bl_idname, text="", icon="FILE_REFRESH")
