@@ -88,7 +88,8 @@ class LoadCalibration(OfCamera, bpy.types.Operator):
 
     filepath: StringProperty(name="File", description="Path of the calibration file", subtype="FILE_PATH")
     filter_glob: StringProperty(
-        default="*.yml;*.yaml;*.json;*.jsonl;*.xml;*.gz;*.txt;*.bin;*.cameramodel;*.sfm;*.pincam;*.npz;*.npy;*.exr;*.csv;*.obj",
+        default="*.yml;*.yaml;*.json;*.jsonl;*.xml;*.gz;*.txt;*.bin;*.cameramodel;*.sfm;*.pincam;*.npz;*.npy;*.exr;*.csv;*.obj;"
+                "*.pto;*.pts;*.cahv*;*.fspy;*.xmp;*.nvm;*.out;*.toml",
         options={"HIDDEN", "SKIP_SAVE"},
     )
     camera: StringProperty(

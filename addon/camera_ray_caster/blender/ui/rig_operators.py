@@ -21,7 +21,8 @@ class AddCameras(ImportHelper, bpy.types.Operator):
     directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"})
     files: CollectionProperty(type=bpy.types.OperatorFileListElement, options={"HIDDEN", "SKIP_SAVE"})
     filter_glob: StringProperty(
-        default="*.yml;*.yaml;*.json;*.jsonl;*.txt;*.csv;*.bin;*.xml;*.sfm;*.pincam;*.traj",
+        default="*.yml;*.yaml;*.json;*.jsonl;*.txt;*.csv;*.bin;*.xml;*.sfm;*.pincam;*.traj;"
+                "*.cameramodel;*.cahv*;*.fspy;*.xmp;*.nvm;*.out;*.log;*.npy;*.toml",
         options={"HIDDEN", "SKIP_SAVE"},
     )
     below_active: BoolProperty(

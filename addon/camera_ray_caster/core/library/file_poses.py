@@ -8,6 +8,7 @@ import warnings
 import numpy as np
 
 from ..maths.rotations import polar
+from ..programs import program_of
 from ..programs.parts import ray_arrays
 from ..programs.parts.document import Document
 from ..programs.parts.lens import Lens
@@ -35,7 +36,8 @@ def pose_in_file(path: str, lens: Lens, model: str, frame: tuple[int, int]) -> n
     returns None, if the file has several poses of the lens, or bad ones.
     """
     document = Document(path)
-    if document.is_binary or lens.model == ray_arrays.KEY:
+    is_table, program = lens.model == ray_arrays.KEY, program_of(document)
+    if document.is_binary or (is_table and (program is None or program.poses is None)):
         return ray_arrays.pose_in(document)
     try:
         cameras = mounted(path, model, frame, RATE)
@@ -48,7 +50,8 @@ def pose_in_file(path: str, lens: Lens, model: str, frame: tuple[int, int]) -> n
                 f"the poses that {path!r} may have in {entry[1]!r} are not read: give pose=", stacklevel=CALLER
             )
         return None
-    poses = [pose for camera in cameras for own, pose in zip(camera.lenses, camera.poses, strict=False) if own == lens]
+    poses = [pose for camera in cameras for own, pose in zip(camera.lenses, camera.poses, strict=False)
+             if (own.name == lens.name if is_table else own == lens)]  # fmt: skip
     if len(poses) > 1:
         warnings.warn(
             f"the {len(poses)} poses of camera {lens.name!r} in {path!r} are left out: give pose=", stacklevel=CALLER

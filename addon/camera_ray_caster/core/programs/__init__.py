@@ -8,6 +8,7 @@ from . import (
     basalt,
     bop,
     bundler,
+    cahvor,
     camera_path,
     colmap,
     euroc,
@@ -61,8 +62,8 @@ from .parts.program import ProgramFiles, in_words
 
 MODULES = (
     opencv, ros, colmap, nerfstudio, kalibr, euroc, okvis, vins, orbslam, stella, basalt, bop, realsense, mrcal, aria,
-    nvidia, ncore, woodscape, opensfm, maplab, hot3d, metashape, meshroom, realitycapture, openmvg, bundler, nvm,
-    gaussian_splatting, camera_path, llff, open3d, surround360, fspy, polycam, arkitscenes, tum,
+    cahvor, nvidia, ncore, woodscape, opensfm, maplab, hot3d, metashape, meshroom, realitycapture, openmvg, bundler,
+    nvm, gaussian_splatting, camera_path, llff, open3d, surround360, fspy, polycam, arkitscenes, tum,
     kitti, gyroflow, ocam, lensfun, hugin, ptgui, velodyne,
     ouster, hesai, recorded, schops, ray_table, rpc, nerf, euroc_trajectory, stmap,
 )  # fmt: skip

@@ -3,7 +3,8 @@
 The center of the first pixel is (0, 0). mrcal's stereographic lens is the unified camera with xi = 1 and twice the
 focal length; its LONLAT is the equirectangular panorama. An entry that stands twice is refused. Older files have the
 model as distortion_model, DISTORTION_OPENCV8, and words as byte strings. extrinsics are the rotation vector and the
-translation from the world to the camera, x right and y down.
+translation from the world to the camera, x right and y down. A CAHVOR or CAHVORE camera is turned to the axis of its
+distortion: see ``parts.cahvor``.
 Reference: mrcal documentation, Lens models; The .cameramodel file format.
 """
 
@@ -12,7 +13,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator, Sequence
-from math import pi
+from math import cos, pi, sin
 from typing import Any
 from warnings import catch_warnings
 
@@ -21,6 +22,7 @@ import numpy as np
 from ..cameras.parts.settings import LIMIT_ROUNDING
 from ..maths.rotations import half_turn_vector, rotation
 from ..records import InputError
+from .parts.cahvor import lens_of
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import ANGLES, Lens, matrix, matrix_of, word_of
@@ -36,6 +38,7 @@ MODELS = {
     LONLAT: ("EQUIRECTANGULAR", ANGLES),
 }
 
+CAHVOR = re.compile(r"LENSMODEL_CAHVOR(?:E_linearity=([-+.\deE]+))?")
 MARK = re.compile("LENSMODEL_|DISTORTION_[A-Z]")
 """What every file has; DISTORTION_ before mrcal 1.0."""
 PHOTON_VISION = "cameraIntrinsics"
@@ -54,6 +57,8 @@ def looks(document: Document) -> bool:
 def read(document: Document) -> list[Lens]:
     """See ProgramFiles."""
     entries = _entries(document)
+    if (cahvor := _cahvor(document, entries)) is not None:
+        return [cahvor[0]]
     kind = entries.word("lensmodel", MODELS)
     model, terms = MODELS[kind]
     width, height = entries.numbers("imagersize", 2)
@@ -75,7 +80,23 @@ def poses(document: Document) -> list[Placed]:
     numbers = entries.numbers("extrinsics", 6)
     to_camera = np.eye(4)
     to_camera[:3, :3], to_camera[:3, 3] = rotation(np.array([numbers[:3]]))[0], numbers[3:]
-    return [Placed("", "", None, inverted(to_camera))]
+    pose = inverted(to_camera)
+    if (cahvor := _cahvor(document, entries)) is not None:
+        pose[:3, :3] @= cahvor[1]
+    return [Placed("", "", None, pose)]
+
+
+def _cahvor(document: Document, entries: Fields) -> tuple[Lens, np.ndarray] | None:
+    """Return a CAHVOR or CAHVORE lens and its axes in the camera's frame; None of any other."""
+    kind = CAHVOR.fullmatch(entries.text("lensmodel"))
+    if kind is None:
+        return None
+    fx, fy, cx, cy, alpha, beta, *rest = entries.numbers("intrinsics", 9 if kind[1] is None else 12)
+    axis = (sin(alpha) * cos(beta), sin(beta), cos(alpha) * cos(beta))
+    linearity = 1.0 if kind[1] is None else document.numbers([kind[1]], "linearity", 1)[0]
+    rows = [(fx, 0.0, cx), (0.0, fy, cy), (0.0, 0.0, 1.0)]
+    size = document.size(*entries.numbers("imagersize", 2))
+    return lens_of(document, size, rows, axis, rest[:3], rest[3:] or [0.0] * 3, linearity)
 
 
 def _entries(document: Document) -> Fields:
@@ -154,7 +175,8 @@ def _intrinsics(lens: Lens) -> list[float]:
 
 PROGRAM = ProgramFiles(
     "mrcal", ".cameramodel", looks, marks="lensmodel intrinsics extrinsics imagersize",
-    reads="PINHOLE, OPENCV4 to OPENCV12, STEREOGRAPHIC, LONLAT", lost="CAHVOR and splined models are refused",
+    reads="PINHOLE, OPENCV4 to OPENCV12, STEREOGRAPHIC, LONLAT, CAHVOR, CAHVORE",
+    lost="splined models are refused",
     models=MODELS, read=read, poses=poses,
     export=FileWriter(
         "mrcal", "mrcal",

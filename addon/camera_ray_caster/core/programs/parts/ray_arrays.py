@@ -26,7 +26,7 @@ from .lens import Lens
 
 ZIP, NPY = b"PK\x03\x04", b"\x93NUMPY"
 KEY = "RAY_TABLE"
-ENTRIES = 64
+ENTRIES = 128
 """Entries of a table that is computed, along its longer side."""
 
 

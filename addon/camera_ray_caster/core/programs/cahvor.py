@@ -1,0 +1,66 @@
+"""JPL's camera models as text, .cahv, .cahvor and .cahvore: lines NAME = numbers.
+
+C is the place, A the axis, H and V lead to the column and the row; O is the axis of the distortion R, and E that of
+CAHVORE's pupil: see ``parts.cahvor``. Model = CAHVORE1 has the linearity 1, CAHVORE2 0, CAHVORE3,L that of its number.
+The frame of a camera's lens has z along O. Lengths are meters, the file's frame is that of C.
+References: mrcal documentation, CAHVOR models; JPL, the CAHV family of camera models.
+"""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from ..units import METERS
+from .parts.cahvor import lens_of
+from .parts.document import Document
+from .parts.fields import Fields
+from .parts.lens import Lens
+from .parts.placed import Placed, checked
+from .parts.program import ProgramFiles
+
+LINE = re.compile(r"(\w+)\s*=\s*(.*)")
+KIND = re.compile(r"CAHVORE\s*([123])(?:\s*,\s*([-+.\deE]+))?")
+LINEARITY = {"1": 1.0, "2": 0.0}
+
+
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    return _entries(document).has("C", "A", "H", "V") and "{" not in document.text
+
+
+def _entries(document: Document) -> Fields:
+    found = [match for line in document.lines() if (match := LINE.match(line))]
+    return Fields(document, {one[1]: one[2].strip() if one[1] == "Model" else one[2].split() for one in found})
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    return [_lens(document)[0]]
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles: in the frame of the file."""
+    pose = np.eye(4)
+    pose[:3, :3], pose[:3, 3] = _lens(document)[1], _entries(document).numbers("C", 3)
+    return [Placed("", "", None, checked(document, pose, "the frame of its lens"))]
+
+
+def _lens(document: Document) -> tuple[Lens, np.ndarray]:
+    entries = _entries(document)
+    rows = [entries.numbers(name, 3) for name in "HVA"]
+    kind, axis = entries.text("Model"), entries.numbers("O", 3, default=rows[2])
+    radial, pupil = (entries.numbers(name, 3, default=[0.0] * 3) for name in "RE")
+    found = KIND.search(kind)
+    if (found is None) != (not entries.has("E")):
+        raise document.refusal(f"Model is {kind!r}: CAHVORE1, CAHVORE2 or CAHVORE3,L has E, and no other model")
+    told = found[2] and [found[2]] if found and found[1] == "3" else [LINEARITY[found[1]] if found else 1.0]
+    linearity = document.numbers(told, "linearity", 1)[0]
+    return lens_of(document, entries.size("Dimensions"), rows, axis, radial, pupil, linearity)
+
+
+PROGRAM = ProgramFiles(
+    "CAHVOR", ".cahv, .cahvor and .cahvore of JPL", looks, marks="Model Dimensions C A H V O R",
+    reads="CAHV, CAHVOR, CAHVORE", lost="S and covariances", read=read, poses=poses, unit=METERS,
+)  # fmt: skip
