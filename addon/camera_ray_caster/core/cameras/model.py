@@ -6,7 +6,7 @@ the picture is rendered and at what time is the business of ``core.camera``.
 A new model is one file, with a frozen dataclass that inherits ``Model``, and one word in MODELS. It has to give
 ``key``, ``label``, ``description``, ``group``, ``number``, ``FORMULA`` and ``rays``. All else has a default:
 ``from_blender`` reads SETTINGS into the model's fields, ``project`` is a numerical inverse of ``rays``, and ``bounds``
-exclude nothing. A closed form is an improvement, not a duty. One contract test runs over MODELS
+follow from the formula. A closed form is an improvement, not a duty. One contract test runs over MODELS
 (tests/core/cameras/test_model.py), and a test adds a model of 25 lines (tests/blender/add_a_camera).
 
 ``rays`` is arithmetic on two numbers or arrays. It branches on their values only by numpy's ``where``, and leaves out
@@ -38,8 +38,8 @@ from .parts.calibration import FROM_FILE
 from .parts.film import Window
 from .parts.inverse import pixels_of
 from .parts.outline import outline_of
+from .parts.seen_parts import SeenParts, parts_of
 from .parts.settings import Setting
-from .parts.silhouette import everywhere
 from .parts.steps import Firing, Step
 
 NOWHERE, IN_RAYS, IN_CASTS = 0, 1, 2
@@ -78,23 +78,20 @@ class Model(ABC):
     smooth: ClassVar[bool] = True
     """Whether rays are smooth functions of the pixel wherever they exist. If so, the numerical inverse is exact."""
     guarded: ClassVar[bool] = True
-    """Whether ``Camera.project`` checks each pixel by its ray (see ``camera.guard``), which takes 0.9 to 1.3 times the
-    time. It is cleared where rays take longer than their inverse, since they iterate to it, search a path or need
-    sines: with the check, ``project`` would take 1.4 to 6 times the time. Their inverse is checked in a few places of
-    each new camera.
+    """Whether ``Camera.project`` checks each pixel by its ray (see ``camera.guard``), in 0.9 to 1.3 times the time. Not
+    so where rays take longer than their inverse, since they iterate to it, search a path or need sines: it would take
+    1.4 to 6 times the time. Their inverse is checked in a few places of each new camera.
     """
     differentiable: ClassVar[bool] = True
     """Whether pixels are parts of one picture. Otherwise there are no derivatives, no solid angles and no flow."""
     polynomials: ClassVar[int] = NOWHERE
-    """Where polynomials give a whole picture (see ``maths.panels``). IN_RAYS is set for models whose rays take 1.4 to
-    17 times as long without them, and fill most of the picture, or a disc beyond which ``endless`` may continue them.
-    In their casts, which need the components apart, nothing is gained (0.8 to 1.2). IN_CASTS is set if ``rays`` ask
-    for them, too: for parts of the formula that take sines or iterate, and are smooth a little beyond the disc.
+    """Where polynomials give a whole picture (see ``maths.panels``). IN_RAYS: the rays take 1.4 to 17 times as long
+    without them, and fill most of the picture, or a disc beyond which ``endless`` may continue them. Casts, which need
+    the components apart, gain nothing (0.8 to 1.2). IN_CASTS: ``rays`` ask for them, too, for parts of the formula that
+    take sines or iterate, and are smooth a little beyond the disc.
     """
     SETTINGS: ClassVar[tuple[Setting, ...]] = ()
-    """All settings that ``from_blender`` reads, in the order of the panel. Blender's properties, the panel, the copying
-    into the record, the report and the table of models are made from them.
-    """
+    """All settings that ``from_blender`` reads, in the order of the panel: properties, reports and tables follow."""
     BESIDE_FILE: ClassVar[tuple[Setting, ...]] = FROM_FILE
     """The settings that a calibration file leaves as they are; it replaces all others."""
     FORMULA: ClassVar[tuple[Step, ...]]
@@ -140,6 +137,11 @@ class Model(ABC):
         """The record of ``rays``: from x and y to the components of the origin and of the direction."""
         return record(lambda x, y: [component for vector in self.rays(x, y) for component in vector], 2)
 
+    @lazy
+    def seen_parts(self) -> SeenParts:
+        """Parts of the frame by the ranges of the formula."""
+        return parts_of(lambda: self.recorded, self.frame, self.central)
+
     @property
     def disc(self) -> Disc | None:
         """The disc in the picture outside of which there are no rays; None if there is no such disc."""
@@ -165,12 +167,11 @@ class Model(ABC):
         return pixels_of(self.rays, self.frame, points)
 
     def bounds(self, centers, radii) -> np.ndarray:
-        """Return x0, x1, y0, y1, (n, 4): pixels outside of which no point of the balls is seen.
-
-        centers (n, 3) in the camera's frame, radii (n,). Bounds are -inf and inf if a ball may be seen everywhere, NaN
-        if it is seen nowhere. The default is everywhere.
+        """Return x0, x1, y0, y1, (n, 4): pixels outside of which no point of the balls, by centers (n, 3) in the
+        camera's frame and radii (n,), is seen; -inf and inf if it may be seen everywhere, NaN if nowhere.
+        The default follows from the formula; from one that iterates, everywhere.
         """
-        return everywhere(len(radii))
+        return self.seen_parts.bounds(centers, radii)
 
     def aperture(self, raw: BlenderCamera, pose: Pose) -> Aperture | None:
         """Return the aperture, which lets in rays besides the chief rays; None if there are only chief rays.

@@ -14,14 +14,17 @@ T. Schöps et al., Why having 10,000 parameters in your camera model is better t
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from ..conventions import gamma
 from ..maths.recording import is_recorded, look_up, vector
 from ..maths.recording.scalars import plain
-from ..maths.vector import norm
+from ..maths.speed import taken
+from ..maths.vector import is_grid, norm
 from ..records import BlenderCamera, InputError, Raster
 from .model import Model, Step
 from .parts.calibration import FROM_FILE
@@ -170,14 +173,15 @@ class RayTable(Model):
             inside = inside & (look_up(grid.has_ray, _whole(near_v * columns + near_u)) > 0)
         column, row = np.clip(np.floor(u), -1, columns - 1), np.clip(np.floor(v), -1, rows - 1)
         across, up = weights_of(u - column, grid.kind), weights_of(v - row, grid.kind)
+        column, spread = _shared(column, row)
         first, wide = AROUND - (grid.kind != LINEAR), columns + 2 * AROUND
         corner, taps = _whole((row + first) * wide + (column + first)), range(len(across))
         own = corner + (AROUND - first) * (wide + 1)
         total = []
         for entries in grid.columns:
             base = look_up(entries, own)
-            beside = ((look_up(entries, corner + (k * wide + i)) - base for k in taps) for i in taps)
-            total.append(base + _sum(across, (_sum(up, column) for column in beside)))
+            beside = (_sum(up, (look_up(entries, corner + (k * wide + i)) - base for k in taps)) for i in taps)
+            total.append(spread(base) + _sum(across, map(spread, beside)))
         return inside, total
 
     def project(self, points):
@@ -190,9 +194,9 @@ class RayTable(Model):
         return pixels.reshape(*points.shape[:-1], 2)
 
     def bounds(self, centers, radii):
-        """See Model: those of the blocks of entries whose rays may meet the balls."""
+        """See Model: those of the parts of the table whose rays may meet the balls."""
         (a, c), (b, d) = self.scale, self.shift
-        places = self.grid.bounds(centers, radii)
+        places = self.grid.seen_parts.bounds(centers, radii)
         return (places - (b, b, d, d)) / (a, a, c, c) + (-MARGIN, MARGIN, -MARGIN, MARGIN)
 
     @property
@@ -235,6 +239,16 @@ class RayTable(Model):
 
 def _is_within(place, count: int, margin: float):
     return (place >= margin - BESIDE) & (place <= count - 1 - margin + BESIDE)
+
+
+def _shared(column, row) -> tuple[Any, Callable]:
+    """Return columns whose values at the rows are needed, and a function that gives those of ``column`` from theirs:
+    the pixels of a picture that lie in one cell share what does not depend on their place in it.
+    """
+    if is_recorded(column, row) or np.ndim(column) != 2 or not is_grid(column, row):
+        return column, lambda values: values
+    some, place = np.unique(column, return_inverse=True)
+    return some[None], lambda values: taken(values, place.ravel())
 
 
 def _whole(number):

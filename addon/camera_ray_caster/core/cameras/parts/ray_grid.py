@@ -6,18 +6,17 @@ of the numbers is NaN, there is no ray. Directions are interpolated as unit vect
 
 from __future__ import annotations
 
-from itertools import pairwise
+import math
 
 import numpy as np
 
 from ...conventions import EPS32
 from ...maths.recording import Entries
 from ...maths.speed import lazy
-from ...maths.vector import components
 from ...memory import require
 from ...records import InputError
 from .extended import WIDE, control_points, extended
-from .silhouette import MARGIN, angular_radius
+from .seen_parts import PARTS, SeenParts
 
 CUBIC, LINEAR, SPLINE = "CUBIC", "LINEAR", "SPLINE"
 """Kinds of interpolation: a cubic spline through the entries, straight lines between them, and a cubic B-spline whose
@@ -32,12 +31,6 @@ FOLDED = 8 * EPS32
 
 BYTES_PER_NUMBER = 64
 """Memory that a number of a table takes while it is prepared."""
-
-BLOCKS = 16
-"""Blocks of cells on each axis for the bounds. 32: tighter by less than a block's width, and four times the time."""
-
-BALLS = 256
-"""Number of balls bounded at once, some hundred kilobytes each."""
 
 
 class RayGrid:
@@ -168,49 +161,28 @@ class RayGrid:
         return angle.max(), np.linalg.norm(found[:, 3:] - own[:, 3:], axis=1).max(initial=0.0)
 
     @lazy
-    def _blocks(self) -> tuple[np.ndarray, ...]:
-        """Blocks of cells: u0, u1, v0, v1 in entries, (b, 4); the middle of the directions (b, 3) and the angle (b,)
-        within which all of them lie; the middle of the origins (b, 3) and the distance (b,) within which they lie.
+    def seen_parts(self) -> SeenParts:
+        """Parts of cells, or blocks of cells, in entries, by their rays.
 
-        Interpolated vectors are weighted means of those that the interpolation reads, with positive weights.
+        Interpolated vectors are means, with positive weights, of the nodes that the interpolation reads: parts of cells
+        have nodes of their own.
         """
-        found = []
-        rows, columns = (np.unique(np.linspace(-1, side, BLOCKS + 1).round().astype(int)) for side in self.shape)
-        for v0, v1 in pairwise(rows):
-            for u0, u1 in pairwise(columns):
-                if self.known[max(v0, 0) : v1 + 1, max(u0, 0) : u1 + 1].any():
-                    window = self.nodes[v0 + 1 : v1 + AROUND + 2, u0 + 1 : u1 + AROUND + 2]
-                    read = window.reshape(-1, window.shape[2])
-                    middle = read.mean(axis=0)
-                    off = read - middle
-                    spread = np.sqrt((off[:, :3] ** 2).sum(axis=1)).max()
-                    size = np.sqrt((middle[:3] ** 2).sum())
-                    half = np.arcsin(spread / size) if spread < size else np.pi
-                    reach = np.sqrt((off[:, 3:] ** 2).sum(axis=1)).max(initial=0.0)
-                    eye = middle[3:] if len(middle) == 6 else np.zeros(3)
-                    found.append((u0, u1, v0, v1, *middle[:3], half, *eye, reach))
-        table = np.array(found, np.float64)
-        return table[:, :4], table[:, 4:7], table[:, 7], table[:, 8:11], table[:, 11]
-
-    def bounds(self, centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
-        """Return u0, u1, v0, v1 (n, 4) in entries: blocks of cells outside of which no ray meets the balls, by centers
-        (n, 3) and radii (n,); NaN where no block's rays do.
-        """
-        places, ahead, half, eyes, reach = self._blocks
-        result = np.full((len(radii), 4), np.nan)
-        for first in range(0, len(radii), BALLS):
-            part = slice(first, first + BALLS)
-            beside = components(centers[part, None] - eyes)
-            radius = radii[part, None] + reach
-            distance = np.sqrt(sum(axis * axis for axis in beside))
-            along = sum(axis * own for axis, own in zip(beside, ahead.T, strict=True))
-            across = np.sqrt(np.maximum(distance * distance * (ahead * ahead).sum(axis=1) - along * along, 0.0))
-            met = np.arctan2(across, along) <= half + angular_radius(distance, radius) + MARGIN * EPS32
-            met |= distance <= radius * (1 + EPS32)
-            some = met.any(axis=1)
-            for k, (end, least) in enumerate(((np.inf, np.min), (-np.inf, np.max)) * 2):
-                result[part, k] = np.where(some, least(np.where(met, places[:, k], end), axis=1), np.nan)
-        return result
+        nodes, known = self.nodes, np.pad(self.known, 1)
+        if self.kind == LINEAR:
+            nodes = nodes[1:-1, 1:-1]
+        places, scales = [], []
+        for side in self.shape:  # rows, then columns: each step turns the table
+            finer = max(0, math.ceil(math.log2(PARTS / (side + 1))))
+            for _ in range(finer):
+                nodes = _finer(nodes, self.kind)
+            cells = (side + 1) << finer
+            places.append(np.unique(np.linspace(0, cells, min(cells, 2 * PARTS) + 1).astype(int)))
+            scales.append(0.5**finer)
+            nodes, known = nodes.swapaxes(0, 1), (known[1:] | known[:-1]).repeat(1 << finer, axis=0).swapaxes(0, 1)
+        low, high = (_blocks(end, nodes, known, places) for end in (np.fmin, np.fmax))
+        v, u = (np.stack((place[:-1], place[1:]), axis=1) * scale - 1
+                for place, scale in zip(places, scales, strict=True))  # fmt: skip
+        return SeenParts(low, high, np.concatenate(np.broadcast_arrays(u[None], v[:, None]), axis=2))
 
 
 def nodes_of(values: np.ndarray, known: np.ndarray, kind: str) -> np.ndarray:
@@ -218,6 +190,30 @@ def nodes_of(values: np.ndarray, known: np.ndarray, kind: str) -> np.ndarray:
     wide = extended(values, known, 1 if kind == LINEAR else 2)
     kept = slice(WIDE - AROUND, AROUND - WIDE)
     return (control_points(wide) if kind == CUBIC else wide)[kept, kept]
+
+
+def _finer(nodes: np.ndarray, kind: str) -> np.ndarray:
+    """Return the nodes of the halves of cells along the first axis: the same curve."""
+    middle = (nodes[1:] + nodes[:-1]) / 2
+    finer = np.empty((2 * len(nodes) - (1 if kind == LINEAR else 3), *nodes.shape[1:]))
+    if kind == LINEAR:
+        finer[::2], finer[1::2] = nodes, middle
+    else:  # E. Catmull and J. Clark, Recursively Generated B-Spline Surfaces, CAD 10 (1978)
+        finer[::2], finer[1::2] = middle, (middle[1:] + middle[:-1] + 2 * nodes[1:-1]) / 4
+    return finer
+
+
+def _blocks(end: np.ufunc, nodes: np.ndarray, known: np.ndarray, places: list[np.ndarray]) -> np.ndarray:
+    """Return the least or largest components of what blocks of cells read; NaN for blocks without rays."""
+    for axis, place in enumerate(places):
+        turned = nodes.swapaxes(0, axis)
+        width = len(turned) - place[-1] + 1
+        turned = end.reduce([turned[k : len(turned) - width + 1 + k] for k in range(width)])
+        nodes = turned.swapaxes(0, axis)
+    nodes = np.where(known[..., None], nodes, np.nan)
+    for axis, place in enumerate(places):
+        nodes = end.reduceat(nodes, place[:-1], axis=axis)
+    return nodes
 
 
 def weights_of(t, kind: str) -> tuple:

@@ -48,7 +48,7 @@ def places_of(grid: RayGrid, points: np.ndarray) -> np.ndarray:
         own[:] = _search(grid, part, near[0])
         for start in near[1:TRIES]:
             lost = np.flatnonzero(np.isnan(own[:, 0]))
-            lost = lost[~np.isnan(grid.bounds(part[lost], np.zeros(len(lost)))[:, 0])]
+            lost = lost[~np.isnan(grid.seen_parts.bounds(part[lost], np.zeros(len(lost)))[:, 0])]
             if not len(lost):
                 break
             own[lost] = _search(grid, part[lost], start[lost])
