@@ -1,10 +1,14 @@
 """The aperture of real lenses: the stop, the light of a white wall, and where what is blurred is sought."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import camera_ray_caster as crc
 from camera_ray_caster.core.casting.pixel_bounds import CameraPixelBounds
+from camera_ray_caster.core.lenses.optics import Optics
+from camera_ray_caster.core.lenses.read import read_lens
 from camera_ray_caster.core.lenses.trace import trace
 from camera_ray_caster.core.report.accuracy import Accuracy
 from camera_ray_caster.core.report.report import report_cast
@@ -142,3 +146,37 @@ def test_what_is_sharp_is_sought_in_as_few_pixels_as_with_a_thin_lens():
     real, thin = (crc.camera(model, SIZE, **settings).aperture for model in ("REAL_LENS", "PERSP"))
     ball = np.array([[0.0, 0.0, -10.0]]), np.array([0.1])
     assert real.blur(*ball, False) < thin.blur(*ball, True)
+
+
+def test_red_green_and_blue_pass_the_glass_with_their_own_indices():
+    """Each ray is that of a lens for its wavelength, with the film where it stands."""
+    settings = {"use_dof": True, "aperture_fstop": 4.0, "focus_distance": 5.0}
+    camera, plain = (crc.camera("REAL_LENS", SIZE, lens_color=color, **settings) for color in (True, False))
+    rng = np.random.default_rng(3)
+    x, y = rng.uniform(0, SIZE[0], 300), rng.uniform(0, SIZE[1], 300)
+    point = camera.aperture.points(*rng.random((2, 300)))
+    with np.errstate(invalid="ignore"):
+        _, ours = camera.model.through(camera.aperture, None, x, y, point)
+    light = np.stack(np.broadcast_arrays(*camera.model.light(camera.aperture, x, y, point)))
+    model, lens = plain.model, read_lens("double_gauss_50mm")
+    total = plain.model.light(plain.aperture, x, y, point)
+    np.testing.assert_allclose(light.sum(axis=0), 3 * total, rtol=1e-15)
+    for k, wavelength in enumerate((610.0, 546.0, 450.0)):
+        mine = light[k] > 0
+        assert 85 < mine.sum() < 115  # a third of them
+        colored = replace(model, optics=Optics.of(lens, wavelength))
+        with np.errstate(invalid="ignore"):
+            _, theirs = colored.through(plain.aperture, None, x[mine], y[mine], tuple(part[mine] for part in point))
+        # the disc stands in the plane of the pupil for the d line in both
+        np.testing.assert_allclose(np.stack(ours)[:, mine], np.stack(theirs), rtol=0, atol=1e-15)
+
+
+def test_colors_of_a_white_wall_are_white_and_files_without_dispersion_have_none():
+    settings = {"use_dof": True, "focus_distance": 5.0, "lens_color": True}
+    tessar = {"lens_file": "tessar_100mm", "aperture_fstop": 8.0, "sensor_width": 18.0}
+    camera = crc.camera("REAL_LENS", (9, 9), **tessar, **settings)
+    image = crc.cast(camera, WALL, passes=("combined",), samples=96)["combined"]
+    plain = crc.cast(crc.camera("PERSP", (9, 9), lens=100.0, sensor_width=18.0), WALL, passes=("combined",))["combined"]
+    # n samples of which a third counts three times: a standard error of sqrt(2 / n)
+    np.testing.assert_allclose((image / plain)[..., :3].mean(axis=(0, 1)), 1.0, atol=0.02 + 3 * (2 / (96 * 81)) ** 0.5)
+    assert crc.camera("REAL_LENS", SIZE, lens_file="retrofocus_22mm", **settings).aperture.colors == ()

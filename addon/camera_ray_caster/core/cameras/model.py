@@ -188,8 +188,8 @@ class Model(ABC):
         return aperture.through(*chief, self.planar, *point)
 
     def light(self, aperture: Aperture, x, y, point: tuple[Any, Any]):
-        """Return the light of a pixel's ray through a point of the aperture, relative to the middle of the picture; if
-        it is not None, the default, rays without a direction are dark: the lens is in their way.
+        """Return the light of a pixel's ray through a point of the aperture, relative to the middle of the picture, a
+        number or three of red, green and blue; if it is not None, the default, rays without a direction are dark.
         """
         return None
 

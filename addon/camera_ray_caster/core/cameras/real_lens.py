@@ -14,7 +14,7 @@ W. Smith, Modern Optical Engineering, 4th ed. (2008).
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -34,9 +34,9 @@ from .parts.aperture import F_STOP, FOCUS_DISTANCE, Aperture, focus_of, thin_len
 from .parts.chief_search import ChiefSearch
 from .parts.differences import varied_by
 from .parts.film import FILM, LENS, Film, Window
-from .parts.lens_settings import FALLOFF, FOCUS, LENS_FILE, PARAXIAL, STATE, VIGNETTING, WAVELENGTH
+from .parts.lens_settings import COLOR, COLORS, FALLOFF, FOCUS, LENS_FILE, PARAXIAL, STATE, VIGNETTING, WAVELENGTH
 from .parts.pose import pose_from
-from .parts.pupil import Pupil, from_film, light_of, measured
+from .parts.pupil import Pupil, color_of, from_film, light_of, measured, of_color
 from .parts.silhouette import pixel_bounds, radial_intervals
 
 MILLIMETER = 1e-3
@@ -80,7 +80,7 @@ class RealLens(WindowModel):
     central = False
     polynomials = IN_RAYS  # 0.1 of the time of a whole picture's rays
     SETTINGS = (
-        LENS_FILE, LENS, FOCUS, FOCUS_DISTANCE, F_STOP, STATE, WAVELENGTH, VIGNETTING, FALLOFF, *FILM,
+        LENS_FILE, LENS, FOCUS, FOCUS_DISTANCE, F_STOP, STATE, WAVELENGTH, VIGNETTING, FALLOFF, COLOR, *FILM,
     )  # fmt: skip
     FORMULA = (
         Step(
@@ -196,20 +196,35 @@ class RealLens(WindowModel):
         wide = float(self.radius * abs(self.optics.entrance_pupil[1]) * self.unit)
         pupil = Pupil(wide, thin.focus, thin.blades, thin.rotation, thin.ratio)
         numbers = float(self.radius), float(self.unit), self._corner
-        return measured(self.optics, float(self.film), self.chief, pupil, *numbers)
+        pupil = measured(self.optics, float(self.film), self.chief, pupil, *numbers)
+        return replace(pupil, colors=self._colors) if COLOR.read(raw) else pupil
+
+    @property
+    def _colors(self) -> tuple[tuple[float, ...], ...]:
+        """Return the indices of COLORS before the lens and behind each surface; empty if they are all the same."""
+        if self.prescription is None:
+            return ()
+        rows = (self.prescription.at(length).rows for length in COLORS)
+        media = tuple(zip(*((row.index for row in each) for each in rows), strict=True))
+        before = self.prescription.before
+        return ((before, before, before), *media) if any(len(set(indices)) > 1 for indices in media) else ()
 
     def through(self, aperture: Any, chief, x, y, point):
         """See Model: through a point of the disc in the exit pupil. No light passes where the direction's x is NaN."""
         a, b = self.window.plane_from_pixels(x, y)
         place = tuple(part / aperture.radius for part in point)
-        (ox, oy, oz), direction = from_film(self.optics, self.film, self.chief, aperture, a, b, place)
+        color = color_of(x, y) if aperture.colors else None
+        (ox, oy, oz), direction = from_film(self.optics, self.film, self.chief, aperture, a, b, place, color)
         return (ox * self.unit, oy * self.unit, self._depth(oz)), direction
 
     def light(self, aperture: Any, x, y, point):
         """See Model."""
         a, b = self.window.plane_from_pixels(x, y)
         place = tuple(part / aperture.radius for part in point)
-        return light_of(self.film, self.chief, aperture, (a, b), place, self.falls_off, self.vignetting)
+        value = light_of(self.film, self.chief, aperture, (a, b), place, self.falls_off, self.vignetting)
+        if not aperture.colors:
+            return value
+        return tuple(of_color(color_of(x, y), np.eye(3)[k]) * (3 * value) for k in range(3))
 
     def remark(self, raw: BlenderCamera) -> str:
         """See Model."""

@@ -47,16 +47,18 @@ def _write_missed(name: str, values: HitValues, out: np.ndarray, everywhere: boo
 
 
 def add_combined(hits: Hits, total: np.ndarray, light) -> None:
-    """Add the combined pass to a sum, (rows, columns, 4). ``light``, a number or an array that broadcasts to the rays,
-    multiplies its colors; rays without a direction are then black and opaque, since the lens is in their way.
+    """Add the combined pass to a sum, (rows, columns, 4). ``light``, an array that broadcasts to the rays or three of
+    red, green and blue, multiplies its colors; rays without a direction are then black and opaque, since the lens is in
+    their way.
     """
-    light = None if light is None else np.broadcast_to(light, total.shape[:2])
+    parts = light if isinstance(light, tuple) else (light,)
+    lights = None if light is None else np.stack([np.broadcast_to(part, total.shape[:2]) for part in parts], axis=-1)
     for window, block in hits.blocks():
         part = total[window]
         once = hits.rays.scratch("once", part.shape, np.float64)
         store(block, {"combined": once})
-        if light is not None:
+        if lights is not None:
             dark = np.broadcast_to(np.isnan(block.rays.direction[0]), part.shape[:2])
-            once[..., :3] *= np.where(dark, 0.0, light[window])[..., None]
+            once[..., :3] *= np.where(dark[..., None], 0.0, lights[window])
             once[..., 3][dark] = 1.0
         part += once

@@ -23,7 +23,9 @@ NEWTON_STEPS = 5
 
 @dataclass(frozen=True)
 class LensSurface:
-    """A surface in its place; the indices are those on the scene's and on the film's side."""
+    """A surface in its place; the indices are those on the scene's and on the film's side, numbers or an array of one
+    for each ray.
+    """
 
     z: float
     curvature: float
@@ -79,9 +81,10 @@ def trace(surfaces: Sequence[LensSurface], origin, direction, to_film: bool, cli
         if clip and surface.rim < np.inf:
             within = x * x + y * y <= surface.rim * surface.rim
             passes = within if passes is None else passes & within
-        if surface.before == surface.behind:
+        before, behind = surface.before, surface.behind
+        if before is behind or (isinstance(before, float) and isinstance(behind, float) and before == behind):
             continue
-        ratio = surface.before / surface.behind if to_film else surface.behind / surface.before
+        ratio = before / behind if to_film else behind / before
         dx, dy, dz = _refracted((dx, dy, dz), _normal(surface, x, y, height, side), ratio)
     if passes is not None:
         dx = np.where(passes, dx, np.nan)

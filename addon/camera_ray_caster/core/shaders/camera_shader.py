@@ -136,7 +136,7 @@ def camera_shader(
         y=y,
         o=texts[:3],
         d=texts[3:6],
-        light="".join(f"\n        throughput = {text};" for text in texts[6:]),
+        light=f"\n        throughput = color({', '.join(texts[6:])});" if texts[6:] else "",
     )
     said = " ".join(map(str, sorted(inputs.used)))
     values = {**{name: float(value) for name, value in frame.items()}, **own}
@@ -145,8 +145,8 @@ def camera_shader(
 
 
 def ray_record(camera: Camera) -> Record:
-    """Return the record of a ray, origin and direction in the camera's frame, as a function of pixel and aperture. A
-    seventh number is its light, if that is not the same for all rays.
+    """Return the record of a ray, origin and direction in the camera's frame, as a function of pixel and aperture. One
+    or three more numbers are its light, if that is not the same for all rays.
 
     Its four inputs are the pixel coordinates x and y, and a point of the aperture in radii, or for a hole two numbers
     in [0, 1). The fields of the model are parameters.
@@ -164,7 +164,8 @@ def ray_record(camera: Camera) -> Record:
             point = opening.points(across, up) if opening.is_hole else lens
             origin, direction = model.through(opening, (origin, direction), x, y, point)
             carried = model.light(opening, x, y, point)
-            return *origin, *direction, *(() if carried is None else (carried,))
+            lights = carried if isinstance(carried, tuple) else () if carried is None else (carried,)
+            return *origin, *direction, *lights
         return *origin, *direction
 
     return record(ray, 4)

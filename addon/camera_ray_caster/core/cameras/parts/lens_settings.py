@@ -25,6 +25,12 @@ WAVELENGTH = Number(
     "lens_wavelength", "Wavelength", "Of the light, in nm, if the file has the dispersion of its glasses", D_LINE,
     350.0, 1100.0,
 )  # fmt: skip
+COLOR = Flag(
+    "lens_color", "Chromatic Aberration", "With depth of field, trace red, green and blue light (610, 546 and 450 nm) "
+    "apart, if the file has the dispersion of its glasses; it takes three times as many samples", False,
+)  # fmt: skip
+COLORS = 610.0, 546.0, 450.0
+"""Wavelengths of red, green and blue light in nm."""
 VIGNETTING = Flag(
     "lens_vignetting", "Vignetting", "Rays that a rim stops are dark; otherwise the others make up for them", True
 )

@@ -9,6 +9,7 @@ References: C. Kolb, D. Mitchell, P. Hanrahan, A Realistic Camera Model for Comp
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -60,6 +61,9 @@ class Pupil(Aperture):
     """Mean of cos^4 of the angle at the film, of the rays that pass on the axis."""
     corner: float = np.inf
     """Radius on the film to which ``passing`` goes, mm of the lens."""
+    colors: tuple[tuple[float, ...], ...] = ()
+    """Indices of red, green and blue light before the lens and behind each surface; empty if they are not traced apart.
+    """
     apart: float = np.inf
     """Largest distance of a ray's line from the origin of the pixel's chief ray, Blender units."""
     spread: tuple[float, ...] = ()
@@ -85,11 +89,25 @@ class Pupil(Aperture):
         return blur + far * np.array(self.spread)[np.minimum(place, RADII - 1)]
 
 
-def from_film(optics: Optics, film: float, chief: ChiefRays, pupil: Pupil, a, b, point):
+def color_of(x, y):
+    """Return a number from 0 to 3 for samples at pixel coordinates: below 1 they are red, below 2 green. It changes by
+    an irrational number from sample to sample of a pixel, which spreads them evenly.
+    """
+    place = 7.236 * x + 5.412 * y
+    return 3 * (place - np.floor(place))
+
+
+def of_color(color, values):
+    """Return that of three numbers which belongs to the color of each ray."""
+    red, green, blue = values
+    return red if red == green == blue else np.where(color < 1, red, np.where(color < 2, green, blue))
+
+
+def from_film(optics: Optics, film: float, chief: ChiefRays, pupil: Pupil, a, b, point, color=None):
     """Return origin and direction of rays before the lens, in the lens frame.
 
-    a, b: the picture's place on the film, upright, mm of the lens. point: of the unit disc. NaN in the direction's x of
-    rays that do not pass.
+    a, b: the picture's place on the film, upright, mm of the lens. point: of the unit disc. color: as of ``color_of``;
+    None for the wavelength of ``optics``. NaN in the direction's x of rays that do not pass.
     """
     plane, crossing = pupil.plane, chief.crossing(a * a + b * b)
     across, up = (-place * crossing + pupil.disc * part for place, part in zip((a, b), point, strict=True))
@@ -97,13 +115,19 @@ def from_film(optics: Optics, film: float, chief: ChiefRays, pupil: Pupil, a, b,
     direction = side * (across + a), side * (up + b), side * (plane - film)
     length = np.sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2])
     dx, dy, dz = (part / length for part in direction)
-    return trace(_with_stop(optics, pupil.stop_radius)[::-1], (-a, -b, film), (dx, dy, dz), to_film=False)
+    return trace(_surfaces(optics, pupil, color)[::-1], (-a, -b, film), (dx, dy, dz), to_film=False)
 
 
-def _with_stop(optics: Optics, radius: float) -> tuple[LensSurface, ...]:
+def _surfaces(optics: Optics, pupil: Pupil, color) -> list[LensSurface]:
+    """Return the surfaces with the pupil's stop, and with the indices for a color."""
     surfaces = list(optics.surfaces)
-    surfaces[optics.stop] = replace(surfaces[optics.stop], rim=radius)
-    return tuple(surfaces)
+    surfaces[optics.stop] = replace(surfaces[optics.stop], rim=pupil.stop_radius)
+    if color is None:
+        return surfaces
+    media = [of_color(color, pupil.colors[0])]
+    for before, values in pairwise(pupil.colors):
+        media.append(media[-1] if values == before else of_color(color, values))
+    return [replace(each, before=media[k], behind=media[k + 1]) for k, each in enumerate(surfaces)]
 
 
 def measured(
