@@ -41,7 +41,9 @@ def picture(scene: str, width: int, height: int) -> Image.Image:
     bpy.ops.wm.open_mainfile(filepath=str(SCENES / f"{scene}.blend"))
     current = bpy.context.scene
     current.render.resolution_x, current.render.resolution_y = width, height
-    linear = crc.cast(crc.read_camera(current), crc.read_shapes(current), ("combined",), samples=SAMPLES)["combined"]
+    linear = crc.cast(crc.read_camera(current), crc.read_shapes(current), passes=("combined",), samples=SAMPLES)[
+        "combined"
+    ]
     straight = linear[..., :3] / np.maximum(linear[..., 3:], np.finfo(np.float32).tiny)
     pixels = np.dstack([encoded(straight), linear[..., 3]]).clip(0, 1)
     return Image.fromarray(np.uint8(255 * pixels[::-1] + 0.5))

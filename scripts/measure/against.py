@@ -107,7 +107,7 @@ def _cast(size, passes, model, **fields) -> Callable:
         fields = {{"center": "centre", "color": "colour"}.get(name, name): values for name, values in fields.items()}
     shapes = Shapes(object_index=index, material_index=index, name_index=index, **fields)
     camera = _camera(size, model)
-    return lambda **options: cast(camera, shapes, passes, **{"threads": 2} | options)
+    return lambda **options: cast(camera, shapes, passes=passes, **{"threads": 2} | options)
 
 
 def spheres(count: int, passes, size, model: str = "PERSP") -> Callable:

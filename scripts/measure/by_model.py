@@ -60,8 +60,8 @@ def run(width: int, height: int, rounds: int, threads: int) -> list[dict]:
             "fill": lambda one=one: there[: 1 if one.model.central else 2].fill(1.0),
             "full": lambda one=one: [np.full(own.shape, 1.0) for own in there[: 1 if one.model.central else 2]],
             "rays": one.rays,
-            "pinhole": lambda: cast(pinhole, shapes, c.PASSES, threads=threads),
-            "cast": lambda one=one: cast(one, shapes, c.PASSES, threads=threads),
+            "pinhole": lambda: cast(pinhole, shapes, passes=c.PASSES, threads=threads),
+            "cast": lambda one=one: cast(one, shapes, passes=c.PASSES, threads=threads),
         }
         times = {entry: [] for entry in entries}
         for turn in range(rounds + 1):

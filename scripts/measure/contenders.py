@@ -53,7 +53,7 @@ def ours(passes, threads: int) -> Callable:
     """Return the contender of this caster: from camera and shapes to finished float32 arrays."""
 
     def prepare(camera, shapes):
-        return lambda: cast(camera, shapes, passes, threads=threads)
+        return lambda: cast(camera, shapes, passes=passes, threads=threads)
 
     return prepare
 

@@ -53,7 +53,7 @@ def run(camera, shapes, passes, threads: int, rounds: int) -> list[dict]:
 
     def ours(wanted):
         began = perf_counter()
-        cast(camera, shapes, wanted, threads=threads)
+        cast(camera, shapes, passes=wanted, threads=threads)
         return perf_counter() - began
 
     def cycles():

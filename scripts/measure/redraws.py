@@ -54,7 +54,7 @@ def _least(camera: Camera, shapes, rounds: int, threads: int) -> float:
     times = []
     for _ in range(rounds):
         began = process_time()
-        cast(camera, shapes, ("combined",), np.float32, threads=threads)
+        cast(camera, shapes, passes=("combined",), dtype=np.float32, threads=threads)
         times.append(1e3 * (process_time() - began))
     return min(times)
 

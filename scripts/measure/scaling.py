@@ -34,16 +34,16 @@ def run(rounds: int, threads: int, quick: bool) -> list[dict]:
     print(f"  {'':>12}{'shapes':>11}{'pixels':>13}{'ms':>10}{'ns a pixel':>12}{'memory beside, MB':>19}")
     for what, count, width, height, scene in cases:
         camera, shapes = scene(count, width, height)
-        cast(camera, shapes, PASSES, threads=threads)
+        cast(camera, shapes, passes=PASSES, threads=threads)
         times = []
         for _ in range(rounds):
             began = perf_counter()
-            images = cast(camera, shapes, PASSES, threads=threads)
+            images = cast(camera, shapes, passes=PASSES, threads=threads)
             times.append(1e3 * (perf_counter() - began))
         del images
         release()
         tracemalloc.start()
-        images = cast(camera, shapes, PASSES, threads=threads)
+        images = cast(camera, shapes, passes=PASSES, threads=threads)
         beside = tracemalloc.get_traced_memory()[1] - sum(image.nbytes for image in images.values())
         tracemalloc.stop()
         del images

@@ -60,7 +60,7 @@ def expected(scene, name, **keywords):
 
     found = read_scene(scene, **keywords, passes=[name])
     camera = found.camera
-    image = cast(camera, found.shapes, [name])[name].astype(np.float32)
+    image = cast(camera, found.shapes, passes=[name])[name].astype(np.float32)
     if name == "depth":
         image[np.isinf(image)] = FAR
     return image.reshape(*camera.raster.shape, -1)

@@ -48,7 +48,7 @@ def test_passes_that_do_not_fit_are_refused_with_what_they_take_and_what_is_ther
     with pytest.raises(
         InputError, match=r"^the passes of 65536 x 65536 pixels take [\d.]+ GiB of memory and 1 GiB .*\(Ctrl B"
     ):
-        cast(camera_from(WHOLE), BALL, passes)
+        cast(camera_from(WHOLE), BALL, passes=passes)
 
 
 @pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
@@ -65,7 +65,7 @@ def test_times_of_an_image_that_do_not_fit_are_refused_border_or_not(little):
 
 def test_a_border_of_what_does_not_fit_is_cast_as_the_part_that_it_is(little):
     camera = camera_from(BORDER)
-    found = cast(camera, BALL, ("shape_index", "depth"), np.float64)
+    found = cast(camera, BALL, passes=("shape_index", "depth"), dtype=np.float64)
     assert found["depth"].shape == (65, 65)
     raster = camera.raster
     assert (raster.x0, raster.y0) == (32768, 16384)

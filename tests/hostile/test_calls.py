@@ -145,6 +145,6 @@ def test_all_calls_end_well_or_in_one_line(blender):
 def test_every_pass_is_named_where_one_is_not_known(blender):
     scene = scene_of(blender)
     with pytest.raises(crc.InputError) as refused:
-        crc.cast(crc.read_camera(scene), crc.read_shapes(scene), "depht")
+        crc.cast(crc.read_camera(scene), crc.read_shapes(scene), passes="depht")
     assert "'depht'" in str(refused.value)
     assert all(name in str(refused.value) for name in PASSES)

@@ -93,7 +93,7 @@ COLUMNS = "range", "true_range", "time", "ring", "column", "instance", "category
     ],
 )  # fmt: skip
 def test_other_programs_read_the_fields_of_points(read, tmp_path, key, kind, axes, digits):
-    (path,) = crc.save_points(key, CLOUD, tmp_path / "points", axes=axes)
+    (path,) = crc.save_points(CLOUD, tmp_path / "points", key, axes=axes).paths
     found = read(kind, path)
     seen = np.isfinite(found["x"])
     order: object = slice(None)
@@ -112,7 +112,7 @@ def test_other_programs_read_the_fields_of_points(read, tmp_path, key, kind, axe
 
 
 def test_laspy_reads_the_points_and_their_extra_dimensions(read, tmp_path):
-    (path,) = crc.save_points("las", CLOUD, tmp_path / "points", axes="world")
+    (path,) = crc.save_points(CLOUD, tmp_path / "points", "las", axes="world").paths
     found = read("las", path)
     for k, name in enumerate("xyz"):
         assert np.abs(found[name] - CLOUD.world[:, k]).max() < 0.5001e-4

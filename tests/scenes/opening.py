@@ -22,7 +22,7 @@ def look(scene, frame=None):
     from camera_ray_caster.blender.read.scene import read_camera, read_shapes
 
     camera, shapes = read_camera(scene, frame=frame), read_shapes(scene, frame=frame)
-    return camera, shapes, cast(camera, shapes, PASSES, dtype=np.float64)
+    return camera, shapes, cast(camera, shapes, passes=PASSES, dtype=np.float64)
 
 
 def rendered(bpy, path):

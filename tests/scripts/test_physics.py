@@ -59,7 +59,7 @@ def test_each_way_to_a_frame_leads_to_the_same_frame(blender, command, file, tmp
     assert run("--frames", "1:16", out="whole").returncode == 0
     picture = "physics_{:04}.npz".format
     here, there = simulated(blender, file, 16)
-    images = crc.cast(here.camera, here.shapes, ("position", "shape_index"))
+    images = crc.cast(here.camera, here.shapes, passes=("position", "shape_index"))
     with np.load(tmp_path / "whole" / picture(16)) as whole:
         assert (whole["shape_index"] >= 0).any()
         assert all(np.array_equal(whole[name], images[name]) for name in images)

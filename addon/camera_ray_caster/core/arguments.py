@@ -3,21 +3,27 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Callable, Collection, Iterable
 from difflib import get_close_matches
+from functools import wraps
 from itertools import islice
 from math import inf, nan
 from operator import index
 from pathlib import Path
 from reprlib import repr as shortened
 from tokenize import TokenError
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 from zipfile import BadZipFile
 from zlib import error as ZlibError
 
 import numpy as np
 
+from .other_names import meant
 from .records import InputError
+
+P = ParamSpec("P")
+R = TypeVar("R")
 
 DAMAGED = (
     BadZipFile, ZlibError, TokenError, SyntaxError, ValueError, EOFError, OSError, KeyError, TypeError, RuntimeError,
@@ -99,15 +105,25 @@ def flag(value, name: str) -> bool:
     return bool(value)
 
 
+def spelled(value, known: Collection[str]):
+    """Return a value, a word of ``known`` in any case as it is spelled there."""
+    if not isinstance(value, str) or value in known:
+        return value
+    return next((one for one in known if one.casefold() == value.casefold()), value)
+
+
 def word(value, name: str, known: Collection[str] | None = None) -> str:
-    """Return a string; it must be one of ``known``, unless that is None."""
+    """Return a string; it must be one of ``known`` in any case, unless that is None."""
+    value = value if known is None else spelled(value, known)
     if not isinstance(value, str) or (known is not None and value not in known):
         raise _refusal(name, value, "a string" if known is None else f"one of {', '.join(known)}")
     return value
 
 
 def words(value: str | Iterable[str], name: str, known: Collection[str]) -> tuple[str, ...]:
-    """Return the names in one string or in an iterable of strings, each name once; all must be in ``known``."""
+    """Return the names in one string or in an iterable of strings, each name once; all must be in ``known``, in any
+    case.
+    """
     if isinstance(value, str):
         value = (value,)
     try:
@@ -115,7 +131,7 @@ def words(value: str | Iterable[str], name: str, known: Collection[str]) -> tupl
     except TypeError as error:
         raise _refusal(name, value, f"some of {', '.join(known)}") from error
     most = 100 * len(known)  # an iterator without end is refused
-    given = list(islice(given_one_by_one, most + 1))
+    given = [spelled(one, known) for one in islice(given_one_by_one, most + 1)]
     if len(given) > most:
         raise _refusal(name, value, f"at most {most} names")
     for one in given:
@@ -157,8 +173,40 @@ def unknown(what: str, value, known: Collection[str]) -> InputError:
     """Return the error for a word that is none of ``known``: it names the nearest one, and all."""
     spellings = {one.lower(): one for one in known}
     near = get_close_matches(value.lower(), spellings, 1) if isinstance(value, str) else []
-    guess = f"did you mean {spellings[near[0]]}? " if near else ""
+    nearest = (isinstance(value, str) and meant(value, known)) or (spellings[near[0]] if near else "")
+    guess = f"did you mean {nearest}? " if nearest else ""
     return InputError(f"unknown {what} {shown(value)}: {guess}choose from {', '.join(known)}")
+
+
+def chosen(value, what: str, known: Collection[str]) -> str:
+    """Return the word of ``known`` that is given in any case. Raises InputError that names the nearest one."""
+    value = spelled(value, known)
+    if not isinstance(value, str) or value not in known:
+        raise unknown(what, value, known)
+    return value
+
+
+def deprecated(message: str, level: int = 3) -> None:
+    """Warn about an old form; the message names the new one."""
+    warnings.warn(f"{message}; version 1.0 will refuse the old form", DeprecationWarning, stacklevel=level)
+
+
+def keywords(function: Callable[P, R]) -> Callable[P, R]:
+    """Let a function take its keyword-only arguments by position, too, in their order, with a DeprecationWarning."""
+    code: Any = getattr(function, "__code__")  # noqa: B009 (a function has it, a Callable need not)
+    count = code.co_argcount
+    names = code.co_varnames[count : count + code.co_kwonlyargcount]
+
+    @wraps(function)
+    def call(*args: P.args, **kwargs: P.kwargs) -> R:
+        by_place: dict[str, Any] = dict(zip(names, args[count:], strict=False))
+        if not by_place or len(args) > count + len(names):
+            return function(*args, **kwargs)
+        deprecated(f"{function.__name__} takes keywords here: {', '.join(f'{name}=' for name in by_place)}")
+        by_name: Any = function
+        return by_name(*args[:count], **by_place, **kwargs)
+
+    return call
 
 
 def _refusal(name: str, value, allowed: str) -> InputError:

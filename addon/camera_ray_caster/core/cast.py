@@ -18,7 +18,7 @@ from .casting.needs import image_bytes, pictures
 from .casting.passes import PASSES
 from .casting.plan import Plan, make_plan
 from .casting.previews import Previews, Show
-from .casting.request import MATERIAL, Request
+from .casting.request import MATERIAL, SHADINGS, Request
 from .casting.tiles import STEPS, Effort, Tile, cast_tile, in_threads, listening, moments, shares
 from .maths.speed import Scratch, processors
 from .records import Shapes
@@ -28,12 +28,13 @@ MOST_SAMPLES = 1 << 24
 """Maximum number of rays per pixel, as in Cycles. More rays do not make a mean that is stored as float32 more exact."""
 
 
+@arguments.keywords
 def cast(
     camera: Camera | Scene,
     shapes: Shapes | None = None,
+    *,
     passes: str | Iterable[str] = ("depth", "normal"),
     dtype=np.float32,
-    *,
     shading: str = MATERIAL,
     samples: int = 1,
     threads: int | None = None,
@@ -83,7 +84,7 @@ def cast(
     started = perf_counter()
     threads = processors() if threads is None else arguments.count(threads, "threads")
     samples = arguments.count(samples, "samples", MOST_SAMPLES)
-    dtype = arguments.real_type(dtype, "dtype")
+    dtype, shading = arguments.real_type(dtype, "dtype"), arguments.word(shading, "shading", SHADINGS)
     progress, finished = arguments.function(progress, "progress"), arguments.function(finished, "finished")
     preview = arguments.function(preview, "preview")
     passes = arguments.words(passes, "passes", PASSES)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 from .camera.camera import Camera
 from .records import Shapes
@@ -27,6 +28,15 @@ class Scene:
             both = f"{type(camera)} and {type(shapes)}"
             raise TypeError(f"{to} takes a camera and shapes, or a scene and all else by name, not {both}")
         return cls(camera, shapes)
+
+    @classmethod
+    def given_with(cls, camera: Camera | Scene, shapes: Any, value: Any, to: str) -> tuple[Scene, Any]:
+        """Return the scene and the value of a function that is called as ``to(scene, value)`` or ``to(camera, shapes,
+        value)``. Raises TypeError as ``given`` does.
+        """
+        if isinstance(camera, Scene) and value is None:
+            shapes, value = None, shapes
+        return cls.given(camera, shapes, to), value
 
     @property
     def motion(self) -> MovingScene | None:

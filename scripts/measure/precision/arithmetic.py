@@ -59,7 +59,7 @@ def textbook(camera, shapes, real):
 
 def caster(camera, shapes):
     """Return distances and shape indices by this caster."""
-    images = cast(camera, shapes, ("distance", "shape_index"), np.float64, cull=False, threads=1)
+    images = cast(camera, shapes, passes=("distance", "shape_index"), dtype=np.float64, cull=False, threads=1)
     return images["distance"], images["shape_index"]
 
 

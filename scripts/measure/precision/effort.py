@@ -43,7 +43,7 @@ def sampled() -> list[Point]:
 
 
 def _picture(camera, shapes, samples):
-    return cast(camera, shapes, ("combined",), samples=samples)["combined"]
+    return cast(camera, shapes, passes=("combined",), samples=samples)["combined"]
 
 
 def _mean_square(error) -> float:

@@ -64,7 +64,7 @@ def meshes(case, given):
 
 def ours(case, given):
     """Return the distances by this caster."""
-    distance = cast(case.camera, case.shapes, ("distance",), np.float64)["distance"]
+    distance = cast(case.camera, case.shapes, passes=("distance",), dtype=np.float64)["distance"]
     return np.array([distance[pixel] for pixel in given.pixels])
 
 

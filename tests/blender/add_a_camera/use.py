@@ -39,7 +39,7 @@ def with_it(crc, path, folder):
     rays = camera.rays_at(x, y)
     back = camera.project(rays.origins + 7.0 * rays.directions)
     corner = camera.rays_at(24.0, 32.0).directions @ camera.pose.basis
-    image = crc.cast(camera, shapes, ("combined",))["combined"]
+    image = crc.cast(camera, shapes, passes=("combined",))["combined"]
     picture = rendered(scene, folder / "picture.exr")
     bpy.ops.wm.save_as_mainfile(filepath=str(path))
     crc.unregister()

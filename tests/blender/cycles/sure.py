@@ -23,7 +23,7 @@ PASSES = ("depth", "position", "normal", "uv", "object_index", "material_index")
 
 
 def seen(scene, names):
-    return cast(read_camera(scene), read_shapes(scene), names, np.float64)
+    return cast(read_camera(scene), read_shapes(scene), passes=names, dtype=np.float64)
 
 
 def unambiguous(scene):

@@ -27,7 +27,7 @@ def grid(scene, materials):  # noqa: F811
     scene.camera.location = (COLUMNS - 1) / 2, (rows - 1) / 2, 5
     scene.render.resolution_x, scene.render.resolution_y = COLUMNS * CELL, rows * CELL
     shapes = read_shapes(scene)
-    found = cast(read_camera(scene), shapes, ("albedo", "object_index"))
+    found = cast(read_camera(scene), shapes, passes=("albedo", "object_index"))
     return found, shapes, list(cycles(scene, "Diffuse Color", "Glossy Color", "Transmission Color", "Emission"))
 
 
@@ -96,7 +96,7 @@ def test_an_image_is_interpolated_as_in_cycles(scene, options, change):  # noqa:
     if change:
         change(item)
     scene.camera.data.type, scene.camera.data.ortho_scale = "ORTHO", 2.0
-    albedo = cast(read_camera(scene), read_shapes(scene), "albedo")["albedo"]
+    albedo = cast(read_camera(scene), read_shapes(scene), passes="albedo")["albedo"]
     (diffuse,) = cycles(scene, "Diffuse Color")
     np.testing.assert_allclose(albedo, diffuse, atol=CLOSE)
 
@@ -104,7 +104,7 @@ def test_an_image_is_interpolated_as_in_cycles(scene, options, change):  # noqa:
 def test_glow_is_added_to_light(scene):  # noqa: F811
     """Emission with its strength in ``combined``, as in Cycles."""
     shader("Emission", Color=RED, Strength=3.0)(plane("Square", 0, 9, 1))
-    image = cast(read_camera(scene), read_shapes(scene), "combined")["combined"]
+    image = cast(read_camera(scene), read_shapes(scene), passes="combined")["combined"]
     (combined,) = cycles(scene, "Combined")
     np.testing.assert_allclose(image[..., :3], combined[..., :3], atol=1e-5)
 

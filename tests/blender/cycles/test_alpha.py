@@ -221,7 +221,7 @@ def near_edge(index):
 
 def assert_as_cycles(scene):
     """Depth, place and index are those of Cycles, but for pixels at an edge; return the indices."""
-    images = cast(read_camera(scene), read_shapes(scene), ("depth", "position", "object_index", "uv"))
+    images = cast(read_camera(scene), read_shapes(scene), passes=("depth", "position", "object_index", "uv"))
     depth, place, index = cycles(scene, "Depth", "Position", "Object Index")
     away = ~near_edge(index[..., 0]) & ~near_edge(images["object_index"])
     assert away.mean() > 0.8

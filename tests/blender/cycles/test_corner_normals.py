@@ -51,7 +51,7 @@ def test_normals_end_where_they_do_in_cycles(camera_scene, blender, is_custom):
     camera.location, camera.rotation_euler = (0, 0, 5), (0, 0, 0)
     camera.data.type, camera.data.ortho_scale = "ORTHO", 6.8
     camera_scene.render.resolution_x, camera_scene.render.resolution_y = 204, 136
-    ours = cast(read_camera(camera_scene), read_shapes(camera_scene), ("normal", "object_index"))
+    ours = cast(read_camera(camera_scene), read_shapes(camera_scene), passes=("normal", "object_index"))
     theirs = cycles_truth(camera_scene)
     both = (ours["object_index"] == theirs["object_index"]) & (ours["object_index"] > 0)
     off = np.linalg.norm(ours["normal"] - theirs["normal"], axis=-1) > 0.02

@@ -70,7 +70,7 @@ def scene(blender):
 def test_hits_are_those_of_cycles(scene, kind):
     scene.camera.data.type = kind
     names = ("position", "normal", "depth", "object_index", "ray_direction")
-    ours = cast(read_camera(scene), read_shapes(scene), names, np.float64)
+    ours = cast(read_camera(scene), read_shapes(scene), passes=names, dtype=np.float64)
     position = cycles_surface(scene, "Position", REACH)
     depth = cycles_surface(scene, "View Z Depth", REACH)[..., 0]
     normal = cycles_surface(scene, "Normal", 1.0)

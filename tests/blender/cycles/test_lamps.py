@@ -52,7 +52,7 @@ def test_a_lamp_lights_a_wall_as_in_cycles(scene, name):  # noqa: F811
     white(plane("Wall", 0, 20, 1))
     kind, settings = LAMPS[name]
     lamp(kind, **settings)
-    image = cast(read_camera(scene), read_shapes(scene), "combined")["combined"][..., :3]
+    image = cast(read_camera(scene), read_shapes(scene), passes="combined")["combined"][..., :3]
     combined, _ = cycles_passes(scene)
     assert combined.max() > 0.1
     np.testing.assert_allclose(image, combined, atol=TOLERANCE * combined.max())
@@ -74,7 +74,7 @@ def test_the_nodes_of_a_lamp_are_read_or_named(scene):  # noqa: F811
     white(plane("Wall", 0, 20, 1))
     item = lamp("POINT", energy=10, shadow_soft_size=0.0)
     emission, nodes, links = with_nodes(item, 7.0)
-    image = cast(read_camera(scene), read_shapes(scene), "combined")["combined"][..., :3]
+    image = cast(read_camera(scene), read_shapes(scene), passes="combined")["combined"][..., :3]
     combined, _ = cycles_passes(scene)
     np.testing.assert_allclose(image, combined, atol=TOLERANCE * combined.max())
     links.new(nodes.new("ShaderNodeLightFalloff").outputs[0], emission.inputs["Strength"])
@@ -116,7 +116,7 @@ def test_an_environment_image_is_seen_as_in_cycles(scene):  # noqa: F811
     scene.camera.rotation_euler = 1.2, 0.3, 0.4
     scene.render.resolution_x, scene.render.resolution_y = 96, 48
     shapes = read_shapes(scene)
-    image = cast(read_camera(scene), shapes, "combined")["combined"]
+    image = cast(read_camera(scene), shapes, passes="combined")["combined"]
     combined, _ = cycles_passes(scene)
     np.testing.assert_allclose(image[..., :3], combined, atol=2e-3)
     assert (image[..., 3] == 1).all()

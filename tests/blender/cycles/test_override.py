@@ -40,7 +40,7 @@ def test_one_material_and_world_for_a_view_layer(blender):
     shapes = read_shapes(scene)
     assert shapes.slots is None
     np.testing.assert_array_equal(shapes.color, [(0.5, 0.25, 0.125, 1)] * 3)
-    images = cast(read_camera(scene), shapes, ("combined", "material_index"))
+    images = cast(read_camera(scene), shapes, passes=("combined", "material_index"))
     combined, index = cycles_passes(scene)
     np.testing.assert_array_equal(images["material_index"], index)
     assert set(np.unique(index)) == {0, 7}

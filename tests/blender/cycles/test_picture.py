@@ -67,7 +67,9 @@ CAMERAS = {make.__name__: make for make in (shifted, panorama, cross_slit, omnim
 def check(scene, view="", allowed=0.0):
     """Cycles shows the places that our rays hit, and nothing where they hit nothing."""
     show(scene, "Position", REACH)
-    ours = cast(read_camera(scene, view=view), read_shapes(scene, view=view), ("position", "distance"), np.float64)
+    ours = cast(
+        read_camera(scene, view=view), read_shapes(scene, view=view), passes=("position", "distance"), dtype=np.float64
+    )
     theirs = shown(picture_of(scene).pixels[scene.view_layers[0].name, view][..., :3], REACH)
     hit = np.isfinite(ours["distance"])
     assert 0.1 < hit.mean() < 1
@@ -79,7 +81,12 @@ def check(scene, view="", allowed=0.0):
 
 def facing(scene, view):
     """The cosine between ray and surface: what is off along the ray counts for little where it is seen edge on."""
-    ours = cast(read_camera(scene, view=view), read_shapes(scene, view=view), ("normal", "ray_direction"), np.float64)
+    ours = cast(
+        read_camera(scene, view=view),
+        read_shapes(scene, view=view),
+        passes=("normal", "ray_direction"),
+        dtype=np.float64,
+    )
     return np.abs((ours["normal"] * ours["ray_direction"]).sum(axis=-1))
 
 

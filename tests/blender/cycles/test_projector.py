@@ -78,6 +78,8 @@ def test_the_button_adds_and_selects_the_lamp(blender, camera_scene):
     assert blender.ops.camera_ray_caster.add_projector() == {"FINISHED"}
     lamp = blender.context.object
     assert (lamp.type, lamp.parent, lamp.select_get()) == ("LIGHT", camera_scene.camera, True)
-    cast(read_camera(camera_scene), read_shapes(camera_scene), ("combined",))  # its nodes are noted, and end nothing
+    cast(
+        read_camera(camera_scene), read_shapes(camera_scene), passes=("combined",)
+    )  # its nodes are noted, and end nothing
     blender.ops.camera_ray_caster.add_projector()
     assert len([item for item in camera_scene.objects if item.type == "LIGHT"]) == 2

@@ -102,7 +102,7 @@ def test_a_sphere_that_moves_is_the_same_picture(blender, scene):
     item.data.attributes["radius"].data[0].value = 2.0
     move(scene, item, 4.0)
     set_shutter(scene, "CENTER", 1.0, 0.0)
-    ours = cast(read_camera(scene), read_shapes(scene), ("position", "valid", "shape_index"), np.float64)
+    ours = cast(read_camera(scene), read_shapes(scene), passes=("position", "valid", "shape_index"), dtype=np.float64)
     theirs = cycles_surface(scene, "Position", REACH)
     hit, seen = ours["shape_index"] == 0, ~np.isnan(theirs[..., 0])
     time = read_camera(scene).rays().time[:, :1]

@@ -47,7 +47,7 @@ def test_a_frame_that_does_not_fit_is_refused_before_it_is_begun(blender, huge, 
 def test_a_cropped_border_of_such_a_frame_is_rendered(huge, render):
     bordered(huge, crop=True)
     found = render()
-    expected = cast(read_camera(huge), read_shapes(huge), ("position", "ray_direction"))
+    expected = cast(read_camera(huge), read_shapes(huge), passes=("position", "ray_direction"))
     assert expected["position"].shape == (32, 65, 3)
     for name, image in expected.items():
         np.testing.assert_array_equal(picture(found, name), image)

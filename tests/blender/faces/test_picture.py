@@ -64,7 +64,7 @@ def is_far_from_edges(camera, shapes):
     inside = (np.arange(PARTS) + 0.5) / PARTS - 0.5
     x, y = (np.add.outer(np.ravel(at), inside).ravel() for at in (raster.columns(), raster.rows()))
     rays = camera.rays_at(x, y[:, None])
-    index = cast_rays(rays.origins, rays.directions, shapes, ("shape_index",))["shape_index"]
+    index = cast_rays(rays.origins, rays.directions, shapes, passes=("shape_index",))["shape_index"]
     parts = np.where(rays.valid, index, NO_RAY).reshape(rows, PARTS, columns, PARTS)
     around = [np.pad(of(parts, axis=(1, 3)), 1, constant_values=NO_RAY) for of in (np.min, np.max)]
     least, most = (sliding_window_view(one, (3, 3)) for one in around)
@@ -75,7 +75,7 @@ def is_far_from_edges(camera, shapes):
 def check_colors(scene, pixels):
     """A pixel one pixel or more from an edge has the color of the object that is cast, and its alpha."""
     camera, shapes = read_camera(scene), read_shapes(scene)
-    images = cast(camera, shapes, ("shape_index", "valid"))
+    images = cast(camera, shapes, passes=("shape_index", "valid"))
     index, valid = images["shape_index"], images["valid"]
     assert pixels.shape == (*index.shape, 4)
     assert (pixels[~valid] == 0).all()
@@ -113,7 +113,7 @@ def test_eyes_of_a_stereo_camera_and_view_layers(cubes):
     found = picture_of(cubes, WORKBENCH).pixels
     assert sorted(found) == [(layer, view) for layer in ("Second", "ViewLayer") for view in ("left", "right")]
     camera, shapes = read_camera(cubes, view="right"), read_shapes(cubes)
-    index = cast(camera, shapes, ("shape_index",))["shape_index"]
+    index = cast(camera, shapes, passes=("shape_index",))["shape_index"]
     flat = is_far_from_edges(camera, shapes) & (index >= 0)
     wanted = np.array(COLORS)[index[flat]]
     assert found["ViewLayer", "right"][flat] == pytest.approx(wanted, abs=2e-3)
@@ -150,7 +150,7 @@ def test_eevee_has_the_edges_of_the_cast_too(cubes):
     cubes.camera.data.camera_ray_caster.model, cubes.world = "DOME_MASTER", None
     pixels = picture(cubes, EEVEE, samples=4)
     camera, shapes = read_camera(cubes), read_shapes(cubes)
-    index = cast(camera, shapes, ("shape_index",))["shape_index"]
+    index = cast(camera, shapes, passes=("shape_index",))["shape_index"]
     flat = is_far_from_edges(camera, shapes)
     assert (pixels[..., 3] > 0.5)[flat].tolist() == (index >= 0)[flat].tolist()
 

@@ -46,7 +46,7 @@ def test_cameras_at_frames_are_those_that_are_read(scene, tmp_path):
     assert (said, paths, names(tmp_path / "out")) == ([], [tmp_path / "out" / "camera.json"], ["camera.json"])
     for name, camera in zip(("Moving", "Still_one"), cameras, strict=True):
         for frame in (1, 6, 11):
-            assert same(camera_from_json(paths[0], frame, name), read_camera(scene, camera, frame))
+            assert same(camera_from_json(paths[0], frame, camera=name), read_camera(scene, camera, frame=frame))
     assert (scene.frame_current, scene.camera.name) == (5, "Moving")
 
 
@@ -137,7 +137,7 @@ def test_maps_are_written_as_they_are_computed(scene, tmp_path, target):
     _, paths = exports.write(scene, "stmap", [scene.camera], [3], tmp_path, to)
     assert names(tmp_path) == ["Moving_0003_distort.exr", "Moving_0003_undistort.exr"] == [path.name for path in paths]
     assert set(bpy.data.images) == before
-    one, other = (read_camera(scene, camera, 3) for camera in (scene.camera, to or scene.camera))
+    one, other = (read_camera(scene, camera, frame=3) for camera in (scene.camera, to or scene.camera))
     other = other if target else perspective_of(one)
     for path, (here, there) in zip(paths, ((one, other), (other, one)), strict=True):
         channels = read_exr(path)

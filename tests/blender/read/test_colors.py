@@ -138,7 +138,7 @@ def test_a_base_color_that_is_animated_is_that_of_the_frame(scene):
     material, node = principled(GOLD)
     node.inputs["Base Color"].driver_add("default_value", 0).driver.expression = "frame / 8"
     ball("Ball").data.materials.append(material)
-    reds = [read_shapes(scene, frame).color[0, 0] for frame in (2, 4)]
+    reds = [read_shapes(scene, frame=frame).color[0, 0] for frame in (2, 4)]
     np.testing.assert_allclose(reds, [0.25, 0.5], atol=ULP)
 
 

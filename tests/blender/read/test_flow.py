@@ -71,7 +71,7 @@ def test_blenders_vector_pass_is_the_same_flow(scene, render):
     """
     scene.camera_ray_caster.exact_shapes = False
     found = read_scene(scene, passes=BOTH)
-    images = cast(found.camera, found.shapes, (*BOTH, "shape_index"), float)
+    images = cast(found.camera, found.shapes, passes=(*BOTH, "shape_index"), dtype=float)
     scene.render.engine = "CYCLES"
     scene.cycles.samples, scene.cycles.filter_width = 1, 0.01
     scene.cycles.use_adaptive_sampling = scene.cycles.use_denoising = False
@@ -95,7 +95,7 @@ def test_a_deforming_mesh_is_followed_and_a_new_topology_is_not(scene):
     wave.height = 0.2
     found = read_scene(scene, passes=("flow_forward",))
     row = [name for name in found.shapes.names].index("Suzanne")
-    images = cast(found.camera, found.shapes, ("flow_forward", "shape_index"), float)
+    images = cast(found.camera, found.shapes, passes=("flow_forward", "shape_index"), dtype=float)
     here = images["shape_index"] == row
     assert not np.isnan(images["flow_forward"][here]).any()
     still = Scene(found.next.camera, replace(found.next.shapes, meshes=found.shapes.meshes))
@@ -104,7 +104,7 @@ def test_a_deforming_mesh_is_followed_and_a_new_topology_is_not(scene):
     build = monkey.modifiers.new("Build", "BUILD")
     build.frame_start, build.frame_duration = 1, 10
     found = read_scene(scene, passes=("flow_forward",))
-    images = cast(found.camera, found.shapes, ("flow_forward", "shape_index"), float)
+    images = cast(found.camera, found.shapes, passes=("flow_forward", "shape_index"), dtype=float)
     here = images["shape_index"] == list(found.shapes.names).index("Suzanne")
     assert here.any()
     assert np.isnan(images["flow_forward"][here]).all()
@@ -114,7 +114,7 @@ def test_a_rolling_shutter_comes_with_the_motion_of_its_neighbors(scene):
     scene.camera.data.camera_ray_caster.time_mode = "ROLLING_SHUTTER"
     found = read_scene(scene, passes=BOTH)
     assert None not in (found.next.motion, found.previous.motion)
-    images = cast(found.camera, found.shapes, (*BOTH, "shape_index"), float)
+    images = cast(found.camera, found.shapes, passes=(*BOTH, "shape_index"), dtype=float)
     for name, image in cast(found, passes=BOTH, dtype=float).items():
         np.testing.assert_array_equal(images[name], image)
     hit = images["shape_index"] >= 0

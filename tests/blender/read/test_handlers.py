@@ -84,7 +84,7 @@ def test_a_camera_that_a_handler_deletes_in_a_reading_is_refused_in_one_line(sce
 
     def read():
         for frame in (2, 3):
-            read_scene(scene, frame, other if given else None, passes=("flow_forward",))
+            read_scene(scene, frame=frame, camera_object=other if given else None, passes=("flow_forward",))
 
     with pytest.raises(InputError, match=r"has no active camera|removed what is read|has been removed") as refusal:
         read()

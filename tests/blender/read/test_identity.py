@@ -63,7 +63,7 @@ def test_points_with_an_id_are_the_points_of_that_id(scene, kind):
     np.testing.assert_array_equal(away[here & ~gone], 0)
     assert np.isnan(away[gone]).all()
     assert not matched(found.shapes, found.next.shapes), "between the frames they are other shapes"
-    flow = cast(found.camera, found.shapes, ("flow_forward", "shape_index"), float)
+    flow = cast(found.camera, found.shapes, passes=("flow_forward", "shape_index"), dtype=float)
     row = flow["shape_index"]
     np.testing.assert_allclose(flow["flow_forward"][(row >= 0) & ~gone[row]], 0, atol=1e-9)
     assert np.isnan(flow["flow_forward"][(row >= 0) & gone[row]]).all()

@@ -30,7 +30,7 @@ NAMES = {"RGB": "Color"}
 def shown():
     """The albedo in the middle of the picture, and the names and reasons of what is left out."""
     shapes = read_shapes(bpy.context.scene)
-    image = cast(read_camera(bpy.context.scene), shapes, "albedo")["albedo"]
+    image = cast(read_camera(bpy.context.scene), shapes, passes="albedo")["albedo"]
     return image[8, 8], (*shapes.left_out, *shapes.unread)
 
 

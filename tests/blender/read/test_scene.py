@@ -49,7 +49,7 @@ def test_motion_is_evaluated_once_for_camera_and_shapes(scene, sphere, counted):
     read_camera(scene), read_shapes(scene)
     assert len(counted) == 3 * once - 1  # a camera alone needs no shapes at the frame itself
     x, y, frame = coordinates()
-    same(cast(found.camera, found.shapes, PASSES)["shape_index"] == 0, *disc(x, y, (frame - 13) / 4))
+    same(cast(found.camera, found.shapes, passes=PASSES)["shape_index"] == 0, *disc(x, y, (frame - 13) / 4))
 
 
 def test_a_camera_of_one_time_is_read_without_shapes(scene, sphere, counted):
@@ -66,7 +66,7 @@ def test_shapes_move_for_a_camera_that_is_not_the_active_one(blender, scene, sph
     assert read_shapes(scene).timeline.motion is None
     camera, shapes = read_camera(scene, scanning), read_shapes(scene, camera_object=scanning)
     x, y, frame = coordinates()
-    same(cast(camera, shapes, PASSES)["shape_index"] == 0, *disc(x, y, (frame - 13) / 4))
+    same(cast(camera, shapes, passes=PASSES)["shape_index"] == 0, *disc(x, y, (frame - 13) / 4))
     assert scene.camera.name == "Other"
     assert scene.frame_current == 7
 

@@ -114,7 +114,7 @@ def test_constraints_drivers_and_subframes_move_shapes_and_the_frame_is_put_back
     follower.constraints.new("COPY_LOCATION").target = item
     scene.frame_set(3, subframe=0.5)
     for frame, x in ((None, 7), (1, 2), (4.25, 8.5)):
-        np.testing.assert_allclose(read_shapes(scene, frame).center[:, 0], [x, x], rtol=4 * ULP)
+        np.testing.assert_allclose(read_shapes(scene, frame=frame).center[:, 0], [x, x], rtol=4 * ULP)
         assert (scene.frame_current, scene.frame_subframe) == (3, 0.5)
 
 

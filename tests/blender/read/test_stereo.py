@@ -99,7 +99,7 @@ def test_both_eyes_are_rendered(blender, scene, tmp_path, kind, mode, pivot):
     set_up(scene, kind, mode, pivot)
     render_position(blender, scene, tmp_path)
     for view in VIEWS:
-        expected = cast(read_camera(scene, view=view), read_shapes(scene), ["position"])["position"]
+        expected = cast(read_camera(scene, view=view), read_shapes(scene), passes=["position"])["position"]
         assert expected.any(axis=2).mean() > 0.4
         assert_same_position(tmp_path, view, expected)
 
@@ -114,7 +114,9 @@ def test_a_model_with_eyes_of_its_own_is_rendered_with_each(blender, scene, tmp_
     scene.render.use_multiview = False
     for view in VIEWS:
         own.eye = view.upper()
-        assert_same_position(tmp_path, view, cast(read_camera(scene), read_shapes(scene), ["position"])["position"])
+        assert_same_position(
+            tmp_path, view, cast(read_camera(scene), read_shapes(scene), passes=["position"])["position"]
+        )
     own.eye, scene.render.use_multiview = "TOP_BOTTOM", True
     with pytest.raises(RuntimeError, match="both eyes in one picture"):
         blender.ops.render.render()
@@ -155,7 +157,7 @@ def test_eyes_of_other_models_are_rendered_as_they_are_read(blender, scene, tmp_
     own.calibration_width = own.calibration_height = 0
     render_position(blender, scene, tmp_path)
     for view in VIEWS:
-        seen = cast(read_camera(scene, view=view), read_shapes(scene), ["position"])["position"]
+        seen = cast(read_camera(scene, view=view), read_shapes(scene), passes=["position"])["position"]
         assert_same_position(tmp_path, view, seen)
 
 
@@ -173,7 +175,7 @@ def test_eyes_of_other_models_are_rendered_as_they_are_read(blender, scene, tmp_
 def test_cycles_sees_the_same_with_each_eye(scene, kind, mode, pivot, view):
     set_up(scene, kind, mode, pivot)
     camera = read_camera(scene, view=view)
-    expected = cast(camera, read_shapes(scene), ["position"], np.float64)["position"]
+    expected = cast(camera, read_shapes(scene), passes=["position"], dtype=np.float64)["position"]
     for one in scene.render.views:
         one.use, one.file_suffix = one.name == view, ""
     found = cycles_surface(scene, "Position", 256.0)
@@ -227,7 +229,7 @@ def test_both_eyes_of_spherical_stereo_are_rendered(blender, scene, tmp_path, ki
     scene.camera.data.stereo.use_spherical_stereo = True
     render_position(blender, scene, tmp_path)
     eyes = [read_camera(scene, view=view) for view in VIEWS]
-    left, right = (cast(eye, read_shapes(scene), ["position"])["position"] for eye in eyes)
+    left, right = (cast(eye, read_shapes(scene), passes=["position"])["position"] for eye in eyes)
     assert_same_position(tmp_path, "left", left)
     assert_same_position(tmp_path, "right", right)
     assert all((eye.pose.eye == (0.5, -1, 6)).all() for eye in eyes)

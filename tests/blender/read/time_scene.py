@@ -21,7 +21,7 @@ def still(scene):
 
 
 def walked(scene, **keywords):
-    return cast(read_camera(scene, **keywords), read_shapes(scene), PASSES, np.float64)
+    return cast(read_camera(scene, **keywords), read_shapes(scene), passes=PASSES, dtype=np.float64)
 
 
 def key(item, path, *values, index=-1):

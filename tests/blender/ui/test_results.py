@@ -35,7 +35,7 @@ def test_images_are_saved_with_the_file_exactly_and_cast_anew_after_it_is_loaded
     blender.ops.camera_ray_caster.cast()
     assert blender.data.images[names[1]].size[:] == (2 * WIDTH, HEIGHT)
     assert len(blender.data.images) == 3
-    expected = cast(read_camera(scene), read_shapes(scene), ["normal"])["normal"]
+    expected = cast(read_camera(scene), read_shapes(scene), passes=["normal"])["normal"]
     assert np.array_equal(pixels_of(blender.data.images[names[2]])[..., :3], expected)
 
 

@@ -25,7 +25,7 @@ def test_cast_stores_every_pass_as_it_is(blender, scene, key):
     assert blender.ops.camera_ray_caster.cast() == {"FINISHED"}
     found = pixels_of(blender.data.images[images.image_name(key)])
     read = read_scene(scene, passes=[key])
-    expected = cast(read.camera, read.shapes, [key])[key].reshape(HEIGHT, WIDTH, -1).astype(np.float32)
+    expected = cast(read.camera, read.shapes, passes=[key])[key].reshape(HEIGHT, WIDTH, -1).astype(np.float32)
     if key == "depth":
         expected[np.isinf(expected)] = passes.FAR
     channels = expected.shape[2]
@@ -54,7 +54,7 @@ def test_cast_casts_every_view_of_a_stereo_scene(blender, scene, kind):
     assert blender.ops.camera_ray_caster.cast() == {"FINISHED"}
     for view in ("left", "right"):
         found = pixels_of(blender.data.images[images.image_name("position", view)])[..., :3]
-        expected = cast(read_camera(scene, view=view), read_shapes(scene), ["position"])["position"]
+        expected = cast(read_camera(scene, view=view), read_shapes(scene), passes=["position"])["position"]
         assert np.array_equal(found, expected)
         assert expected.any()
     left, right = (pixels_of(blender.data.images[f"Ray Caster depth {view}"]) for view in ("left", "right"))

@@ -53,7 +53,7 @@ def test_boxes_masks_and_areas_by_hand():
     assert before["visible_fraction"] == 1
     assert [one["object"] for one in found["hidden"]] == ["shape 2"]
     assert found["hidden"][0]["bbox_whole"] == [28, 20, 8, 8]
-    index = cast(CAMERA, WALLS, ("shape_index",))["shape_index"][::-1]
+    index = cast(CAMERA, WALLS, passes=("shape_index",))["shape_index"][::-1]
     for one in found["annotations"]:
         assert (unpacked(one["segmentation"]) == (index == one["shape_index"])).all()
     amodal = unpacked(found["annotations"][0]["segmentation_whole"])
@@ -101,7 +101,7 @@ def test_silhouettes_are_those_of_casts_without_the_others(key):
         far = shapes.center.copy()
         others = np.arange(len(shapes)) != one.row
         far[others] = camera.pose.eye + np.array((0, 0, 1e6))
-        alone = cast(camera, replace(shapes, center=far), ("shape_index",))["shape_index"] == one.row
+        alone = cast(camera, replace(shapes, center=far), passes=("shape_index",))["shape_index"] == one.row
         y, x = np.nonzero(alone)
         assert one.whole == (x.min(), x.max() + 1, y.min(), y.max() + 1)
         assert one.whole_pixels == alone.sum()
@@ -110,7 +110,7 @@ def test_silhouettes_are_those_of_casts_without_the_others(key):
         assert (one.visible is None) == (not seen.any())
         assert (one.alone == alone[slice(*one.whole[2:]), slice(*one.whole[:2])]).all()
     for passes in ("depth", "shape_index"), ("depth",):
-        again, same_index = silhouettes(camera, shapes, cast(camera, shapes, passes))
+        again, same_index = silhouettes(camera, shapes, cast(camera, shapes, passes=passes))
         assert (same_index == index).all()
         assert [one.row for one in again] == [one.row for one in found]
 
@@ -206,7 +206,7 @@ def test_a_key_point_beside_the_border_is_outside_of_the_picture():
 def test_the_depth_of_a_key_point_is_that_of_the_depth_pass(key):
     camera = camera_from(raw_of(key, {"resolution_x": 64, "resolution_y": 48}))
     shapes = shapes_of((SPHERE, (0, 0, 0), 6.0))
-    images = cast(camera, shapes, ("depth", "position"), float)
+    images = cast(camera, shapes, passes=("depth", "position"), dtype=float)
     rows, columns = [5, 20, 40], [9, 30, 60]
     points = [KeyPoint("", "", tuple(images["position"][at])) for at in zip(rows, columns, strict=True)]
     seen = seen_key_points(camera, shapes, points)

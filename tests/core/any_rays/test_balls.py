@@ -48,9 +48,11 @@ def test_many_rays_see_what_each_sees_alone():
     )  # fmt: skip
     for origin in (random.uniform(-3, 3, (2000, 3)), np.array([3.0, 1.0, 0.5])):
         direction = random.normal(size=(2000, 3))
-        many = crc.cast_rays(origin, direction, shapes, ("depth", "normal", "shape_index"))
+        many = crc.cast_rays(origin, direction, shapes, passes=("depth", "normal", "shape_index"))
         for k in range(0, 2000, 100):
             some = slice(k, k + 100)
-            few = crc.cast_rays(origin[some] if origin.ndim > 1 else origin, direction[some], shapes, tuple(many))
+            few = crc.cast_rays(
+                origin[some] if origin.ndim > 1 else origin, direction[some], shapes, passes=tuple(many)
+            )
             for name, image in few.items():
                 assert image.tobytes() == many[name][some].tobytes()

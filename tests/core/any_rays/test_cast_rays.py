@@ -42,9 +42,9 @@ def test_rays_of_a_camera_see_what_it_sees(key):
     pose = crc.look_at((3.0, -4.0, 3.0), (0.0, 0.0, 0.0))
     camera = crc.camera(key, (80, 60), pose=pose, clip_start=1e-3, **CAMERAS[key])
     passes = (*PASSES, *BOUND.values())
-    picture = crc.cast(camera, shapes, passes, dtype=np.float64)
+    picture = crc.cast(camera, shapes, passes=passes, dtype=np.float64)
     rays = camera.rays()
-    found = crc.cast_rays(rays.origins, rays.directions, shapes, passes, near=1e-3)
+    found = crc.cast_rays(rays.origins, rays.directions, shapes, passes=passes, near=1e-3)
     for name in ("shape_index", "face_index", "object_index", "valid"):
         assert (found[name] == picture[name]).mean() > 0.999, name  # pixels nearer to an edge than the bounds
     same = (found["shape_index"] == picture["shape_index"]) & (picture["shape_index"] >= 0)
@@ -74,7 +74,7 @@ def test_random_rays_beside_a_plain_test_of_each_triangle():
     shapes = crc.mesh(corners.reshape(-1, 3), np.arange(900).reshape(-1, 3))
     origin, direction = random.uniform(-2, 2, (4000, 3)), random.normal(size=(4000, 3))
     face, t = plain_test(corners.swapaxes(0, 1), origin, direction)
-    found = crc.cast_rays(origin, direction, shapes, ("depth", "face_index"))
+    found = crc.cast_rays(origin, direction, shapes, passes=("depth", "face_index"))
     hit = np.isfinite(t)
     assert hit.sum() > 400
     assert (np.isfinite(found["depth"]) == hit).all()
@@ -85,10 +85,10 @@ def test_random_rays_beside_a_plain_test_of_each_triangle():
 def test_a_ray_is_the_same_in_any_company():
     shapes, random = scene(), np.random.default_rng(2)
     origin, direction = random.uniform(-3, 3, (3000, 3)), random.normal(size=(3000, 3))
-    whole = crc.cast_rays(origin, direction, shapes, PASSES)
+    whole = crc.cast_rays(origin, direction, shapes, passes=PASSES)
     order = random.permutation(3000)
-    mixed = crc.cast_rays(origin[order], direction[order], shapes, PASSES)
-    few = crc.cast_rays(origin[:7], direction[:7], shapes, PASSES)
+    mixed = crc.cast_rays(origin[order], direction[order], shapes, passes=PASSES)
+    few = crc.cast_rays(origin[:7], direction[:7], shapes, passes=PASSES)
     for name in PASSES:
         assert whole[name][order].tobytes() == mixed[name].tobytes(), name
         assert whole[name][:7].tobytes() == few[name].tobytes(), name
@@ -101,9 +101,11 @@ def test_many_rays_from_one_point_are_those_from_many_points():
     random = np.random.default_rng(9)
     along = places[random.integers(0, len(places), 500)] * [1, 0, 1] + [0, eye[1], 0]
     directions = np.concatenate([places - eye, along - eye, random.normal(size=(2000, 3))])
-    one = crc.cast_rays(eye, directions, shapes, PASSES)
+    one = crc.cast_rays(eye, directions, shapes, passes=PASSES)
     other = np.concatenate([directions, [[0, 0, 1.0]]])
-    many = crc.cast_rays(np.concatenate([np.tile(eye, (len(directions), 1)), [[9.0, 9, 9]]]), other, shapes, PASSES)
+    many = crc.cast_rays(
+        np.concatenate([np.tile(eye, (len(directions), 1)), [[9.0, 9, 9]]]), other, shapes, passes=PASSES
+    )
     assert (one["face_index"] >= 0).sum() > 1000
     for name in PASSES:
         assert one[name].tobytes() == many[name][:-1].tobytes(), name
@@ -112,7 +114,7 @@ def test_many_rays_from_one_point_are_those_from_many_points():
 def test_directions_of_any_length_and_shapes_that_broadcast():
     shapes = crc.spheres([[0.0, 0.0, -5.0]], 1.0)
     directions = [[[0, 0, -2.0]], [[0, 0, 1.0]], [[np.nan, 0, 1]]]
-    found = crc.cast_rays([0.0, 0.0, 0.0], directions, shapes, ("depth", "distance", "valid"))
+    found = crc.cast_rays([0.0, 0.0, 0.0], directions, shapes, passes=("depth", "distance", "valid"))
     assert found["depth"].tolist() == [[2.0], [math.inf], [math.inf]]
     assert found["distance"].tolist() == [[4.0], [math.inf], [math.inf]]
     assert found["valid"].tolist() == [[True], [True], [False]]
@@ -122,7 +124,7 @@ def test_hits_count_from_near_to_far():
     shapes = crc.spheres([[0.0, 0.0, -5.0]], 1.0)
 
     def depth(**span):
-        return float(crc.cast_rays([0.0, 0, 0], [0.0, 0, -1], shapes, ("depth",), **span)["depth"])
+        return float(crc.cast_rays([0.0, 0, 0], [0.0, 0, -1], shapes, passes=("depth",), **span)["depth"])
 
     assert depth(near=4.0) == 4.0
     assert depth(near=4.1) == 6.0
@@ -130,12 +132,10 @@ def test_hits_count_from_near_to_far():
 
 
 def test_all_hits_come_by_ray_and_distance():
-    shapes = crc.join(
-        crc.spheres([[0.0, 0.0, -5.0]], 1.0), crc.planes([0.0, 0.0, -8.0], [[9, 0], [0, 9], [0, 0]])
-    )
+    shapes = crc.join(crc.spheres([[0.0, 0.0, -5.0]], 1.0), crc.planes([0.0, 0.0, -8.0], [[9, 0], [0, 9], [0, 0]]))
     found = crc.cast_rays(
         [[0.0, 0, 0], [0, 5, 0], [0, 0, 0]], [[0.0, 0, -1], [0, 0, -1], [0, 0, 1]], shapes,
-        ("distance", "shape_index"), all_hits=True,
+        passes=("distance", "shape_index"), all_hits=True,
     )  # fmt: skip
     assert found["distance"].tolist() == [4.0, 6.0, 8.0, 8.0]
     assert found["shape_index"].tolist() == [0, 0, 1, 1]
@@ -146,8 +146,8 @@ def test_all_hits_come_by_ray_and_distance():
 def test_all_hits_of_many_rays_begin_with_the_nearest():
     shapes, random = scene(), np.random.default_rng(5)
     origin, direction = random.uniform(-3, 3, (2000, 3)), random.normal(size=(2000, 3))
-    nearest = crc.cast_rays(origin, direction, shapes, ("depth",))["depth"]
-    every = crc.cast_rays(origin, direction, shapes, ("depth",), all_hits=True)
+    nearest = crc.cast_rays(origin, direction, shapes, passes=("depth",))["depth"]
+    every = crc.cast_rays(origin, direction, shapes, passes=("depth",), all_hits=True)
     first = np.full(2000, np.inf)
     np.minimum.at(first, every["ray"], every["depth"])
     assert (first == nearest).all()
@@ -162,7 +162,7 @@ def test_a_segment_is_open_at_both_ends():
     ]  # fmt: skip
     random = np.random.default_rng(4)
     camera = crc.camera("PERSP", (60, 40), pose=crc.look_at((4.0, -5.0, 3.0), (0.0, 0.0, 0.0)), lens=35.0)
-    place = crc.cast(camera, shapes, ("position", "shape_index"), dtype=np.float64)
+    place = crc.cast(camera, shapes, passes=("position", "shape_index"), dtype=np.float64)
     points = place["position"][place["shape_index"] >= 0]
     assert not crc.occluded(camera.pose.eye, points, shapes).any()  # each is what its pixel sees
     behind = points + 1e-6 * (points - camera.pose.eye)
@@ -182,20 +182,20 @@ def test_each_ray_meets_the_shapes_at_its_own_time():
     shapes = replace(Falling().shapes_at(0.0), timeline=Timeline(Falling()))
     times = np.array([0.0, 2.0, 2.0, 0.5])
     origin = np.array([[0.0, 0, 0], [0, 0, 0], [0, -2, 0], [0, -0.5, 0]])
-    found = crc.cast_rays(origin, [0.0, 0, -1], shapes, ("distance",), times=times)["distance"]
+    found = crc.cast_rays(origin, [0.0, 0, -1], shapes, passes=("distance",), times=times)["distance"]
     np.testing.assert_allclose(found, [4.0, math.inf, 4.0, 4.0], rtol=1e-15)
-    every = crc.cast_rays(origin, [0.0, 0, -1], shapes, ("distance",), times=times, all_hits=True)
+    every = crc.cast_rays(origin, [0.0, 0, -1], shapes, passes=("distance",), times=times, all_hits=True)
     assert every["count"].tolist() == [2, 0, 2, 2]
     np.testing.assert_allclose(every["distance"], [4.0, 6.0] * 3, rtol=1e-15)
     assert crc.occluded(origin, origin - [0, 0, 9], shapes, times=times).tolist() == [True, False, True, True]
     still = replace(shapes, timeline=Timeline())
-    assert crc.cast_rays(origin, [0.0, 0, -1], still, ("valid",), times=times)["valid"].all()
+    assert crc.cast_rays(origin, [0.0, 0, -1], still, passes=("valid",), times=times)["valid"].all()
 
 
 def test_an_infinite_plane_along_an_axis_warns_of_nothing():
     """Its bounds are infinite on both sides along two axes."""
     ground = crc.planes((0.0, 0.0, -3.0), infinite=True)
-    assert crc.cast_rays([0.0, 0, 0], [0.0, 0, -1], ground, "distance")["distance"] == 3.0
+    assert crc.cast_rays([0.0, 0, 0], [0.0, 0, -1], ground, passes="distance")["distance"] == 3.0
 
 
 @pytest.mark.parametrize("moving", [False, True])
@@ -206,7 +206,7 @@ def test_shapes_that_have_gone_are_not_kept(moving):
         shapes = replace(shapes, timeline=Timeline(Falling()))
     for all_hits in (False, True):
         crc.cast_rays([0.0, 0, 0], [0.0, 0, -1], shapes, times=times, all_hits=all_hits)
-    crc.occluded([0.0, 0, 0], [0.0, 0, -9], shapes, times)
+    crc.occluded([0.0, 0, 0], [0.0, 0, -9], shapes, times=times)
     left = weakref.ref(shapes)
     del shapes
     gc.collect()
@@ -244,16 +244,16 @@ def test_bad_input_is_refused_in_one_line(change, words):
 
 @pytest.mark.parametrize("length", [1e-99, 1e-40, 1e40, 1e99])
 def test_short_and_long_directions_reach_as_far(length):
-    expected = crc.cast_rays([0.0, 0, 0], [0, 0, -1.0], scene(), "distance")["distance"]
+    expected = crc.cast_rays([0.0, 0, 0], [0, 0, -1.0], scene(), passes="distance")["distance"]
     for count in (1, 5000):
         directions = np.tile([0.0, 0.0, -length], (count, 1))
-        found = crc.cast_rays([0.0, 0, 0], directions, scene(), ("depth", "distance", "normal"))
+        found = crc.cast_rays([0.0, 0, 0], directions, scene(), passes=("depth", "distance", "normal"))
         np.testing.assert_allclose(found["distance"], expected)
         np.testing.assert_allclose(found["depth"] * length, found["distance"])
 
 
 def test_nothing_to_see_and_no_rays():
     empty = crc.join()
-    assert crc.cast_rays([0.0, 0, 0], [0.0, 0, 1], empty, ("shape_index",))["shape_index"] == -1
-    assert crc.cast_rays(np.zeros((0, 3)), np.ones((0, 3)), scene(), ("distance",))["distance"].shape == (0,)
+    assert crc.cast_rays([0.0, 0, 0], [0.0, 0, 1], empty, passes=("shape_index",))["shape_index"] == -1
+    assert crc.cast_rays(np.zeros((0, 3)), np.ones((0, 3)), scene(), passes=("distance",))["distance"].shape == (0,)
     assert not crc.occluded([0.0, 0, 0], [0.0, 0, 1], empty)

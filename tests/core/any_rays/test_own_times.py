@@ -78,17 +78,20 @@ def test_each_ray_meets_what_moves_as_a_cast_at_its_time_does(name):
     middle = shapes.center[1] * (np.abs(shapes.center[1]) > 1e6)
     origin, towards = (middle + random.uniform(-span, span, (count, 3)) for span in (4, 1))
     rays = origin, towards - origin
-    found = crc.cast_rays(*rays, shapes, PASSES, times)
-    every = crc.cast_rays(*rays, shapes, PASSES, times, all_hits=True)
-    hidden = crc.occluded(origin, towards, shapes, times)
+    found = crc.cast_rays(*rays, shapes, passes=PASSES, times=times)
+    every = crc.cast_rays(*rays, shapes, passes=PASSES, times=times, all_hits=True)
+    hidden = crc.occluded(origin, towards, shapes, times=times)
     assert 20 < np.count_nonzero(hidden) < count - 20
     assert set(apart.rows[: 3 if name == "spheres and planes" else 1].tolist()) <= set(found["shape_index"].tolist())
     for time in np.unique(times).tolist():
         some, then = times == time, motion.shapes_at(time)
-        expected = crc.cast_rays(*(part[some] for part in rays), then, PASSES)
+        expected = crc.cast_rays(*(part[some] for part in rays), then, passes=PASSES)
         for each, image in expected.items():
             np.testing.assert_array_equal(found[each][some], image, err_msg=f"{each} at {time}")
-        expected, own = crc.cast_rays(*(part[some] for part in rays), then, PASSES, all_hits=True), some[every["ray"]]
+        expected, own = (
+            crc.cast_rays(*(part[some] for part in rays), then, passes=PASSES, all_hits=True),
+            some[every["ray"]],
+        )
         np.testing.assert_array_equal(np.flatnonzero(some)[expected["ray"]], every["ray"][own])
         np.testing.assert_array_equal(every["count"][some], expected["count"])
         for each in PASSES:
@@ -104,5 +107,5 @@ def test_a_world_that_brightens_is_seen_by_each_ray_at_its_time():
 
     motion = resolve(lambda frame: (camera, at(frame)), 0.0, 1.0, 0.1, 16)
     shapes, times = replace(at(0.0), timeline=Timeline(motion)), np.array([0.0, 0.25, 1.0])
-    colors = crc.cast_rays([0, 0, 0], [[0, 0, 1.0]] * 3, shapes, "combined", times)["combined"]
+    colors = crc.cast_rays([0, 0, 0], [[0, 0, 1.0]] * 3, shapes, passes="combined", times=times)["combined"]
     np.testing.assert_allclose(colors[:, 0], times, atol=1 / 255)

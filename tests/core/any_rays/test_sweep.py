@@ -45,7 +45,7 @@ def moving(size=(360, 16), **settings):
 @pytest.fixture(scope="module")
 def sweep():
     camera, shapes = moving()
-    return camera, shapes, crc.cast(camera, shapes, PASSES, np.float64)
+    return camera, shapes, crc.cast(camera, shapes, passes=PASSES, dtype=np.float64)
 
 
 def test_each_beam_leaves_from_where_the_scanner_is_when_it_fires(sweep):
@@ -83,7 +83,15 @@ def test_the_points_are_those_of_a_cast_at_each_time(sweep):
     rays = camera.rays()
     for row, column in [(3, 10), (8, 90), (9, 95), (7, 200), (1, 350)]:
         then = shapes.at(float(rays.time[row, column]))
-        found = crc.cast_rays(rays.origins[row, column], rays.directions[row, column], then, PASSES, None, 0.5, 100.0)
+        found = crc.cast_rays(
+            rays.origins[row, column],
+            rays.directions[row, column],
+            then,
+            passes=PASSES,
+            times=None,
+            near=0.5,
+            far=100.0,
+        )
         for name in PASSES:
             np.testing.assert_array_equal(found[name], images[name][row, column])
 
@@ -94,7 +102,7 @@ def test_a_moving_wall_is_bent():
     now = replace(camera, pixel_time=None), shapes
     x = []
     for both in ((camera, shapes), now):
-        images = crc.cast(*both, ("position", "shape_index"), np.float64)
+        images = crc.cast(*both, passes=("position", "shape_index"), dtype=np.float64)
         x.append(images["position"][8, images["shape_index"][8] == WALL, 0])
     assert (np.diff(x[0]) > 0).all()
     assert np.ptp(x[0]) > 0.2
@@ -109,8 +117,8 @@ def test_where_nothing_moves_a_picture_with_times_is_cast_once(mode):
     shapes = shapes_at(1.0)
     motion = resolve(lambda frame: (camera, shapes), 1.0, 9.0, 0.1, 16)
     assert motion.is_still
-    timed = crc.cast(*with_motion(camera, shapes, motion), PASSES, np.float64)
-    plain = crc.cast(crc.camera("SCANNER", (90, 16), scanner_device="VLP_16"), shapes, PASSES, np.float64)
+    timed = crc.cast(*with_motion(camera, shapes, motion), passes=PASSES, dtype=np.float64)
+    plain = crc.cast(crc.camera("SCANNER", (90, 16), scanner_device="VLP_16"), shapes, passes=PASSES, dtype=np.float64)
     for name in PASSES:
         np.testing.assert_array_equal(timed[name], plain[name])
     assert timed.camera.pixel_time is not None
@@ -147,11 +155,11 @@ def test_rays_near_what_moves_are_found_whatever_it_is():
     rng = np.random.default_rng(5)
     times = np.round(rng.uniform(0, 1, 600), 2)
     rays = rng.normal(size=(600, 3)), rng.normal(size=(600, 3))
-    found = crc.cast_rays(*rays, shapes, PASSES, times)
+    found = crc.cast_rays(*rays, shapes, passes=PASSES, times=times)
     assert set(found["shape_index"].tolist()) == {-1, 0, 1, 2, 3, 4}
     for time in np.unique(times).tolist():
         some = times == time
-        expected = crc.cast_rays(rays[0][some], rays[1][some], motion.shapes_at(time), PASSES)
+        expected = crc.cast_rays(rays[0][some], rays[1][some], motion.shapes_at(time), passes=PASSES)
         for name in PASSES:
             np.testing.assert_array_equal(found[name][some], expected[name])
 
@@ -173,11 +181,11 @@ def test_few_rays_without_a_tree_hit_what_many_hit_with_it():
 def test_a_sweep_is_written_into_the_images_of_an_earlier_cast(sweep):
     camera, shapes = sweep[:2]
     passes = ("distance", "shape_index")
-    images = crc.cast(camera, shapes, passes)
+    images = crc.cast(camera, shapes, passes=passes)
     before = {name: images[name].copy() for name in passes}
     for name in passes:
         images[name].fill(7)
-    again = crc.cast(camera, shapes, passes, into=images)
+    again = crc.cast(camera, shapes, passes=passes, into=images)
     assert again is images
     for name in passes:
         np.testing.assert_array_equal(again[name], before[name])
@@ -187,10 +195,10 @@ def test_a_sweep_is_written_into_the_images_of_an_earlier_cast(sweep):
 def test_times_beyond_the_frames_that_were_read_are_refused(sweep, times):
     shapes = sweep[1]
     with pytest.raises(crc.InputError, match=r"beyond the frames 2 to 11\.97"):
-        crc.cast_rays([[0.0, 0, 1]] * 2, [1.0, 0, 0], shapes, "distance", times)
+        crc.cast_rays([[0.0, 0, 1]] * 2, [1.0, 0, 0], shapes, passes="distance", times=times)
 
 
 def test_no_rays_have_no_hits_at_any_time(sweep):
     none = np.zeros((0, 3))
-    found = crc.cast_rays(none, [1.0, 0, 0], sweep[1], "distance", 3.0, all_hits=True)
+    found = crc.cast_rays(none, [1.0, 0, 0], sweep[1], passes="distance", times=3.0, all_hits=True)
     assert [found[name].shape for name in ("distance", "ray", "count")] == [(0,)] * 3

@@ -63,7 +63,7 @@ def scipy_s(cam, fitted):
 def test_residuals_are_scipy_s_least_squares(name, model):
     assert max(SIZE) <= SAMPLED
     cam = lens(name)
-    fitted = crc.fit(cam, model, region_of(name, model))
+    fitted = crc.fit(cam, model, within=region_of(name, model))
     ours = fitted.residual[np.isfinite(fitted.residual).all(axis=-1)]
     theirs = scipy_s(cam, fitted)
     sums = (ours**2).sum(), (theirs**2).sum()
@@ -120,12 +120,12 @@ def test_the_covariance_is_that_of_a_straight_line():
 
 def test_regions():
     cam = crc.camera("OPENCV_FISHEYE", (64, 48), fx=20.0, fy=20.0, k1=0.02)
-    angle = crc.fit(cam, "OPENCV_PINHOLE", 0.5)
+    angle = crc.fit(cam, "OPENCV_PINHOLE", within=0.5)
     x, y, z = np.stack(np.broadcast_arrays(*cam.model.rays(*(np.mgrid[:48, :64][::-1] + 0.5))[1]))
     np.testing.assert_array_equal(np.isfinite(angle.residual[..., 0]), np.hypot(x, y) <= np.tan(0.5) * -z)
     mask = np.zeros((48, 64), bool)
     mask[20:30, 24:40] = True
-    one, other = crc.fit(cam, "OPENCV_PINHOLE", mask), crc.fit(cam, "OPENCV_PINHOLE", (24, 20, 40, 30))
+    one, other = crc.fit(cam, "OPENCV_PINHOLE", within=mask), crc.fit(cam, "OPENCV_PINHOLE", within=(24, 20, 40, 30))
     np.testing.assert_array_equal(one.residual, other.residual)
     np.testing.assert_array_equal(np.isfinite(one.residual[..., 0]), mask)
     wide = crc.fit(crc.camera("EQUIRECTANGULAR", (64, 32)), "OPENCV_FISHEYE", free=("k1",))
@@ -146,10 +146,10 @@ def test_a_search_that_ends_before_all_rays_count_has_not_converged(monkeypatch)
 def test_a_wide_fisheye_is_no_pinhole_but_in_its_middle():
     """The region that is proposed can be fitted; what a pinhole shows beyond it is farther away than the picture."""
     cam = crc.camera("OPENCV_FISHEYE", (160, 120), fx=40.0, fy=40.0, k1=0.02, k2=-0.004)
-    with pytest.raises(InputError, match=r"OpenCV Pinhole sees fewer than half of the rays: .*region=1.3") as caught:
+    with pytest.raises(InputError, match=r"OpenCV Pinhole sees fewer than half of the rays: .*within=1.3") as caught:
         crc.fit(cam, "OPENCV_PINHOLE")
-    region = float(re.search(r"region=([\d.]+)", str(caught.value))[1])
-    assert crc.fit(cam, "OPENCV_PINHOLE", region).mean < 0.5
+    region = float(re.search(r"within=([\d.]+)", str(caught.value))[1])
+    assert crc.fit(cam, "OPENCV_PINHOLE", within=region).mean < 0.5
 
 
 @pytest.mark.parametrize(
@@ -173,7 +173,7 @@ def test_what_cannot_be_fitted_is_refused_in_one_line(given, words):
     cam = crc.camera("OPENCV_FISHEYE", (64, 48), fx=20.0, fy=20.0)
     model, region, free = given
     with pytest.raises(InputError, match=words) as caught:
-        crc.fit(cam, model, region, free)
+        crc.fit(cam, model, within=region, free=free)
     assert "\n" not in str(caught.value)
 
 
@@ -189,7 +189,7 @@ def test_cameras_that_cannot_be_fitted_to_are_refused_in_one_line():
         with pytest.raises(InputError, match=words) as caught:
             crc.fit(cam, "UCM")
         assert "\n" not in str(caught.value)
-    with pytest.raises(InputError, match="unknown setting of UCM 'xi': choose from calibration_file"):
+    with pytest.raises(InputError, match="unknown setting of UCM 'xi': did you mean unified_xi"):
         crc.fit(crc.camera("PERSP", (64, 48)), "UCM", xi=1.0)
     with pytest.raises(InputError, match=r"^fx of camera 'Camera' is nan: it must be"):
         crc.fit(crc.camera("PERSP", (64, 48)), "UCM", fx=np.nan)

@@ -79,12 +79,12 @@ def test_the_rolling_shutter_goes_by_row_index_from_the_top(position, begin, dur
 def test_of_a_still_scene_it_is_the_plain_picture(settings, kind):
     still = shapes(((0.3, 0.1, -5), 1.0), ((-0.5, 0.2, -6), turn(0.3) * 0.8))
     passes = ("depth", "normal", "shape_index", "combined", "valid")
-    plain = cast(camera({}, type=kind), still, passes)
-    timed = cast(camera(settings, type=kind), still, passes)
+    plain = cast(camera({}, type=kind), still, passes=passes)
+    timed = cast(camera(settings, type=kind), still, passes=passes)
     for name in passes:
         assert np.array_equal(plain[name], timed[name]), name
-    again = cast(camera(settings, type=kind), still, ("combined",), samples=4)["combined"]
-    assert np.array_equal(again, cast(camera({}, type=kind), still, ("combined",), samples=4)["combined"])
+    again = cast(camera(settings, type=kind), still, passes=("combined",), samples=4)["combined"]
+    assert np.array_equal(again, cast(camera({}, type=kind), still, passes=("combined",), samples=4)["combined"])
 
 
 def moving(evaluate, first, last, tolerance=0.05, most=400):
@@ -100,10 +100,10 @@ def test_each_pixel_shows_the_time_that_an_image_gives_it(monkeypatch):
     image = ROWS | {"time_mode": "IMAGE", "time_image": np.eye(8)}
     cam, scene, motion = moving(lambda f: (camera(image), shapes(((0.1 * (f - 15), 0, -5), 1.2))), 10, 20)
     passes = ("depth", "normal", "object_index", "position", "combined")
-    timed, time = cast(cam, scene, passes), cam.rays().time
+    timed, time = cast(cam, scene, passes=passes), cam.rays().time
     assert len(np.unique(time)) > 1
     for frame in np.unique(time):
-        still = cast(*motion.at(frame), passes)
+        still = cast(*motion.at(frame), passes=passes)
         for name in passes:
             assert np.array_equal(timed[name][time == frame], still[name][time == frame]), name
 
@@ -112,7 +112,7 @@ def test_a_sphere_at_constant_speed_is_a_sheared_ellipse():
     """x moves by 0.1 a frame and the frame by 10 / 48 a row: row y sees the disc displaced by 0.1 (t - 15)."""
     cam, scene, motion = moving(lambda f: (camera(ROWS), shapes(((0.1 * (f - 15), 0, -5), 1.2))), 10, 20)
     assert motion.estimated < 1e-9
-    hit = cast(cam, scene, ("shape_index",))["shape_index"] == 0
+    hit = cast(cam, scene, passes=("shape_index",))["shape_index"] == 0
     x = (np.arange(64) + 0.5 - 32)[None] / 16
     y = (np.arange(48) + 0.5 - 24)[:, None] / 16
     displaced = 0.1 * (10 + (np.arange(48) + 0.5) / 48 * 10 - 15)[:, None]
@@ -135,7 +135,9 @@ def test_a_moving_camera_is_where_it_was_at_each_row():
     assert np.isnan(through.origins[1]).all()
     x, y = np.meshgrid(np.arange(64) + 0.5, np.arange(48) + 0.5)
     assert np.array_equal(cam.rays_at(x.ravel(), y.ravel()).origins.reshape(48, 64, 3), rays.origins)
-    assert cast(cam, scene, ("depth",))["depth"].min() == pytest.approx(4.0, abs=1e-3)  # half a pixel off the pole
+    assert cast(cam, scene, passes=("depth",))["depth"].min() == pytest.approx(
+        4.0, abs=1e-3
+    )  # half a pixel off the pole
 
 
 def test_turning_things_turn_and_are_not_squeezed():
@@ -178,7 +180,7 @@ def test_a_fan_at_many_turns_a_frame_does_not_alias(turns):
         return
     assert len(motion.states) > 3 * turns
     assert measured(motion, evaluate, np.random.default_rng(2).uniform(4.75, 5.25, 50)).measured <= 0.15
-    hit = cast(replace(camera(SHUTTER), timeline=Timeline(motion)), scene, ("shape_index",))["shape_index"]
+    hit = cast(replace(camera(SHUTTER), timeline=Timeline(motion)), scene, passes=("shape_index",))["shape_index"]
     time = camera(SHUTTER).rays().time
     x, y = (np.arange(64) + 0.5 - 32)[None] / 16, (np.arange(48) + 0.5 - 24)[:, None] / 16
     angle = 2 * np.pi * turns * time

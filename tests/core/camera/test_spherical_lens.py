@@ -51,6 +51,6 @@ def test_bounds_hold_what_is_seen_through_the_lens(key):
         np.zeros(n, np.uint8), center + cam.pose.eye, np.eye(3) * random.uniform(0.05, 0.4, (n, 1, 1)), ones, ones,
         random.uniform(0, 1, (n, 4)).astype(np.float32), ones * 0, ("s",),
     )  # fmt: skip
-    pictures = [cast(cam, scene, ("combined",), samples=4, cull=cull)["combined"] for cull in (True, False)]
+    pictures = [cast(cam, scene, passes=("combined",), samples=4, cull=cull)["combined"] for cull in (True, False)]
     assert np.array_equal(*pictures, equal_nan=True)
     assert len(np.unique(pictures[0])) > 100

@@ -268,7 +268,7 @@ def test_culling_changes_no_bit_and_leaves_something_out(key):
         cam = camera(key, row)
         shapes = random_shapes(np.random.default_rng(seed), 40)
         passes = passes_of(cam.model, STILL)
-        culled, unculled = (cast(cam, shapes, passes, np.float64, cull=cull) for cull in (True, False))
+        culled, unculled = (cast(cam, shapes, passes=passes, dtype=np.float64, cull=cull) for cull in (True, False))
         for name in passes:
             assert np.array_equal(culled[name], unculled[name]), (row, name)
         hit += (culled["shape_index"] >= 0).any()

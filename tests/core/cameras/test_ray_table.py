@@ -103,7 +103,7 @@ def test_ray_maps_are_tables_of_the_same_rays(key, settings, tmp_path):
     turned = np.array(((0, -1, 0, 3), (1, 0, 0, -2), (0, 0, 1, 5), (0, 0, 0, 1.0)))
     for own in ({}, border):
         cam = camera(key, settings | own | {"matrix_world": turned})
-        (path,) = crc.export("npz", cam, tmp_path).paths
+        (path,) = crc.export(cam, tmp_path, "npz").paths
         table = crc.load_calibration(path, pose=turned)
         assert (table.model.key, table.raster.size) == ("RAY_TABLE", FRAME)
         one, other = cam.rays(), table.rays_at(cam.raster.columns(), cam.raster.rows())
@@ -242,14 +242,14 @@ def test_exports_take_a_table_as_it_is_or_refuse_it_by_name(tmp_path):
     for cam, able in ((central, r"stmap, npz, json, or Fit Nearest Lens \(--fit\)"), (apart, "npz, json")):
         for name in ("colmap", "nerfstudio", "opencv", "ros", "kalibr", "mrcal", "bop"):
             with pytest.raises(crc.InputError, match=f"Ray Table of camera 'Camera'.*choose one of .*{able}$"):
-                crc.export(name, cam, tmp_path)
-        (path,) = crc.export("json", cam, tmp_path).paths
+                crc.export(cam, tmp_path, name)
+        (path,) = crc.export(cam, tmp_path, "json").paths
         again = crc.camera_from_json(path)
         np.testing.assert_array_equal(again.rays().directions, cam.rays().directions)
         np.testing.assert_array_equal(again.rays().origins, cam.rays().origins)
-    assert len(crc.export("stmap", central, tmp_path).paths) == 2
+    assert len(crc.export(central, tmp_path, "stmap").paths) == 2
     with pytest.raises(crc.InputError, match="no eye in common"):
-        crc.export("stmap", apart, tmp_path)
+        crc.export(apart, tmp_path, "stmap")
 
 
 def test_a_report_states_the_errors_and_holds_small_tables_only():

@@ -44,7 +44,7 @@ def stripe_at(value, count):
 
 def assert_nearest(cam, shapes, crossings):
     """Each pixel has the nearest of all crossings, (t, is_opaque, is_sure) for each shape, k times (m,) each."""
-    images, rays = cast(cam, shapes, BOUNDS, float), cam.rays()
+    images, rays = cast(cam, shapes, passes=BOUNDS, dtype=float), cam.rays()
     origins = np.broadcast_to(rays.origins, rays.directions.shape)[rays.valid]
     nearest, row = np.full(len(origins), np.inf), np.full(len(origins), -1)
     sure = np.ones(len(origins), bool)
@@ -60,7 +60,7 @@ def assert_nearest(cam, shapes, crossings):
     met = np.isfinite(distance)
     assert (np.abs(distance[met] - nearest[sure][met]) <= bound[met]).all()
     assert met.any()
-    given = cast_rays(origins[sure], rays.directions[rays.valid][sure], shapes, BOUNDS)
+    given = cast_rays(origins[sure], rays.directions[rays.valid][sure], shapes, passes=BOUNDS)
     beyond = cam.clip_start + 1e-9 < given["distance"]  # the clip start may be a plane
     np.testing.assert_array_equal(given["shape_index"][beyond], found[beyond])
 
@@ -151,7 +151,7 @@ def test_flow_is_that_of_what_is_seen_through_the_card():
     moved = card_before_wall()
     moved.center[0, 0] -= 1.0
     camera, shapes = with_others(camera, shapes, camera, moved)
-    found = cast(camera, shapes, ("shape_index", "flow_forward", "flow_hidden", "position"), float)
+    found = cast(camera, shapes, passes=("shape_index", "flow_forward", "flow_hidden", "position"), dtype=float)
     wall = found["shape_index"] == 1
     through = wall & (np.abs(found["position"][..., 0] + 1) < 0.9) & (np.abs(found["position"][..., 1]) < 1.9)
     assert through.any()
@@ -164,7 +164,7 @@ def test_a_threshold_is_met_by_the_same_alpha_and_constants_are_all_or_nothing()
     for alpha, seen in ((0.5, 0), (np.nextafter(0.5, 0), 1)):
         surfaces = (Surface(constant(0, 1, 0), alpha=constant(alpha)),)
         own = shapes_of((PLANE, (0, 0, -2), 9.0), (PLANE, (0, 0, -4), 99.0), surfaces=surfaces, surface=shapes.surface)
-        assert (cast(camera_at(), own, "shape_index")["shape_index"] == seen).all()
+        assert (cast(camera_at(), own, passes="shape_index")["shape_index"] == seen).all()
 
 
 @pytest.mark.parametrize("kind", ["plane", "mesh"])
@@ -185,6 +185,6 @@ def test_step_by_step_a_transparent_point_does_not_count(kind):
         text = "\n".join(told.lines())
         assert ("transparent there" in text) == (seen == 1)
         assert ("emission (0, 0.25, 0)" in text) == (seen == 1)
-        image = cast(camera, shapes, ("combined", "shape_index"), float)
+        image = cast(camera, shapes, passes=("combined", "shape_index"), dtype=float)
         assert image["shape_index"][16, column] == seen
         np.testing.assert_array_equal(told.color, image["combined"][16, column])

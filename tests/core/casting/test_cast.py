@@ -61,7 +61,7 @@ def random_rows(rng, n):
 
 
 def test_the_middle_ray_meets_a_sphere_at_its_near_pole():
-    images = cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 2.0)), STILL, np.float64)
+    images = cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 2.0)), passes=STILL, dtype=np.float64)
     middle = 16, 16
     assert images["depth"][middle] == 3.0
     assert images["distance"][middle] == 3.0
@@ -75,7 +75,7 @@ def test_the_middle_ray_meets_a_sphere_at_its_near_pole():
 
 def test_a_miss_and_a_pixel_without_shapes():
     sphere = shapes_of((SPHERE, (0, 0, -5), 2.0), world_color=(0.1, 0.2, 0.3, 1.0))
-    images = cast(camera_at(), sphere, STILL, np.float64)
+    images = cast(camera_at(), sphere, passes=STILL, dtype=np.float64)
     corner = 0, 0
     assert images["depth"][corner] == images["distance"][corner] == np.inf
     assert images["shape_index"][corner] == -1
@@ -87,7 +87,7 @@ def test_a_miss_and_a_pixel_without_shapes():
 
 def test_depth_is_planar_and_distance_is_along_the_ray():
     floor = shapes_of((INFINITE_PLANE, (0, 0, -4), 1.0))
-    images = cast(camera_at(), floor, ("depth", "distance"), np.float64)
+    images = cast(camera_at(), floor, passes=("depth", "distance"), dtype=np.float64)
     x = (np.arange(33) + 0.5 - 16.5) / 16.5
     assert np.abs(images["depth"] - 4).max() <= 8 * EPS
     assert images["distance"] == pytest.approx(4 * np.sqrt(1 + x[None] ** 2 + x[:, None] ** 2), rel=8 * EPS)
@@ -95,14 +95,14 @@ def test_depth_is_planar_and_distance_is_along_the_ray():
 
 def test_a_finite_plane_ends_where_it_ends():
     square = shapes_of((PLANE, (0, 0, -2), 1.0))
-    hit = np.isfinite(cast(camera_at(), square, ("depth",))["depth"])
+    hit = np.isfinite(cast(camera_at(), square, passes=("depth",))["depth"])
     x = np.abs((np.arange(33) + 0.5 - 16.5) / 16.5) <= 0.5
     assert np.array_equal(hit, x[:, None] & x[None])
 
 
 def test_orthographic_rays_start_on_the_camera_plane():
     camera = camera_at(type="ORTHO", ortho_scale=4.0)
-    images = cast(camera, shapes_of((SPHERE, (0, 0, -5), 1.5)), STILL, np.float64)
+    images = cast(camera, shapes_of((SPHERE, (0, 0, -5), 1.5)), passes=STILL, dtype=np.float64)
     x = (np.arange(33) + 0.5 - 16.5) / 33 * 4
     square = x[None] ** 2 + x[:, None] ** 2
     hit = square <= 1.5**2
@@ -114,7 +114,7 @@ def test_orthographic_rays_start_on_the_camera_plane():
 
 
 def test_from_inside_a_sphere_the_far_wall_is_seen_and_faces_the_eye():
-    images = cast(camera_at(clip_start=0.01), shapes_of((SPHERE, (0, 0, 0), 3.0)), STILL, np.float64)
+    images = cast(camera_at(clip_start=0.01), shapes_of((SPHERE, (0, 0, 0), 3.0)), passes=STILL, dtype=np.float64)
     assert images["distance"] == pytest.approx(np.full((33, 33), 3.0), rel=8 * EPS)
     assert (images["normal"] * images["ray_direction"]).sum(axis=-1) == pytest.approx(-np.ones((33, 33)))
 
@@ -122,10 +122,10 @@ def test_from_inside_a_sphere_the_far_wall_is_seen_and_faces_the_eye():
 def test_the_clip_range_cuts_shapes_open():
     sphere = shapes_of((SPHERE, (0, 0, -5), 2.0))
     middle = 16, 16
-    assert cast(camera_at(clip_start=4.0), sphere, ("depth",))["depth"][middle] == 7.0
-    assert cast(camera_at(clip_start=8.0), sphere, ("depth",))["depth"][middle] == np.inf
-    assert cast(camera_at(clip_end=2.5), sphere, ("depth",))["depth"][middle] == np.inf
-    assert cast(camera_at(clip_end=3.0), sphere, ("depth",))["depth"][middle] == 3.0
+    assert cast(camera_at(clip_start=4.0), sphere, passes=("depth",))["depth"][middle] == 7.0
+    assert cast(camera_at(clip_start=8.0), sphere, passes=("depth",))["depth"][middle] == np.inf
+    assert cast(camera_at(clip_end=2.5), sphere, passes=("depth",))["depth"][middle] == np.inf
+    assert cast(camera_at(clip_end=3.0), sphere, passes=("depth",))["depth"][middle] == 3.0
 
 
 @pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
@@ -135,7 +135,7 @@ def test_hits_lie_on_the_ray_and_on_the_shape_and_none_is_nearer(kind, seed):
     shapes = random_shapes(rng, 25)
     rotation = np.linalg.qr(rng.normal(size=(3, 3)))[0]
     camera = camera_at(pose(rotation, rng.uniform(-1, 1, 3)), type=kind, ortho_scale=9.0, clip_start=0.05)
-    images = cast(camera, shapes, STILL, np.float64)
+    images = cast(camera, shapes, passes=STILL, dtype=np.float64)
     rays, seen = camera.rays(), images["shape_index"] >= 0
     assert seen.any()
     along = rays.origins + images["distance"][..., None] * rays.directions
@@ -183,7 +183,7 @@ def test_culling_and_batches_change_no_bit(kind, seed):
         pose(rotation, rng.uniform(-4, 4, 3)), type=kind, ortho_scale=12.0, resolution_x=160, resolution_y=90,
         clip_start=[0.1, 3.0][seed % 2], use_border=seed % 3 == 0, border_min_x=0.2, border_max_y=0.7,
     )  # fmt: skip
-    culled, unculled = (cast(camera, shapes, STILL, np.float64, cull=cull) for cull in (True, False))
+    culled, unculled = (cast(camera, shapes, passes=STILL, dtype=np.float64, cull=cull) for cull in (True, False))
     for name in STILL:
         assert np.array_equal(culled[name], unculled[name]), name
     assert culled.plan.unseen > unculled.plan.unseen == 0
@@ -191,21 +191,21 @@ def test_culling_and_batches_change_no_bit(kind, seed):
 
 def test_of_coincident_shapes_the_first_is_seen():
     pair = shapes_of(*[(SPHERE, (0, 0, -5), 2.0)] * 3, *[(PLANE, (0, 0, -9), 20.0)] * 2)
-    index = cast(camera_at(), pair, ("shape_index",))["shape_index"]
+    index = cast(camera_at(), pair, passes=("shape_index",))["shape_index"]
     assert set(np.unique(index)) == {0, 3}
 
 
 def test_far_small_spheres_are_not_lost():
     """Radius 1 at 1e9: the textbook's discriminant is lost from 1e8 on."""
     camera = camera_at(resolution_x=3, resolution_y=3, lens=5e9, clip_end=1e10)
-    images = cast(camera, shapes_of((SPHERE, (0, 0, -1e9), 1.0)), ("depth", "normal"), np.float64)
+    images = cast(camera, shapes_of((SPHERE, (0, 0, -1e9), 1.0)), passes=("depth", "normal"), dtype=np.float64)
     assert np.isfinite(images["depth"]).sum() == 1
     assert images["depth"][1, 1] == 1e9 - 1
 
 
 def test_dtype_is_only_what_is_stored():
     shapes = random_shapes(np.random.default_rng(5), 20)
-    single, double = (cast(camera_at(), shapes, STILL, dtype) for dtype in (np.float32, np.float64))
+    single, double = (cast(camera_at(), shapes, passes=STILL, dtype=dtype) for dtype in (np.float32, np.float64))
     for name in (name for name in STILL if not name.endswith("_bound")):  # a bound counts what storing loses
         stored = double[name].astype(single[name].dtype)
         assert np.array_equal(single[name], stored), name
@@ -214,44 +214,44 @@ def test_dtype_is_only_what_is_stored():
 
 
 def test_what_is_not_needed_is_said():
-    images = cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0), (SPHERE, (0, 0, 5), 1.0)), ("depth",))
+    images = cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0), (SPHERE, (0, 0, 5), 1.0)), passes=("depth",))
     said = "\n".join(images.plan.left_out())
     assert "1 of 2 shapes" in said
     for word in ("plane", "normal", "start at the eye", "clip end"):
         assert word in said
-    slanted = cast(camera_at(type="ORTHO", clip_end=5.5), shapes_of((SPHERE, (0, 0, -5), 1.0)), ("depth",))
+    slanted = cast(camera_at(type="ORTHO", clip_end=5.5), shapes_of((SPHERE, (0, 0, -5), 1.0)), passes=("depth",))
     assert not any("eye" in line or "clip" in line for line in slanted.plan.left_out())
 
 
 def test_precision_has_no_effect_and_warns_until_it_goes():
     shapes = shapes_of((SPHERE, (0, 0, -5), 1.0))
     with pytest.warns(DeprecationWarning, match="precision has no effect"):
-        images = cast(camera_at(), shapes, ("depth",), precision="FAST")
-    np.testing.assert_array_equal(images["depth"], cast(camera_at(), shapes, ("depth",))["depth"])
+        images = cast(camera_at(), shapes, passes=("depth",), precision="FAST")
+    np.testing.assert_array_equal(images["depth"], cast(camera_at(), shapes, passes=("depth",))["depth"])
 
 
 def test_unknown_pass_and_shading_are_refused_by_name():
     with pytest.raises(InputError, match="unknown pass 'depht': did you mean depth"):
-        cast(camera_at(), shapes_of(), ("depht",))
+        cast(camera_at(), shapes_of(), passes=("depht",))
     with pytest.raises(InputError, match=r"PHONG.*MATERIAL"):
-        cast(camera_at(), shapes_of(), ("depth",), shading="PHONG")
+        cast(camera_at(), shapes_of(), passes=("depth",), shading="PHONG")
 
 
 def test_one_pass_may_be_named_alone_and_no_threads_are_refused():
     ball = shapes_of((SPHERE, (0, 0, -5), 1.0))
-    assert list(cast(camera_at(), ball, "depth")) == ["depth"]
+    assert list(cast(camera_at(), ball, passes="depth")) == ["depth"]
     for threads in (0, -1):
         with pytest.raises(InputError, match=f"threads is {threads}"):
-            cast(camera_at(), ball, "depth", threads=threads)
+            cast(camera_at(), ball, passes="depth", threads=threads)
 
 
 def test_progress_rises_to_one_and_can_stop_the_cast(monkeypatch):
     monkeypatch.setattr(tuning, "TILE_WORK", 1 << 16)
     camera = camera_at(resolution_x=1024, resolution_y=1024)
     told = []
-    cast(camera, shapes_of(), ("depth",), threads=8, progress=lambda fraction: told.append(fraction) or True)
+    cast(camera, shapes_of(), passes=("depth",), threads=8, progress=lambda fraction: told.append(fraction) or True)
     assert told == sorted(told)
     assert told[-1] == 1.0
     assert len(told) >= 4
     with pytest.raises(Cancelled):
-        cast(camera, shapes_of(), ("depth",), progress=lambda fraction: False)
+        cast(camera, shapes_of(), passes=("depth",), progress=lambda fraction: False)

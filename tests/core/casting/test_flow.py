@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
 from mpmath import mpf
 
+from camera_ray_caster.core import cast as caster
 from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cameras import MODELS
-from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.pixels import passes_at
 from camera_ray_caster.core.motion.evaluations import resolve
 from camera_ray_caster.core.motion.matching import rows_in
@@ -24,6 +25,7 @@ from ..truth import differences, truth
 from .neighbors import at_rest, with_motion, with_others
 from .test_cast import camera_at, random_rows, random_shapes, shapes_of
 
+cast = partial(caster.cast, dtype=float)
 SIZE = {"resolution_x": 64, "resolution_y": 48}
 PIXEL = 1e-9
 """Pixels to which every model's inverse is right, wherever the point is."""
@@ -112,7 +114,7 @@ def test_nothing_moves_in_a_scene_that_stands_still():
     """And no surface hides itself, however its points are rounded."""
     shapes = random_shapes(np.random.default_rng(5), 60)
     for camera in (camera_at(), camera_at(type="ORTHO", ortho_scale=12.0), camera_from(raw_of("CROSS_SLIT", SIZE))):
-        images = cast(*at_rest(camera, shapes), ("flow_forward", "flow_hidden", "shape_index"), float)
+        images = cast(*at_rest(camera, shapes), passes=("flow_forward", "flow_hidden", "shape_index"))
         flow, hit = images["flow_forward"], images["shape_index"] >= 0
         assert np.abs(flow[~np.isnan(flow)]).max() < PIXEL
         assert (np.isnan(flow).any(axis=-1) == ~hit).all()
@@ -125,7 +127,7 @@ def test_a_point_that_is_seen_twice_is_followed_where_it_is(key):
     both = {"OMNIDIRECTIONAL_STEREO": {"eye": "TOP_BOTTOM"}, "STRIP": {"path": ((-2, 0, 0), (2, 0, 0), (-2, 0, 0.5))}}
     camera = camera_from(raw_of(key, SIZE | both[key]))
     shapes = shapes_of((SPHERE, (0, 0, 0), 6.0))
-    images = cast(*at_rest(camera, shapes), ("flow_forward", "flow_hidden", "position", "shape_index"), float)
+    images = cast(*at_rest(camera, shapes), passes=("flow_forward", "flow_hidden", "position", "shape_index"))
     hit = images["shape_index"] >= 0
     own = np.argwhere(hit)[:, ::-1] + 0.5
     assert np.abs(camera.project(images["position"][hit]) - own).max(axis=1).mean() > 5
@@ -137,11 +139,11 @@ def test_a_mesh_hides_its_own_back_and_never_the_point_that_is_seen():
     """A smooth ball of flat triangles turns: what goes behind its rim is hidden, and it alone."""
     ball = meshes.ball(40, 60)
     camera, still = camera_at(resolution_x=200, resolution_y=200), meshes.shapes_of((ball, (0, 0, -4), 1.0))
-    images = cast(*at_rest(camera, still), ("flow_hidden", "shape_index"))
+    images = cast(*at_rest(camera, still), passes=("flow_hidden", "shape_index"))
     assert (images["shape_index"] == 0).sum() > 1000
     assert not images["flow_hidden"].any()
     turned = replace(still, axes=turn(0.3, 1)[None])
-    images = cast(*with_others(camera, still, camera, turned), ("flow_hidden", "position", "shape_index"), float)
+    images = cast(*with_others(camera, still, camera, turned), passes=("flow_hidden", "position", "shape_index"))
     there = (images["position"] - still.center[0]) @ turn(0.3, 1).T + still.center[0]
     facing = ((there - still.center[0]) * there).sum(axis=-1)
     hit, hidden = images["shape_index"] == 0, images["flow_hidden"][..., 0]
@@ -160,8 +162,8 @@ def test_a_picture_warped_by_its_flow_is_the_next_one():
         camera = camera_from(raw_of(key, size))
         later = camera_from(raw_of(key, size | {"matrix_world": moved_matrix(np.eye(4))}))
         passes = "flow_forward", "flow_hidden", "shape_index", "uv"
-        now = cast(*with_others(camera, shapes, later, after), passes, float)
-        then = cast(later, after, ("shape_index", "uv"), float)
+        now = cast(*with_others(camera, shapes, later, after), passes=passes)
+        then = cast(later, after, passes=("shape_index", "uv"))
         x, y = np.meshgrid(np.arange(160) + 0.5, np.arange(120) + 0.5)
         target = now["flow_forward"] + np.stack((x, y), axis=-1)
         seen = ~np.isnan(target[..., 0]) & ~now["flow_hidden"][..., 0]
@@ -171,7 +173,7 @@ def test_a_picture_warped_by_its_flow_is_the_next_one():
         finite = same & (now["shape_index"][seen] < 30)  # the uv of the infinite plane has no end
         apart = np.abs(then["uv"][row, column] - now["uv"][seen])[finite].max(axis=1, initial=0.0)
         assert np.median(apart) < 0.02
-        returned = cast(*with_others(later, after, camera, shapes), ("flow_backward",), float)["flow_backward"]
+        returned = cast(*with_others(later, after, camera, shapes), passes=("flow_backward",))["flow_backward"]
         assert np.nanmedian(np.abs(returned[row, column] + now["flow_forward"][seen])) < 0.2
 
 
@@ -180,7 +182,7 @@ def test_flow_is_from_pixel_to_pixel_with_y_up():
     camera = timed_camera({})
     shapes = shapes_of((SPHERE, (0, 0, -5), 1.0))
     after = replace(shapes, center=shapes.center + np.array((0.25, 0.125, -1.0)))
-    flow = cast(*with_others(camera, shapes, camera, after), ("flow_forward",), float)["flow_forward"]
+    flow = cast(*with_others(camera, shapes, camera, after), passes=("flow_forward",))["flow_forward"]
     assert flow[24, 32] == pytest.approx((4.0, 2.0), abs=1e-12)
     assert np.isnan(flow[0, 0]).all()
 
@@ -189,7 +191,7 @@ def test_what_leaves_the_full_frame_has_no_flow_and_a_border_is_no_end():
     camera = timed_camera({}, use_border=True, border_min_x=0.25, border_max_x=0.75)
     shapes = shapes_of((PLANE, (0, 0, -5), 9.0))
     after = replace(shapes, center=shapes.center + np.array((1.5, 0, 0)))
-    flow = cast(*with_others(camera, shapes, camera, after), ("flow_forward",), float)["flow_forward"]
+    flow = cast(*with_others(camera, shapes, camera, after), passes=("flow_forward",))["flow_forward"]
     assert flow.shape == (48, 32, 2)
     assert flow[:, :24, 0] == pytest.approx(24, abs=1e-12)
     assert np.isnan(flow[:, 24:]).all()
@@ -199,11 +201,11 @@ def test_a_wall_hides_and_so_does_the_clip_range():
     camera = timed_camera({})
     shapes = shapes_of((PLANE, (0, 0, -5), 0.5), (PLANE, (9, 0, -3), 1.0))
     hidden = replace(shapes, center=np.array([(0, 0, -5), (0.75, 0, -3.0)]))
-    images = cast(*with_others(camera, shapes, camera, hidden), ("flow_forward", "flow_hidden"), float)
+    images = cast(*with_others(camera, shapes, camera, hidden), passes=("flow_forward", "flow_hidden"))
     assert images["flow_hidden"][24, 24:40, 0].tolist() == [False] * 4 + [True] * 12
     assert (images["flow_forward"][24, 24:40] == 0).all()
     clipped = replace(camera, clip_end=4.0)
-    images = cast(*with_others(camera, shapes, clipped, shapes), ("flow_hidden",))
+    images = cast(*with_others(camera, shapes, clipped, shapes), passes=("flow_hidden",))
     assert images["flow_hidden"][24, 24:40].all()
 
 
@@ -213,13 +215,13 @@ def test_deforming_meshes_are_followed_by_their_triangles():
     wide = replace(sheet, vertices=sheet.vertices * np.float32([[1.5], [1], [1]]))
     camera = timed_camera({})
     now, after = meshes.shapes_of((sheet, (0, 0, -5), 1.0)), meshes.shapes_of((wide, (0, 0, -5), 1.0))
-    images = cast(*with_others(camera, now, camera, after), ("flow_forward", "position", "flow_hidden"), float)
+    images = cast(*with_others(camera, now, camera, after), passes=("flow_forward", "position", "flow_hidden"))
     seen = ~np.isnan(images["flow_forward"][..., 0])
     assert images["flow_forward"][seen][:, 0] == pytest.approx(images["position"][seen][:, 0] * 0.5 * 16, abs=1e-10)
     assert not images["flow_hidden"].any()
     flat = meshes.shapes_of((sheet, (0, 0, -5), np.diag([1.0, 1.0, 0.0])))
     gone = replace(flat, center=flat.center + np.array((0.25, 0, 0)), axes=np.diag([1.0, 1.0, 0.0])[None])
-    flow = cast(*with_others(camera, flat, camera, gone), ("flow_forward",), float)["flow_forward"]
+    flow = cast(*with_others(camera, flat, camera, gone), passes=("flow_forward",))["flow_forward"]
     assert flow[24, 32] == pytest.approx((4, 0), abs=1e-12)
 
 
@@ -240,7 +242,7 @@ def test_a_rolling_shutter_sees_a_point_at_the_time_of_its_row():
         return with_motion(camera, shapes, motion)
 
     camera, shapes = with_others(*at(5.0), *at(6.0))
-    images = cast(camera, shapes, ("flow_forward", "flow_hidden"), float)
+    images = cast(camera, shapes, passes=("flow_forward", "flow_hidden"))
     # time falls by 0.5 / 48 a row, so dt = 1 - 0.5 / 48 dy and dy = 16 dt
     time = 1 / (1 + 16 * 0.5 / 48)
     flow = images["flow_forward"][:20, :50]
@@ -263,7 +265,7 @@ def test_a_face_that_is_divided_otherwise_moves_as_it_was_divided_before():
     )  # fmt: skip
     passes = "flow_forward", "shape_index"
     expected, found, none = (
-        cast(*with_others(camera_at(), now, camera_at(), after), passes, float) for after in (same, divided, broken)
+        cast(*with_others(camera_at(), now, camera_at(), after), passes=passes) for after in (same, divided, broken)
     )
     hit = expected["shape_index"] == 0
     assert np.isfinite(expected["flow_forward"][hit]).any()
@@ -281,11 +283,11 @@ def test_shapes_are_known_by_their_names():
     assert rows_in(before, other).tolist() == [2, -1, -1, 3]
     one_less = replace(after, names=("b", "new", "a", "d"))
     assert rows_in(before, one_less).tolist() == [-1, 0, -1, -1]
-    flow = cast(*with_others(camera_at(), before, camera_at(), one_less), ("flow_forward", "shape_index"), float)
+    flow = cast(*with_others(camera_at(), before, camera_at(), one_less), passes=("flow_forward", "shape_index"))
     assert (np.isnan(flow["flow_forward"][..., 0]) == (flow["shape_index"] != 1)).all()
     assert rows_in(before, no_shapes()).tolist() == [-1] * 4
     passes = "flow_forward", "flow_hidden", "shape_index"
-    flow = cast(*with_others(camera_at(), before, camera_at(), no_shapes()), passes, float)
+    flow = cast(*with_others(camera_at(), before, camera_at(), no_shapes()), passes=passes)
     assert (flow["shape_index"] >= 0).any()
     assert np.isnan(flow["flow_forward"]).all()
     assert not flow["flow_hidden"].any()
@@ -293,4 +295,4 @@ def test_shapes_are_known_by_their_names():
 
 def test_a_frame_that_was_not_read_is_named():
     with pytest.raises(InputError, match=r"flow_forward.* next frame, which was not read: .*with_timeline.next="):
-        cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0)), ("depth", "flow_forward"))
+        cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0)), passes=("depth", "flow_forward"))

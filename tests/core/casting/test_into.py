@@ -25,11 +25,11 @@ def camera(model="PERSP", size=(64, 48)):
 @pytest.mark.parametrize("model", ["PERSP", "FISHEYE_EQUIDISTANT", "ORTHO"])
 @pytest.mark.parametrize("order", [(SHAPES, OTHER), (OTHER, SHAPES)], ids=["fewer hits", "more hits"])
 def test_what_was_there_does_not_show(model, order):
-    images = crc.cast(camera(model), order[0], STILL)
+    images = crc.cast(camera(model), order[0], passes=STILL)
     arrays = dict(images)
     plan = images.plan
-    again = crc.cast(camera(model), order[1], STILL, into=images)
-    fresh = crc.cast(camera(model), order[1], STILL)
+    again = crc.cast(camera(model), order[1], passes=STILL, into=images)
+    fresh = crc.cast(camera(model), order[1], passes=STILL)
     assert again is images
     assert images.shapes is order[1]
     assert images.plan is not plan
@@ -41,22 +41,22 @@ def test_what_was_there_does_not_show(model, order):
 
 def test_with_samples_and_without_culling():
     for keywords in ({"samples": 3}, {"threads": 1, "cull": False}):
-        images = crc.cast(camera(), SHAPES, ("combined", "depth"), **keywords)
-        fresh = crc.cast(camera(), OTHER, ("combined", "depth"), **keywords)
-        again = crc.cast(camera(), OTHER, ("combined", "depth"), into=images, **keywords)
+        images = crc.cast(camera(), SHAPES, passes=("combined", "depth"), **keywords)
+        fresh = crc.cast(camera(), OTHER, passes=("combined", "depth"), **keywords)
+        again = crc.cast(camera(), OTHER, passes=("combined", "depth"), into=images, **keywords)
         for name in fresh:
             np.testing.assert_array_equal(again[name], fresh[name])
 
 
 def test_passes_that_are_not_requested_are_removed():
-    images = crc.cast(camera(), SHAPES, ("position", *TWO))
-    crc.cast(camera(), SHAPES, ("normal", "depth"), into=images)
+    images = crc.cast(camera(), SHAPES, passes=("position", *TWO))
+    crc.cast(camera(), SHAPES, passes=("normal", "depth"), into=images)
     assert list(images) == ["normal", "depth"]
 
 
 def changed(**arrays):
     """Images of TWO with other arrays."""
-    images = crc.cast(camera(), SHAPES, TWO)
+    images = crc.cast(camera(), SHAPES, passes=TWO)
     for name, made in arrays.items():
         images[name] = made(images)
     return images
@@ -68,11 +68,13 @@ def read_only(images):
 
 
 BAD = {
-    "a dictionary": (lambda: dict(crc.cast(camera(), SHAPES, TWO)), "images that an earlier cast returned"),
+    "a dictionary": (lambda: dict(crc.cast(camera(), SHAPES, passes=TWO)), "images that an earlier cast returned"),
     "empty": (Images, "no pass depth"),
-    "a missing pass": (lambda: crc.cast(camera(), SHAPES, "depth"), "no pass normal"),
-    "another size": (lambda: crc.cast(camera(size=(64, 40)), SHAPES, TWO), "depth of into has the shape"),
-    "another type": (lambda: crc.cast(camera(), SHAPES, TWO, np.float64), "depth of into has the shape and type"),
+    "a missing pass": (lambda: crc.cast(camera(), SHAPES, passes="depth"), "no pass normal"),
+    "another size": (lambda: crc.cast(camera(size=(64, 40)), SHAPES, passes=TWO), "depth of into has the shape"),
+    "another type": (
+        lambda: crc.cast(camera(), SHAPES, passes=TWO, dtype=np.float64), "depth of into has the shape and type"
+    ),
     "a list": (lambda: changed(depth=lambda images: images["depth"].tolist()), "no pass depth"),
     "read-only": (lambda: changed(depth=read_only), "writable"),
     "masked": (lambda: changed(depth=lambda images: np.ma.masked_array(images["depth"], mask=True, hard_mask=True)),
@@ -80,7 +82,7 @@ BAD = {
     "columns first": (lambda: changed(normal=lambda images: np.asfortranarray(images["normal"])), "C-contiguous"),
     "memory of another": (lambda: changed(depth=lambda images: images["normal"].reshape(-1)[: 64 * 48].reshape(48, 64)),
                           "share memory"),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("case", BAD)
@@ -89,7 +91,7 @@ def test_images_that_do_not_fit_are_refused_before_anything_is_written(case):
     images = make()
     before = {name: np.array(image) for name, image in images.items()}
     with pytest.raises(crc.InputError, match=re.escape(said)):
-        crc.cast(camera(), OTHER, TWO, into=images)
+        crc.cast(camera(), OTHER, passes=TWO, into=images)
     assert list(images) == list(before)
     for name, image in before.items():
         np.testing.assert_array_equal(images[name], image)

@@ -63,7 +63,7 @@ def scenes(draw):
 
 
 def pictures(raw, shapes):
-    return cast(camera_from(raw), shapes, PASSES, np.float64)
+    return cast(camera_from(raw), shapes, passes=PASSES, dtype=np.float64)
 
 
 # the same for everyone: a failure is a change's

@@ -24,7 +24,7 @@ SHEARED = TURN @ [[1, 0.5, 0, 0], [0, 2, 0.3, 0], [0.1, 0, -1, 0], [0, 0, 0, 1]]
 
 
 def area_pass(cam, name, things=BALL):
-    return cast(cam, things, name, np.float64)[name]
+    return cast(cam, things, passes=name, dtype=np.float64)[name]
 
 
 def solid_angles(key, settings=(), things=BALL):
@@ -96,7 +96,7 @@ def test_a_sheared_camera_s_are_the_cross_products_of_its_jacobian(key):
 def test_what_is_parallel_has_no_solid_angle_and_what_sees_nothing_no_footprint():
     cam = camera("ORTHO")
     assert not area_pass(cam, "solid_angle").any()
-    found = cast(cam, BALL, ("footprint", "distance"), np.float32)
+    found = cast(cam, BALL, passes=("footprint", "distance"), dtype=np.float32)
     np.testing.assert_array_equal(np.isinf(found["footprint"]), np.isinf(found["distance"]))
     rimmed = camera("FISHEYE_EQUIDISTANT")
     assert (area_pass(rimmed, "footprint")[~rimmed.rays().valid] == np.inf).all()
@@ -145,7 +145,8 @@ def test_a_footprint_is_what_the_hits_of_rays_beside_span(key, surface):
     things, meet = SURFACES[surface]
     cam = camera(key)
     found, distance = (
-        cast(cam, things, ("footprint", "distance"), np.float64)[name] for name in ("footprint", "distance")
+        cast(cam, things, passes=("footprint", "distance"), dtype=np.float64)[name]
+        for name in ("footprint", "distance")
     )
     x, y = cam.raster.columns(), cam.raster.rows()
 
@@ -200,6 +201,6 @@ def test_an_orthographic_camera_s_footprints_grow_with_the_slope():
 def test_pictures_that_do_not_ask_pay_nothing(monkeypatch):
     monkeypatch.setattr(hit_values, "RayDerivatives", None)
     others = tuple(name for name in STILL if name not in ("solid_angle", "footprint"))
-    assert set(cast(camera("EQUIRECTANGULAR"), BALL, others)) == set(others)
+    assert set(cast(camera("EQUIRECTANGULAR"), BALL, passes=others)) == set(others)
     with pytest.raises(TypeError, match="NoneType"):
-        cast(camera("EQUIRECTANGULAR"), BALL, "solid_angle")
+        cast(camera("EQUIRECTANGULAR"), BALL, passes="solid_angle")

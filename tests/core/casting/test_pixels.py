@@ -25,7 +25,7 @@ LATTICES = [([31], [7]), ([0, 63], [0, 47]), ([5, 6, 7, 40], [3, 11, 30, 31, 46]
 def test_passes_at_pixels_are_those_of_the_picture(model):
     camera, shapes = at_rest(camera_of(model.key, SIZE), random_shapes(np.random.default_rng(0), 40))
     passes = passes_of(model)
-    whole = cast(camera, shapes, passes, np.float64)
+    whole = cast(camera, shapes, passes=passes, dtype=np.float64)
     assert (whole["shape_index"] >= 0).any()
     for columns, rows in LATTICES:
         some = passes_at(camera, shapes, np.array(columns), np.array(rows), passes)
@@ -36,7 +36,7 @@ def test_passes_at_pixels_are_those_of_the_picture(model):
 
 def test_pixels_beside_the_render_window_are_cast_too():
     shapes = random_shapes(np.random.default_rng(0), 40)
-    whole = cast(camera_at(**SIZE), shapes, ("distance",), np.float64)["distance"]
+    whole = cast(camera_at(**SIZE), shapes, passes=("distance",), dtype=np.float64)["distance"]
     border = camera_at(**SIZE, use_border=True, border_min_x=0.5, border_max_y=0.5)
     some = passes_at(border, shapes, np.array([3, 50]), np.array([10, 40]), ("distance",))["distance"]
     assert np.array_equal(some, whole[np.ix_([10, 40], [3, 50])])
@@ -45,7 +45,7 @@ def test_pixels_beside_the_render_window_are_cast_too():
 def test_the_plan_of_a_picture_serves_pixels_of_its_window_and_tests_only_what_they_may_see():
     shapes = random_shapes(np.random.default_rng(0), 40)
     camera = camera_at(**SIZE, use_border=True, border_min_x=0.25, border_min_y=0.25)
-    images = cast(camera, shapes, ("depth", "shape_index"), np.float64)
+    images = cast(camera, shapes, passes=("depth", "shape_index"), dtype=np.float64)
     raster = camera.raster
     columns, rows = np.array([raster.x0, 40, 41]), np.array([raster.y0 + 1, raster.y1 - 1])
     hits = hits_at(images.plan, columns, rows)
@@ -60,7 +60,7 @@ def test_meshes_at_pixels_are_those_of_the_picture_and_are_not_placed_again(mode
     """To rounding: single pixels have no spans."""
     camera = camera_of(model.key, SIZE)
     shapes = meshes.shapes_of((meshes.soup(np.random.default_rng(2), 300), (0, 0, -1), 2.0))
-    images = cast(camera, shapes, ("distance", "face_index"), np.float64)
+    images = cast(camera, shapes, passes=("distance", "face_index"), dtype=np.float64)
     for columns, rows in LATTICES:
         some = passes_at(camera, shapes, np.array(columns), np.array(rows), ("distance", "face_index"))
         at = np.ix_(rows, columns)

@@ -36,14 +36,14 @@ def forbidden(*_, **__):
 def test_kinds_that_are_not_there_are_not_tested(monkeypatch, shapes, other):
     for name in ("constants", "intersect", "normals", "errors"):
         monkeypatch.setattr(other, name, forbidden)
-    images = cast(camera_at(), shapes, EVERY)
+    images = cast(camera_at(), shapes, passes=EVERY)
     assert (images["shape_index"] >= 0).any()
 
 
 def test_a_kind_out_of_view_is_not_tested(monkeypatch):
     monkeypatch.setattr(Plane, "intersect", forbidden)
     behind = shapes_of((SPHERE, (0, 0, -6), 1.0), (PLANE, (0, 0, 5), 2.0), (PLANE, (90, 0, -5), 2.0))
-    images = cast(camera_at(), behind, EVERY)
+    images = cast(camera_at(), behind, passes=EVERY)
     assert images.plan.unseen == 2
     assert set(np.unique(images["shape_index"])) == {-1, 0}
 
@@ -53,41 +53,41 @@ def test_depth_needs_no_normals_error_bounds_indices_and_colors(monkeypatch, pas
     monkeypatch.setattr(plan, "normal_table", forbidden)
     monkeypatch.setattr(hit_values, "HitErrors", forbidden)
     bare = replace(BALLS, object_index=None, material_index=None, color=None)
-    assert list(cast(camera_at(), bare, passes)) == list(passes)
+    assert list(cast(camera_at(), bare, passes=passes)) == list(passes)
 
 
 def test_the_clip_end_is_asked_only_where_something_reaches_beyond_it():
     ball = shapes_of((SPHERE, (0, 0, -5), 1.0))
     for end, clips, hit in ((100.0, False, 4.0), (5.5, True, 4.0), (3.9, False, np.inf)):
-        images = cast(camera_at(clip_end=end), ball, ("depth",), np.float64)
+        images = cast(camera_at(clip_end=end), ball, passes=("depth",), dtype=np.float64)
         assert images.plan.clips is clips
         assert images["depth"][16, 16] == hit
     walls = shapes_of((PLANE, (0, 0, -5), [[9, 0, 0], [0, 1, -1], [0, 1, 1]]))  # it rises towards the camera
-    images = cast(camera_at(clip_end=5.0), walls, ("depth", "shape_index"), np.float64)
+    images = cast(camera_at(clip_end=5.0), walls, passes=("depth", "shape_index"), dtype=np.float64)
     assert images.plan.clips
     assert images["depth"][np.isfinite(images["depth"])].max() <= 5.0
     assert ((images["shape_index"] >= 0) == np.isfinite(images["depth"])).all()
-    whole = cast(camera_at(), walls, ("shape_index",))["shape_index"] == 0
+    whole = cast(camera_at(), walls, passes=("shape_index",))["shape_index"] == 0
     assert 0 < np.isfinite(images["depth"]).sum() < whole.sum()
 
 
 def test_position_needs_no_normals(monkeypatch):
     monkeypatch.setattr(plan, "normal_table", forbidden)
-    assert np.isfinite(cast(camera_at(), BALLS, ("position",))["position"]).all()
+    assert np.isfinite(cast(camera_at(), BALLS, passes=("position",))["position"]).all()
 
 
 def test_one_sample_needs_no_lens_and_one_time_no_motion(monkeypatch):
     monkeypatch.setattr(Camera, "sample_rays", forbidden)
     monkeypatch.setattr(Camera, "at", forbidden)
     monkeypatch.setattr(Motion, "at", forbidden)
-    assert np.isfinite(cast(camera_at(), BALLS, ("combined",))["combined"]).all()
+    assert np.isfinite(cast(camera_at(), BALLS, passes=("combined",))["combined"]).all()
 
 
 def test_normals_of_near_balls_come_with_unit_length_and_only_those_of_far_ones_are_given_it():
     near, far = (shapes_of((SPHERE, (0, 0, -distance), 1.0)) for distance in (50.0, 1e6))
     for shapes, unit in ((near, True), (far, False)):
         camera = camera_at(lens=18.0 * -shapes.center[0, 2] / 2, clip_end=1e7)
-        images = cast(camera, shapes, ("normal", "shape_index"), np.float64)
+        images = cast(camera, shapes, passes=("normal", "shape_index"), dtype=np.float64)
         assert images.plan.normals.unit is unit
         length = np.linalg.norm(images["normal"], axis=-1)[images["shape_index"] >= 0]
         assert length.size > 100
@@ -108,11 +108,11 @@ def test_normals_of_near_balls_come_with_unit_length_and_only_those_of_far_ones_
 def test_a_pass_is_the_same_alone_and_among_all_others(shapes, shading):
     """Passes share working arrays: none may find what another left there."""
     camera, shapes = at_rest(camera_at(), shapes)
-    every = cast(camera, shapes, tuple(PASSES), np.float64, shading=shading)
-    backwards = cast(camera, shapes, tuple(reversed(PASSES)), np.float64, shading=shading)
+    every = cast(camera, shapes, passes=tuple(PASSES), dtype=np.float64, shading=shading)
+    backwards = cast(camera, shapes, passes=tuple(reversed(PASSES)), dtype=np.float64, shading=shading)
     for name in PASSES:
         assert np.array_equal(backwards[name], every[name], equal_nan=True), name
-        alone = cast(camera, shapes, (name,), np.float64, shading=shading)[name]
+        alone = cast(camera, shapes, passes=(name,), dtype=np.float64, shading=shading)[name]
         assert np.array_equal(alone, every[name], equal_nan=True), name
 
 
@@ -120,10 +120,10 @@ def test_a_pass_is_the_same_alone_and_among_all_others(shapes, shading):
 def test_passes_made_in_many_blocks_are_those_made_at_once(monkeypatch, key):
     camera = camera_of(key, {"resolution_x": 64, "resolution_y": 80})
     camera, shapes = at_rest(camera, random_shapes(np.random.default_rng(3), 40))
-    once = cast(camera, shapes, tuple(PASSES), np.float64)
+    once = cast(camera, shapes, passes=tuple(PASSES), dtype=np.float64)
     monkeypatch.setattr(tuning, "BLOCK_PIXELS", 300)
     for order in (tuple(PASSES), tuple(reversed(PASSES))):
-        for name, image in cast(camera, shapes, order, np.float64).items():
+        for name, image in cast(camera, shapes, passes=order, dtype=np.float64).items():
             assert np.array_equal(image, once[name], equal_nan=True), name
 
 
@@ -132,10 +132,10 @@ def test_a_row_a_column_and_a_pixel_are_those_of_the_picture(model):
     """Bit for bit, though whether rays are a row and a column, or shapes small, then differs."""
     camera = camera_of(model.key, {"resolution_x": 64, "resolution_y": 80})
     shapes = random_shapes(np.random.default_rng(3), 40)
-    whole = cast(camera, shapes, EVERY, np.float64)
+    whole = cast(camera, shapes, passes=EVERY, dtype=np.float64)
     for rows, columns in ((slice(33, 34), slice(0, 64)), (slice(0, 80), slice(21, 22)), (slice(50, 51), slice(40, 41))):
         edges = {"x0": columns.start, "x1": columns.stop, "y0": rows.start, "y1": rows.stop}
-        part = cast(replace(camera, raster=replace(camera.raster, **edges)), shapes, EVERY, np.float64)
+        part = cast(replace(camera, raster=replace(camera.raster, **edges)), shapes, passes=EVERY, dtype=np.float64)
         for name in EVERY:
             assert np.array_equal(part[name], whole[name][rows, columns], equal_nan=True), name
 
@@ -155,7 +155,7 @@ def test_every_model_sees_the_same_with_and_without_culling(model, seed):
             name: np.concatenate((getattr(large, name), getattr(dust, name)))
             for name in ("kind", "center", "axes", "object_index", "material_index", "color", "name_index")
         })  # fmt: skip
-        culled, unculled = (cast(camera, shapes, EVERY, np.float64, cull=cull) for cull in (True, False))
+        culled, unculled = (cast(camera, shapes, passes=EVERY, dtype=np.float64, cull=cull) for cull in (True, False))
         for name in EVERY:
             assert np.array_equal(culled[name], unculled[name], equal_nan=True), name
         if (culled["shape_index"] > 12).any():

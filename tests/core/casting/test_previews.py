@@ -22,14 +22,14 @@ def shown(monkeypatch, camera, shapes, delay=0.0, share=1e9, **options):
 @pytest.mark.parametrize("passes", [("combined",), ("depth", "combined")])
 def test_means_of_the_samples_are_shown_and_the_picture_has_the_same_bits(monkeypatch, passes):
     camera, shapes = camera_at(resolution_x=160, resolution_y=120), many_spheres(30)
-    expected = cast(camera, shapes, passes, samples=12, threads=2)
+    expected = cast(camera, shapes, passes=passes, samples=12, threads=2)
     images, found = shown(monkeypatch, camera, shapes, passes=passes, samples=12, threads=2)
     for name in passes:
         assert np.array_equal(images[name], expected[name])
     means = {count: picture for picture, rows, count in found if count}
     assert list(means) == [1, 2, 4, 8]
     for count in (2, 4, 8):
-        assert np.array_equal(means[count], cast(camera, shapes, "combined", samples=count)["combined"])
+        assert np.array_equal(means[count], cast(camera, shapes, passes="combined", samples=count)["combined"])
 
 
 def test_coarse_pictures_come_first_and_have_the_pixels_of_the_picture(monkeypatch):
@@ -53,6 +53,6 @@ def test_a_coarse_picture_is_given_up_when_it_takes_too_long(monkeypatch):
 def test_a_quick_cast_shows_nothing_and_rays_are_counted_with_samples():
     camera, shapes = camera_at(resolution_x=40, resolution_y=30), shapes_of()
     found = []
-    images = cast(camera, shapes, ("depth", "combined"), preview=lambda *one: found.append(one))
+    images = cast(camera, shapes, passes=("depth", "combined"), preview=lambda *one: found.append(one))
     assert (found, images.rays) == ([], 1200)
-    assert cast(camera, shapes, ("depth", "combined"), samples=16).rays == 1200 * 17
+    assert cast(camera, shapes, passes=("depth", "combined"), samples=16).rays == 1200 * 17

@@ -28,7 +28,7 @@ from .test_cast import camera_at, shapes_of
 )
 def test_what_cannot_be_meant_is_refused_in_one_line(given, says):
     with pytest.raises(InputError, match=says) as caught:
-        cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0)), ("depth",), **given)
+        cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0)), passes=("depth",), **given)
     assert "\n" not in str(caught.value)
 
 
@@ -48,7 +48,7 @@ def test_what_is_no_point_is_not_projected(points):
 
 
 def test_passes_may_come_from_a_generator():
-    images = cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0)), (name for name in ("depth", "valid")))
+    images = cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0)), passes=(name for name in ("depth", "valid")))
     assert list(images) == ["depth", "valid"]
     assert images["valid"].all()
 
@@ -63,7 +63,7 @@ def test_many_samples_stop_soon_and_tell_how_far_they_are():
 
     with pytest.raises(Cancelled):
         cast(
-            camera_at(resolution_x=256, resolution_y=256), shapes_of((SPHERE, (0, 0, -5), 1.0)), ("combined",),
+            camera_at(resolution_x=256, resolution_y=256), shapes_of((SPHERE, (0, 0, -5), 1.0)), passes=("combined",),
             samples=1 << 20, progress=progress,
         )  # fmt: skip
     assert 0 < heard[-1] < 0.01
@@ -73,7 +73,7 @@ def test_many_samples_stop_soon_and_tell_how_far_they_are():
 def test_a_number_too_large_for_its_type_has_an_infinite_bound():
     """The wall is 1e5 away, and float16 ends at 65504."""
     camera, wall = camera_at(clip_end=1e6), shapes_of((PLANE, (0, 0, -1e5), 1e6))
-    images = cast(camera, wall, ("distance", "distance_bound", "normal_bound", "shape_index"), np.float16)
+    images = cast(camera, wall, passes=("distance", "distance_bound", "normal_bound", "shape_index"), dtype=np.float16)
     hit = images["shape_index"] == 0
     assert hit.any()
     assert np.isinf(images["distance"][hit]).all()

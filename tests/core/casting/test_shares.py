@@ -52,7 +52,7 @@ def threads_of(monkeypatch, function):
 def test_threads_share_large_pictures_and_do_not_wait_for_each_other_in_small_ones(monkeypatch, samples):
     large, timed = {"resolution_x": 1280, "resolution_y": 960}, {"resolution_y": 960, "settings": ROWS}
     asked = [
-        threads_of(monkeypatch, lambda raw=raw: cast(camera_at(**raw), HIGH_UP, ("combined",), samples=samples))
+        threads_of(monkeypatch, lambda raw=raw: cast(camera_at(**raw), HIGH_UP, passes=("combined",), samples=samples))
         for raw in (large, {}, timed)  # of the last each row has its own time and plan, and is done soon
     ]
     assert 1 < asked[0] < 16
@@ -72,7 +72,7 @@ def test_the_memory_beside_a_picture_does_not_grow_with_it():
     for side in (2500, 3500):
         release()
         tracemalloc.start()
-        images = cast(camera_at(resolution_x=side, resolution_y=side), HIGH_UP, ("depth",), threads=1)
+        images = cast(camera_at(resolution_x=side, resolution_y=side), HIGH_UP, passes=("depth",), threads=1)
         beside.append(tracemalloc.get_traced_memory()[1] - images["depth"].nbytes)
         tracemalloc.stop()
     assert beside[1] < 1.2 * beside[0]
@@ -85,18 +85,20 @@ def test_of_many_shapes_the_last_is_told_from_the_others(count):
     fields = ("kind", "center", "axes", "object_index", "material_index", "color", "name_index")
     shapes = replace(behind, **{name: np.repeat(getattr(behind, name), count, axis=0) for name in fields})
     shapes.center[-1, 2] = -5
-    seen = cast(camera_at(), shapes, ("shape_index",))["shape_index"]
+    seen = cast(camera_at(), shapes, passes=("shape_index",))["shape_index"]
     assert set(np.unique(seen)) == {-1, count - 1}
 
 
 @pytest.mark.parametrize("passes", [(), ("depth",), ("shape_index", "normal")])
 def test_the_picture_is_the_same_in_one_share_and_in_many(monkeypatch, passes):
     camera = camera_at(resolution_x=320, resolution_y=240)
-    whole = cast(camera, HIGH_UP, passes, np.float64, threads=1)
+    whole = cast(camera, HIGH_UP, passes=passes, dtype=np.float64, threads=1)
     monkeypatch.setattr(tuning, "TILE_PIXELS", (1 << 10, 1 << 14))
     monkeypatch.setattr(tuning, "TILE_WORK", 1 << 12)
     fractions = []
-    parts = cast(camera, HIGH_UP, passes, np.float64, threads=2, progress=lambda done: not fractions.append(done))
+    parts = cast(
+        camera, HIGH_UP, passes=passes, dtype=np.float64, threads=2, progress=lambda done: not fractions.append(done)
+    )
     assert len(fractions) >= (4 if passes else 1)
     assert fractions[-1] == 1.0
     assert list(parts) == list(passes)
@@ -109,10 +111,10 @@ def test_a_ray_does_not_depend_on_how_threads_share_the_picture(monkeypatch, key
     """Bit for bit, though lenses are solved panel by panel."""
     camera = model_camera(key, {"resolution_x": 320, "resolution_y": 288, **LENSES.get(key, {})})
     passes = ("ray_direction", "depth", "valid")
-    whole = cast(camera, HIGH_UP, passes, np.float64, threads=1)
+    whole = cast(camera, HIGH_UP, passes=passes, dtype=np.float64, threads=1)
     monkeypatch.setattr(tuning, "TILE_PIXELS", (1 << 14, 1 << 14))
     monkeypatch.setattr(tuning, "TILE_WORK", 1 << 12)
-    parts = cast(camera, HIGH_UP, passes, np.float64, threads=3)
+    parts = cast(camera, HIGH_UP, passes=passes, dtype=np.float64, threads=3)
     for name in passes:
         np.testing.assert_array_equal(parts[name], whole[name])
 
@@ -129,7 +131,7 @@ def test_rows_are_told_once_each_when_they_are_complete(samples, monkeypatch):
 
     here = get_ident()
     images = cast(
-        camera, shapes_of((SPHERE, (0, 0, -5), 1.0)), ("depth", "combined"), samples=samples, finished=finished
+        camera, shapes_of((SPHERE, (0, 0, -5), 1.0)), passes=("depth", "combined"), samples=samples, finished=finished
     )
     assert len(told) >= 2
     assert sorted(row for rows, _ in told for row in range(512)[rows]) == list(range(512))

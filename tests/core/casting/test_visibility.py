@@ -37,8 +37,8 @@ def test_by_hand():
     ]
     expected = [[SEEN, SEEN, HIDDEN, HIDDEN, OUTSIDE], [OUTSIDE] * 5]
     assert visible(camera, ball, points).tolist() == expected
-    assert visible(camera, ball, (0, 0, -4.5), 0.1).item() == HIDDEN
-    assert visible(camera, ball, (0, 0, -4.5), 0.6).item() == SEEN
+    assert visible(camera, ball, (0, 0, -4.5), tolerance=0.1).item() == HIDDEN
+    assert visible(camera, ball, (0, 0, -4.5), tolerance=0.6).item() == SEEN
     assert visible(camera, ball, np.zeros((0, 3))).shape == (0,)
 
 
@@ -46,7 +46,7 @@ def test_by_hand():
 def test_what_pixels_see_is_seen_what_is_behind_is_hidden_and_what_is_before_is_seen(model):
     camera = camera_from(raw_of(model.key, SIZE))
     shapes = random_shapes(np.random.default_rng(0), 40)
-    rays, images = camera.rays(), cast(camera, shapes, ("distance", "distance_bound"), float)
+    rays, images = camera.rays(), cast(camera, shapes, passes=("distance", "distance_bound"), dtype=float)
     hit = np.isfinite(images["distance"]) & (images["distance"] < camera.clip_end / 1.01)
     assert hit.sum() > 50
     origins, directions, distance = rays.origins[hit], rays.directions[hit], images["distance"][hit]
@@ -111,7 +111,7 @@ def test_a_rolling_shutter_is_asked_at_the_time_of_the_row():
 ])  # fmt: skip
 def test_bad_input_is_named(points, tolerance, words):
     with pytest.raises(InputError, match=words):
-        visible(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0)), points, tolerance)
+        visible(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0)), points, tolerance=tolerance)
 
 
 def test_what_is_no_camera_or_no_shapes_is_refused():

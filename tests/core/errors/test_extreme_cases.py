@@ -61,7 +61,7 @@ def at_clip(shapes, camera, ray):
 @each_case
 def test_hits_and_misses_are_the_exact_ones_and_numbers_lie_within_their_bounds(case):
     camera, shapes = case.camera, case.shapes
-    images = cast(camera, shapes, PASSES, np.float64)
+    images = cast(camera, shapes, passes=PASSES, dtype=np.float64)
     seen = images["shape_index"] >= 0
     for name in PASSES:
         assert not np.isnan(images[name]).any(), name
@@ -106,7 +106,7 @@ def test_a_million_spheres_at_one_point():
     fields = {name: np.repeat(getattr(rows, name), count, axis=0) for name in ARRAYS}
     shapes = replace(rows, **fields)
     one, many = (
-        cast(Case("", "", [], {"resolution_x": 1, "resolution_y": 1}).camera, s, PASSES, np.float64)
+        cast(Case("", "", [], {"resolution_x": 1, "resolution_y": 1}).camera, s, passes=PASSES, dtype=np.float64)
         for s in (rows, shapes)
     )
     for name in PASSES:

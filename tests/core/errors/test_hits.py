@@ -82,7 +82,7 @@ def agrees(found, passes, rounded=2.0**-9):
 @pytest.mark.parametrize("rows", [around(), DUST], ids=["large shapes", "small shapes"])
 def test_the_bounds_are_those_of_the_passes_at_the_sampled_pixels(rows, settings):
     case = Case("", "", rows, settings)
-    images = cast(case.camera, case.shapes, (*BOUNDS, "shape_index", "distance", "position"), np.float64)
+    images = cast(case.camera, case.shapes, passes=(*BOUNDS, "shape_index", "distance", "position"), dtype=np.float64)
     found = accuracy(case.camera, case.shapes, images.plan)
     x, y = sample(case.camera.raster)
     assert found.pixels == x.size * y.size < images["distance"].size
@@ -91,7 +91,7 @@ def test_the_bounds_are_those_of_the_passes_at_the_sampled_pixels(rows, settings
 
 def test_errors_are_below_the_worst_bound_and_the_relative_one_is_of_the_distance():
     case = Case("", "", around(), {"resolution_x": 5, "resolution_y": 5})
-    images = cast(case.camera, case.shapes, ("distance", "shape_index"), np.float64)
+    images = cast(case.camera, case.shapes, passes=("distance", "shape_index"), dtype=np.float64)
     found = accuracy(case.camera, case.shapes, images.plan)
     for (j, i), distance in np.ndenumerate(images["distance"]):
         if images["shape_index"][j, i] >= 0:
@@ -106,7 +106,7 @@ def test_errors_are_below_the_worst_bound_and_the_relative_one_is_of_the_distanc
 
 def test_the_search_is_one_in_float64():
     case = Case("", "", around(), {"resolution_x": 32, "resolution_y": 32})
-    plan = cast(case.camera, case.shapes, ("depth",)).plan
+    plan = cast(case.camera, case.shapes, passes=("depth",)).plan
     bound = accuracy(case.camera, case.shapes, plan).median("relative_distance")
     assert 2.0**-57 < bound < 2.0**-44, "float64 has 53 digits"
 
@@ -114,7 +114,7 @@ def test_the_search_is_one_in_float64():
 @pytest.mark.parametrize("rows", [[], [(SPHERE, (0, 0, 5), 1.0)]], ids=["no shapes", "a shape behind"])
 def test_where_nothing_is_hit_there_is_no_bound(rows):
     case = Case("", "", rows)
-    found = accuracy(case.camera, case.shapes, cast(case.camera, case.shapes, ("depth",)).plan)
+    found = accuracy(case.camera, case.shapes, cast(case.camera, case.shapes, passes=("depth",)).plan)
     assert (found.pixels, found.hits) == (81, 0)
     assert [found.worst(name) for name in QUANTITIES] == [found.median(name) for name in QUANTITIES] == [None] * 4
     assert (found + Accuracy()).hits == 0
@@ -123,7 +123,7 @@ def test_where_nothing_is_hit_there_is_no_bound(rows):
 def test_where_there_is_no_ray_there_is_no_hit():
     case = Case("", "", [(SPHERE, (0, 0, 0), 3.0)], {"type": "FISHEYE_EQUIDISTANT", "resolution_x": 31,
                 "resolution_y": 31})  # fmt: skip
-    images = cast(case.camera, case.shapes, ("valid",))
+    images = cast(case.camera, case.shapes, passes=("valid",))
     found = accuracy(case.camera, case.shapes, images.plan)
     assert found.hits == np.count_nonzero(images["valid"]) < found.pixels
     assert np.isfinite(found.bounds).all()
@@ -161,8 +161,8 @@ def timed(pixel_time):
 def test_each_pixel_is_asked_at_its_own_moment(pixel_time):
     """In the middle of all times nothing is to be seen."""
     camera, shapes = timed(pixel_time)
-    images = cast(camera, shapes, (*BOUNDS, "shape_index", "distance", "position"), np.float64)
-    assert cast(camera.at(-2.0), shapes.at(-2.0), ("shape_index",))["shape_index"].max() == -1
+    images = cast(camera, shapes, passes=(*BOUNDS, "shape_index", "distance", "position"), dtype=np.float64)
+    assert cast(camera.at(-2.0), shapes.at(-2.0), passes=("shape_index",))["shape_index"].max() == -1
     found = accuracy(camera, shapes, images.plan)
     x, y = sample(camera.raster)
     x, y = (places.ravel() for places in np.broadcast_arrays(x, y))
@@ -177,5 +177,5 @@ def test_each_pixel_is_asked_at_its_own_moment(pixel_time):
 def test_no_more_than_so_many_moments_are_asked():
     levels = np.linspace(0, 1, 256)[np.random.default_rng(3).integers(0, 256, (80, 70))]
     camera, shapes = timed(ImageTime(levels, 0.1, 256))
-    found = accuracy(camera, shapes, cast(camera.at(0.5), shapes, ("depth",)).plan)
+    found = accuracy(camera, shapes, cast(camera.at(0.5), shapes, passes=("depth",)).plan)
     assert 0 < found.pixels <= PIXELS * MOMENTS / 256 * 1.5

@@ -70,7 +70,7 @@ def test_no_bound_is_exceeded(key):
         camera = camera_from(raw)
         if camera.pixel_time is not None:
             continue
-        images = cast(camera, shapes, PASSES, np.float64)
+        images = cast(camera, shapes, passes=PASSES, dtype=np.float64)
         hits = np.argwhere(images["shape_index"] >= 0)
         for j, i in rng.permutation(hits)[:PIXELS].tolist():
             ray = truth.ray(raw, camera.raster.x0 + i + 0.5, camera.raster.y0 + j + 0.5)

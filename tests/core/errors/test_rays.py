@@ -76,4 +76,4 @@ def test_bounds_hold_where_a_cross_slits_rays_meet_in_a_small_place():
 def bounds(cam):
     """A cast of a sphere around the eye."""
     passes = "position", "valid", "distance_bound", "position_bound"
-    return cast(cam, shapes_of([(SPHERE, (0, 0, 0), RADIUS)]), passes, np.float64, threads=1)
+    return cast(cam, shapes_of([(SPHERE, (0, 0, 0), RADIUS)]), passes=passes, dtype=np.float64, threads=1)

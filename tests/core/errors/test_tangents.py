@@ -22,7 +22,7 @@ def touched(center, radius):
     cam = camera("PERSP", {"matrix_world": ALONG_MINUS_X, "resolution_x": 1, "resolution_y": 1})
     shapes = shapes_of([(SPHERE, center, radius)])
     value, bound = decision(cam, in_camera(shapes, cam.pose), 0, np.array([0.5]), np.array([0.5]))
-    hit = np.isfinite(cast(cam, shapes, ("distance",))["distance"]).item()
+    hit = np.isfinite(cast(cam, shapes, passes=("distance",))["distance"]).item()
     return hit, value.item(), bound.item()
 
 

@@ -31,7 +31,7 @@ def factors(key):
     for settings in EXAMPLES[key]:
         raw, cam = raw_of(key, settings), camera(key, settings)
         shapes = shapes_of([(kind, np.add(center, cam.pose.eye), axes) for kind, center, axes in around()])
-        images = cast(cam, shapes, ("shape_index", "distance_bound"), np.float64)
+        images = cast(cam, shapes, passes=("shape_index", "distance_bound"), dtype=np.float64)
         rows, columns = (np.unique(np.linspace(0, side - 1, GRID).round().astype(int)) for side in cam.raster.shape)
         for j, i in np.argwhere(images["shape_index"][np.ix_(rows, columns)] >= 0):
             pixel = rows[j], columns[i]

@@ -112,7 +112,7 @@ def test_cameras_and_frames_are_found_and_what_they_share_is_said_once(tmp_path)
     assert (name, said) == ("camera.json", [])
     for one in shot:
         assert_same(one.camera, crc.camera_from_json(path, frame=one.frame, camera=one.name))
-        assert_same(one.camera, crc.camera_from_json(str(path), one.frame, one.name))
+        assert_same(one.camera, crc.camera_from_json(str(path), one.frame, camera=one.name))
     assert_same(shot[0].camera, crc.camera_from_json(text, camera="radtan"))
     assert len(re.findall(r'"resolution_x"', text)) == len(re.findall('"formula"', text)) == 2
     document = json.loads(text, parse_constant=pytest.fail)

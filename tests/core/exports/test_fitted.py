@@ -91,10 +91,10 @@ def test_what_is_far_from_all_lenses_is_refused_in_one_line(tmp_path):
     for given, words in (
         (("bop", fisheye, True), "no lens of BOP is like the Mirror Ball|can be fitted"),
         (("opencv", crc.camera("ORTHO", (64, 64)), True), "OpenCV cannot represent the Orthographic"),
-        (("opencv", fisheye, 4.0), "fit is 4.0: it must be True, False or an angle"),
+        (("opencv", fisheye, 4.0), "fit is 4.0: as an angle it must be above 0, up to pi"),
     ):
         key, camera, fit = given
         with pytest.raises(InputError, match=words) as caught:
-            crc.export(key, camera, tmp_path / "out", fit=fit)
+            crc.export(camera, tmp_path / "out", key, fit=fit)
         assert "\n" not in str(caught.value)
         assert not (tmp_path / "out").exists()

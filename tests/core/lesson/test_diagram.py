@@ -48,7 +48,7 @@ names = pytest.mark.parametrize("name", CAMERAS)
 @names
 def test_the_rays_are_rays_of_the_picture_and_end_where_it_says(name):
     eye = camera(name)
-    images = cast(eye, BALLS, ["position", "shape_index", "ray_origin", "normal"], np.float64)
+    images = cast(eye, BALLS, passes=["position", "shape_index", "ray_origin", "normal"], dtype=np.float64)
     known = {tuple(point.astype(np.float32)): k for k, point in enumerate(images["position"].reshape(-1, 3))}
     parts = diagram(eye, BALLS, 1.0, 24)
     assert len(parts.hit_rays) >= 4
@@ -68,7 +68,9 @@ def test_as_many_rays_as_are_asked_for_within_the_window(name):
     parts = diagram(eye, BALLS, 1.0, across)
     count = len(parts.hit_rays) + len(parts.missed_rays)
     assert count == across * up if name != "fisheye" else 0 < count < across * up
-    assert len(diagram(eye, BALLS, 1.0, 1000).hit_rays) == np.isfinite(cast(eye, BALLS, ["depth"])["depth"]).sum()
+    assert (
+        len(diagram(eye, BALLS, 1.0, 1000).hit_rays) == np.isfinite(cast(eye, BALLS, passes=["depth"])["depth"]).sum()
+    )
 
 
 def test_the_frustum_is_the_lectures_pyramid():
@@ -99,7 +101,7 @@ def test_nothing_to_hit_leaves_rays_that_miss():
 def test_a_probe_says_what_the_picture_says(name):
     eye = camera(name)
     passes = ("distance", "shape_index", "ray_direction", "valid")
-    images = cast(eye, BALLS, passes, np.float64)
+    images = cast(eye, BALLS, passes=passes, dtype=np.float64)
     raster = eye.raster
     for column, row in ((raster.x0, raster.y0), (25, 15), (raster.x1 - 1, 3), (30, 9)):
         at = row - raster.y0, column - raster.x0

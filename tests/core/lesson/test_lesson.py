@@ -66,7 +66,7 @@ def test_the_ball_straight_ahead_is_met_at_4_and_at_6():
 )
 def test_the_plain_equations_find_what_the_search_finds(changed):
     eye, shapes = camera(**changed), scene()
-    images = cast(eye, shapes, ("distance", "shape_index", "valid"), np.float64)
+    images = cast(eye, shapes, passes=("distance", "shape_index", "valid"), dtype=np.float64)
     hits = 0
     for row in range(0, 30, 3):
         for column in range(0, 40, 3):
@@ -92,7 +92,8 @@ FISHEYE = {"panorama_type": "FISHEYE_EQUIDISTANT", "fisheye_fov": 3.0}
 def test_the_color_is_that_of_the_picture(changed, samples, shading):
     eye, shapes = camera(**changed), replace(scene(), world_color=(0.1, 0.2, 0.3, 1.0))
     one, picture = (
-        cast(eye, shapes, "combined", np.float64, shading=shading, samples=count)["combined"] for count in (1, samples)
+        cast(eye, shapes, passes="combined", dtype=np.float64, shading=shading, samples=count)["combined"]
+        for count in (1, samples)
     )
     differing = 0
     for column, row in [(0, 0), (1, 14), (14, 17), (20, 5), (20, 15), (28, 16), (39, 29)]:

@@ -60,7 +60,7 @@ def test_the_terms_make_the_color_of_the_picture(shading, count):
     position = np.where(is_sun[:, None], position / np.linalg.norm(position, axis=1, keepdims=True), 9 * position)
     lights = Lights(position, is_sun, rng.uniform(0, 9, (count, 3)) * np.where(is_sun, 1, 900)[:, None])
     shapes = replace(random_shapes(rng, 60), lights=lights, world_color=(0.1, 0.2, 0.3, 1.0))
-    images = cast(camera_at(**MIDDLE), shapes, ("combined", "shape_index"), np.float64, shading=shading)
+    images = cast(camera_at(**MIDDLE), shapes, passes=("combined", "shape_index"), dtype=np.float64, shading=shading)
     factors = set()
     for row, column in np.argwhere(images["shape_index"] >= 0)[::17]:
         said = color_of(shapes, column, row, shading=shading)

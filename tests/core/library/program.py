@@ -36,4 +36,4 @@ for camera in (fisheye, scanner):
     print(f"{camera.name}: {hit.mean():.0%} hits, back within {np.abs(off).max():.0e} pixels, {seen}")
 
 print(crc.explain(fisheye, shapes, (160, 120)))
-print([path.name for path in crc.export("json", [fisheye, scanner], Path(sys.argv[1])).paths])
+print([path.name for path in crc.export([fisheye, scanner], Path(sys.argv[1]), "json").paths])

@@ -70,7 +70,7 @@ def test_poses_that_are_left_out_are_said(tmp_path, text, words):
 
 def test_a_table_of_rays_stands_where_it_was_written(tmp_path):
     first = crc.camera("OPENCV_FISHEYE", (8, 6), POSE, fx=5.0)
-    (path,) = crc.export("npz", first, tmp_path).paths
+    (path,) = crc.export(first, tmp_path, "npz").paths
     found = crc.load_calibration(path)
     np.testing.assert_allclose(found.rays().directions, first.rays().directions, atol=1e-12)
     np.testing.assert_allclose(found.pose.eye, (1, 2, 3))

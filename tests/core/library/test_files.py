@@ -24,7 +24,7 @@ def perspectives():
 @pytest.mark.parametrize("key", [one.key for one in FORMATS if one.key != "stmap"])
 @pytest.mark.one_for_each("key")
 def test_each_format_is_written(tmp_path, key):
-    paths, remarks = crc.export(key, perspectives(), tmp_path / "out")
+    paths, remarks = crc.export(perspectives(), tmp_path / "out", key)
     assert paths
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [path.name for path in paths]
     assert all(isinstance(line, str) for line in remarks)
@@ -33,7 +33,7 @@ def test_each_format_is_written(tmp_path, key):
 def test_maps_are_images_that_others_read(tmp_path):
     fisheye = crc.camera("OPENCV_FISHEYE", SIZE, fx=15.0, fy=15.0, cx=19.5, cy=14.5)
     perspective = crc.camera("PERSP", SIZE)
-    paths, _ = crc.export("stmap", fisheye, tmp_path, target=perspective)
+    paths, _ = crc.export(fisheye, tmp_path, "stmap", target=perspective)
     (distort,) = (path for path in paths if path.name.endswith("_distort.exr"))
     channels, expected = read_exr(distort), places(fisheye, perspective)
     for name, own in zip("RGB", np.moveaxis(expected, -1, 0), strict=True):
@@ -69,7 +69,7 @@ def test_openimageio_reads_the_same(tmp_path):
 )
 def test_what_cannot_be_exported_is_one_line_and_leaves_nothing(tmp_path, words, said):
     with pytest.raises(crc.InputError, match=said) as caught:
-        crc.export(*words, tmp_path / "out")
+        crc.export(words[1], tmp_path / "out", words[0])
     assert "\n" not in str(caught.value)
     assert not (tmp_path / "out").exists()
 
@@ -82,23 +82,23 @@ def test_the_help_names_every_format():
 @pytest.mark.parametrize("meters", [0, -1.0, np.float64(0)])
 def test_a_unit_has_a_length(tmp_path, meters):
     with pytest.raises(crc.InputError, match=r"^meters is (0|-1\.0|0\.0): it must be above 0"):
-        crc.export("bop", perspectives(), tmp_path / "out", meters=meters)
+        crc.export(perspectives(), tmp_path / "out", "bop", meters=meters)
     assert not (tmp_path / "out").exists()
 
 
 def test_what_is_no_camera_and_no_folder(tmp_path):
     with pytest.raises(TypeError, match="takes cameras"):
-        crc.export("json", "Camera", tmp_path)
+        crc.export(3, tmp_path, "json")
     with pytest.raises(crc.InputError, match="folder is 3"):
-        crc.export("json", perspectives(), 3)
+        crc.export(perspectives(), 3, "json")
     for odd in "\0", "\ud800":
         with pytest.raises(crc.InputError, match=r"folder is .*no null characters and no halves of characters"):
-            crc.export("json", perspectives(), f"{tmp_path}{odd}")
-    for fit in ("yes", -1.0, np.nan, None):
-        with pytest.raises(crc.InputError, match=r"^fit is .*: it must be True, False or an angle above 0, up to pi"):
-            crc.export("colmap", perspectives(), tmp_path, fit=fit)
+            crc.export(perspectives(), f"{tmp_path}{odd}", "json")
+    for fit in ("yes", -1.0, np.nan, (0, 0, 99999, 1)):
+        with pytest.raises(crc.InputError, match=r"^fit is .*: (as an angle )?it must be (above 0, up to pi|\(x0, y0)"):
+            crc.export(perspectives(), tmp_path, "colmap", fit=fit)
     with pytest.raises(crc.InputError, match="only maps have a target"):
-        crc.export("json", perspectives(), tmp_path, target=perspectives()[0])
+        crc.export(perspectives(), tmp_path, "json", target=perspectives()[0])
     (tmp_path / "file").write_text("")
     with pytest.raises(crc.InputError, match="cannot write into"):
-        crc.export("json", perspectives(), tmp_path / "file")
+        crc.export(perspectives(), tmp_path / "file", "json")

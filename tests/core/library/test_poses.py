@@ -90,13 +90,15 @@ def test_nothing_is_clipped_unless_it_is_asked_for():
     """Scenes in millimeters: a ball at 1,500, and one at 0.05, in front of a camera with and without a clip range."""
     balls = crc.spheres([(0.0, 0.0, -1500.0), (0.0, 0.0, -0.05)], [400.0, 0.001])
     free = crc.camera("PERSP", (33, 33))
-    images = crc.cast(free, balls, ("depth", "shape_index"))
+    images = crc.cast(free, balls, passes=("depth", "shape_index"))
     assert images["depth"].min() == pytest.approx(0.049, rel=1e-4)
     assert set(np.unique(images["shape_index"])) == {-1, 0, 1}
     assert len(crc.scan(free, balls)) == (images["shape_index"] >= 0).sum()
-    clipped = crc.cast(crc.camera("PERSP", (33, 33), clip_start=0.1, clip_end=1000.0), balls, "shape_index")
+    clipped = crc.cast(crc.camera("PERSP", (33, 33), clip_start=0.1, clip_end=1000.0), balls, passes="shape_index")
     assert (clipped["shape_index"] == -1).all()
-    assert (crc.cast(crc.camera("PERSP", (33, 33), clip_end=1.0), balls, "shape_index")["shape_index"] != 0).all()
+    assert (
+        crc.cast(crc.camera("PERSP", (33, 33), clip_end=1.0), balls, passes="shape_index")["shape_index"] != 0
+    ).all()
     again = crc.camera_from_json(crc.camera_to_json(free))
     assert (again.clip_start, again.clip_end) == (0.0, np.inf)
 
@@ -110,5 +112,5 @@ def test_the_report_names_shapes_beyond_the_clip_range():
         ({"clip_start": 1.0, "clip_end": 10.0}, ["'A', 'C': beyond the clip range, 1 to 10"]),
         ({}, []),
     ):
-        plan = crc.cast(crc.camera("PERSP", (9, 9), **settings), balls, "depth").plan
+        plan = crc.cast(crc.camera("PERSP", (9, 9), **settings), balls, passes="depth").plan
         assert [line for line in plan.left_out() if "clip range" in line] == words

@@ -17,7 +17,7 @@ def moving(folder):
     for frame, x in ((1, 1.0), (3, 2.0)):
         pose = crc.look_at((x, 2.0, 3.0), (0.0, 0.0, 0.0))
         camera = crc.camera("OPENCV_PINHOLE", (640, 480), pose, fx=500.0, name="a", frame=frame)
-        crc.export("nerfstudio", camera, folder / str(frame))
+        crc.export(camera, folder / str(frame), "nerfstudio")
     both = [json.loads((folder / str(frame) / "transforms.json").read_text()) for frame in (1, 3)]
     path = folder / "transforms.json"
     path.write_text(json.dumps(both[0] | {"frames": both[0]["frames"] + both[1]["frames"]}))
@@ -34,7 +34,7 @@ def test_a_camera_that_moves_has_its_pose_at_each_of_its_frames(tmp_path):
     assert camera[1].record.settings["frame"] == 3
     with pytest.raises(crc.InputError, match="no pose at frame 2: the nearest is 1"):
         camera.at(2)
-    crc.export("colmap", list(camera), tmp_path / "again")
+    crc.export(list(camera), tmp_path / "again", "colmap")
     (again,) = crc.load_rig(tmp_path / "again").values()
     np.testing.assert_allclose([one.pose.eye for one in again], [one.pose.eye for one in camera], atol=1e-12)
     distance = crc.cast(camera, crc.spheres((0, 0, 0), 1.0), passes=("distance",))["distance"]
@@ -79,7 +79,7 @@ def test_a_file_without_sizes_has_the_given_one(tmp_path):
 @pytest.mark.filterwarnings("ignore:the poses that")
 @pytest.mark.parametrize("key", ["colmap", "mrcal"])
 def test_a_panorama_is_loaded_from_what_is_exported(tmp_path, key):
-    paths, _ = crc.export(key, crc.camera("EQUIRECTANGULAR", (200, 100)), tmp_path)
+    paths, _ = crc.export(crc.camera("EQUIRECTANGULAR", (200, 100)), tmp_path, key)
     path = next(path for path in paths if path.name in ("cameras.txt", "Camera_0000.cameramodel"))
     camera = crc.load_calibration(path)
     assert (camera.model.key, camera.raster.size) == ("EQUIRECTANGULAR", (200, 100))

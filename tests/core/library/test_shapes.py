@@ -20,7 +20,7 @@ def camera():
 
 def cast(camera, shapes, *passes):
     """Cast in double precision."""
-    return crc.cast(camera, shapes, passes, dtype=np.float64)
+    return crc.cast(camera, shapes, passes=passes, dtype=np.float64)
 
 
 def test_spheres_are_where_they_are_put(camera):
@@ -80,7 +80,7 @@ def test_normals_and_uv_are_interpolated(camera, by_corner):
     corners = np.array([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0), (0, 0, -5)])  # the last one is nobody's
     normals, uv = 3.0 * np.array([(-1, 0, 1), (1, 0, 1), (1, 0, 1), (-1, 0, 1), (0, 0, 1)]), corners[:, :2] / 2 + 0.5
     some = slice(0, 4 if by_corner else 5)
-    shapes = crc.mesh(corners, [(0, 1, 2, 3)], normals[some], uv[some])
+    shapes = crc.mesh(corners, [(0, 1, 2, 3)], normals=normals[some], uv=uv[some])
     images = cast(camera, shapes, "normal", "uv")
     x = (np.arange(41) - 20) * 0.2
     inside = np.abs(x) < 0.95
@@ -185,6 +185,6 @@ def test_a_mesh_without_faces_is_no_shape():
 def test_a_scene_is_camera_and_shapes(camera):
     shapes = crc.spheres((0, 0, 1))
     found = crc.cast(crc.Scene(camera, shapes), passes=("depth",))["depth"]
-    np.testing.assert_array_equal(found, crc.cast(camera, shapes, ("depth",))["depth"])
+    np.testing.assert_array_equal(found, crc.cast(camera, shapes, passes=("depth",))["depth"])
     with pytest.raises(TypeError, match="a scene and all else by name"):
         crc.cast(camera, passes=("depth",))

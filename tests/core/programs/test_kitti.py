@@ -38,7 +38,7 @@ def rig(tmp_path, text, size=(1242, 375)):
 def seen(one):
     """The pixels of the points, y down, from the center of the first pixel."""
     size = one.size or (1242, 375)
-    found = crc.load_calibration(one.file, one.lens.name, size, one.poses[0])
+    found = crc.load_calibration(one.file, one.lens.name, size=size, pose=one.poses[0])
     return found.project(POINTS) * (1, -1) + (-0.5, size[1] - 0.5)
 
 
@@ -67,7 +67,7 @@ def test_cameras_of_a_benchmark_stand_in_the_frame_of_the_first_one(tmp_path):
 def test_what_is_exported_as_poses_is_read_as_a_trajectory(tmp_path):
     cameras = [crc.camera("PERSP", (64, 48), crc.look_at((frame, -4, 2), (0, 0, 1)), name="car", frame=frame)
                for frame in (1, 2, 3)]  # fmt: skip
-    (path,) = crc.export("kitti", cameras, tmp_path).paths
+    (path,) = crc.export(cameras, tmp_path, "kitti").paths
     (car,) = mounted(str(path), "", (64, 48), 10.0)
     assert (car.lenses, car.frames) == ([], [1, 2, 3])
     for camera, pose in zip(cameras, car.poses, strict=True):

@@ -22,11 +22,11 @@ from make import pages
 folder = Path(sys.argv[1])
 pose = crc.look_at((1, 2, 3), (0, 0, 0))
 camera = crc.camera("OPENCV_PINHOLE", (64, 48), pose, fx=60.0, name="left")
-paths, _ = crc.export("cards", camera, folder / "out")
+paths, _ = crc.export(camera, folder / "out", "cards")
 (folder / "odd.txt").write_text("A text of nobody")
 refusals = []
 no = crc.camera("ORTHO", (4, 3))
-for call in (lambda: crc.load_calibration(folder / "odd.txt"), lambda: crc.export("cards", no, folder / "no")):
+for call in (lambda: crc.load_calibration(folder / "odd.txt"), lambda: crc.export(no, folder / "no", "cards")):
     try:
         call()
     except crc.InputError as error:

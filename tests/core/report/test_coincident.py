@@ -18,7 +18,7 @@ def looked_at(*shapes, **options):
     pose[2, 3] = 5.0
     camera = crc.camera("ORTHO", (SIZE, SIZE), pose, ortho_scale=4.0, **options)
     shapes = crc.join(*shapes)
-    return accuracy(camera, shapes, crc.cast(camera, shapes, ("depth",)).plan)
+    return accuracy(camera, shapes, crc.cast(camera, shapes, passes=("depth",)).plan)
 
 
 def square(name, x=0.0, z=0.0):

@@ -45,7 +45,7 @@ def report():
         notes=tuple((name, "its map is another") for name in ("A", "B", "C", "D", "E")),
         lights=Lights(left_out=(("Lamp", "its color is not finite"),)),
     )
-    images = cast(camera(), shapes, ("depth",))
+    images = cast(camera(), shapes, passes=("depth",))
     seconds = {"read": 0.5, "plan": 0.01, "cast": 0.02, "passes": 0.03, "write": 0.25}
     bounds = accuracy(camera(), shapes, images.plan)
     return report_cast(camera(), shapes, images, seconds, [GOOD], 1.5, "Layer", accuracy=bounds)
@@ -86,7 +86,9 @@ def test_a_step_that_is_taken_again_adds_up(report):
 
 def test_of_several_layers_each_is_named_beside_what_it_did_not_do(report):
     assert any(line.startswith("passes combined") for line in report.not_done)
-    images = cast(camera(), Shapes(*(np.zeros((0, *s)) for s in ((), (3,), (3, 3), (), (), (4,), ()))), ("depth",))
+    images = cast(
+        camera(), Shapes(*(np.zeros((0, *s)) for s in ((), (3,), (3, 3), (), (), (4,), ()))), passes=("depth",)
+    )
     nothing = Shapes(*(np.zeros(0),) * 7)
     several = report_cast(camera(), nothing, images, {}, [], 1.0, "Layer", several=True, accuracy=Accuracy())
     assert several.not_done
@@ -97,7 +99,7 @@ def test_lights_are_left_out_of_a_picture_alone():
     """Depth needs no light, and another engine's picture has its own."""
     shapes = replace(no_shapes(), lights=Lights(left_out=(("Lamp", "its color is not finite"),)))
     for passes, left_out in ((("depth",), ()), (("depth", "combined"), shapes.lights.left_out)):
-        images = cast(camera(), shapes, passes)
+        images = cast(camera(), shapes, passes=passes)
         report = report_cast(camera(), shapes, images, {}, [], 1.0, "Layer", accuracy=Accuracy())
         assert report.left_out == left_out
 

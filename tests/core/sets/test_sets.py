@@ -31,7 +31,7 @@ def view(folder, frame, key="PERSP", **settings):
     matrix[0, 3] = 0.3 * frame
     given = {"resolution_x": SIZE[0], "resolution_y": SIZE[1], "lens": 30.0, "matrix_world": matrix}
     cam = camera(key, given | settings)
-    images = cast(cam, SHAPES, PASSES)
+    images = cast(cam, SHAPES, passes=PASSES)
     name = f"{key}_{frame:04}"
     np.savez(folder / f"{name}.npz", **{one: images[one] for one in PASSES})
     (folder / f"{name}.png").write_bytes(png(np.zeros((*cam.raster.picture_size[::-1], 3), np.uint8)))

@@ -88,7 +88,7 @@ def test_toy_kinds_are_cast_as_brute_force_finds_them(monkeypatch, key, small):
     monkeypatch.setattr(tuning, "SEARCHED_PIXELS", 200)
     camera = camera_of(key, SIZE)
     shapes = scene(camera, 3)
-    images, rays = cast(camera, shapes, PASSES, np.float64), camera.rays()
+    images, rays = cast(camera, shapes, passes=PASSES, dtype=np.float64), camera.rays()
     inverses, met = np.linalg.inv(shapes.axes), set()
     for j, i in np.ndindex(images["shape_index"].shape):
         ray = rays.origins[j, i], rays.directions[j, i]
@@ -112,19 +112,19 @@ def test_toy_kinds_are_cast_as_brute_force_finds_them(monkeypatch, key, small):
 def test_toy_kinds_are_culled_sampled_and_asked_at_given_pixels_as_all_others(key):
     camera = camera_of(key, SIZE)
     shapes = scene(camera, 3)
-    culled, unculled = (cast(camera, shapes, PASSES, np.float64, cull=cull) for cull in (True, False))
+    culled, unculled = (cast(camera, shapes, passes=PASSES, dtype=np.float64, cull=cull) for cull in (True, False))
     columns, rows = np.array([3, 17, 30]), np.array([0, 14, 15, 27])
     some = passes_at(camera, shapes, columns, rows, PASSES)
     for name in PASSES:
         assert np.array_equal(culled[name], unculled[name]), name
         assert np.array_equal(some[name], culled[name][np.ix_(rows, columns)]), name
     assert accuracy(camera, shapes, culled.plan).worst("relative_distance") < 1e-11
-    assert np.isfinite(cast(camera, shapes, ("combined",), samples=3)["combined"]).all()
+    assert np.isfinite(cast(camera, shapes, passes=("combined",), samples=3)["combined"]).all()
 
 
 def test_kinds_that_are_not_in_view_are_named():
     camera = camera_of("PERSP", SIZE)
-    said = "\n".join(cast(camera, shapes_of((DISCS.number, (0, 0, -5), 1.0)), ("depth",)).plan.left_out())
+    said = "\n".join(cast(camera, shapes_of((DISCS.number, (0, 0, -5), 1.0)), passes=("depth",)).plan.left_out())
     assert f"kernels of {', '.join(kind.name for kind in kinds.KINDS if kind is not DISCS)}: no such shape" in said
     assert "sphere, plane, infinite plane, mesh" in said
 

@@ -32,7 +32,7 @@ def examples(key):
 
 def assert_nearest(cam, shapes, clip_start=0.0):
     """Each pixel has the nearest triangle of all, at its distance to the bound, where no edge is within rounding."""
-    images = cast(cam, shapes, BOUNDS, np.float64)
+    images = cast(cam, shapes, passes=BOUNDS, dtype=np.float64)
     rays = cam.rays()
     shape = rays.valid.shape
     origins = np.broadcast_to(rays.origins, (*shape, 3))[rays.valid]
@@ -82,7 +82,7 @@ def test_triangles_through_the_clip_start_and_the_eye_plane_are_cut_there(kind):
     cam = camera_at(type=kind, ortho_scale=4.0, clip_start=0.6, **SMALL)
     rays = cam.rays()
     start = 0.6 / np.abs(rays.directions[..., 2])  # along the view
-    images = cast(cam, shapes, ("depth", "distance", "face_index"), np.float64)
+    images = cast(cam, shapes, passes=("depth", "distance", "face_index"), dtype=np.float64)
     hit = np.isfinite(images["depth"])
     assert hit.mean() > 0.4
     assert images["depth"].min() >= 0.6
@@ -107,7 +107,7 @@ def test_what_has_no_area_or_is_seen_edge_on_is_invisible_and_duplicates_are_the
     """A point, a line, a triangle in a plane with the eye, and one that is there twice."""
     corners = [(0, 0, -1), (1, 0, -2), (0, 0, -3), (-1, -1, -5), (1, -1, -5), (0, 1, -5), (0, 0, -4)]
     mesh = mesh_of(corners, [(0, 0, 0), (0, 2, 2), (0, 2, 6), (0, 1, 2), (3, 4, 5), (3, 4, 5), (4, 3, 5)])
-    images = cast(camera_at(), shapes_of((mesh, mesh.middle, 1.0)), ("depth", "face_index"), np.float64)
+    images = cast(camera_at(), shapes_of((mesh, mesh.middle, 1.0)), passes=("depth", "face_index"), dtype=np.float64)
     assert set(np.unique(images["face_index"])) == {-1, 4}
     assert set(np.unique(images["depth"])) == {5.0, np.inf}
 
@@ -116,7 +116,7 @@ def test_a_quad_before_a_ball_of_triangles_of_the_same_depth_is_of_the_lower_row
     """Two meshes at one depth, and one nearer: whatever their order."""
     quad = grid(1, 1, lambda u, v: (u - 0.5, v - 0.5, 0 * u))
     shapes = shapes_of((quad, (0.4, 0, -3), 2.0), (quad, (0, 0, -3), 2.0), (quad, (0, 0.3, -2), 0.5))
-    images = cast(camera_at(), shapes, ("depth", "shape_index"), np.float64)
+    images = cast(camera_at(), shapes, passes=("depth", "shape_index"), dtype=np.float64)
     assert images["shape_index"][16, 16] == 0
     assert images["shape_index"][16, 11] == 1
     assert images["shape_index"][18, 16] == 2
@@ -130,7 +130,7 @@ def test_normals_are_of_the_side_that_is_hit_smooth_or_flat_and_right_to_their_b
     cam = camera_at(resolution_x=48, resolution_y=48)
     for mesh, center in ((smooth, (0.1, 0, -4)), (smooth, (0, 0, 0)), (replace(smooth, normals=None), (0, 0.2, -4))):
         shapes = shapes_of((mesh, center, axes))
-        images = cast(cam, shapes, ("normal", "normal_bound", "position", "face_index"), np.float64)
+        images = cast(cam, shapes, passes=("normal", "normal_bound", "position", "face_index"), dtype=np.float64)
         hit = images["face_index"] >= 0
         assert hit.sum() > 20
         vertices = axes @ (mesh.vertices - mesh.middle[:, None]) + np.array(center)[:, None]
@@ -155,7 +155,7 @@ def test_normals_are_of_the_side_that_is_hit_smooth_or_flat_and_right_to_their_b
 def test_a_smooth_ball_that_is_flattened_to_a_disc_has_its_normal():
     """Also where the normals at corners lie in the disc's plane and vanish."""
     shapes = shapes_of((ball(8, 12), (0, 0, -3), np.diag([1.0, 1.0, 0.0])))
-    images = cast(camera_at(), shapes, ("normal", "face_index"), np.float64)
+    images = cast(camera_at(), shapes, passes=("normal", "face_index"), dtype=np.float64)
     hit = images["face_index"] >= 0
     assert hit.sum() > 50
     np.testing.assert_allclose(images["normal"][hit], np.tile([0.0, 0, 1], (hit.sum(), 1)), atol=1e-15)
@@ -167,7 +167,12 @@ def test_normals_of_a_shared_mesh_are_interpolated_in_its_own_frame():
     quad = mesh_of([(-1, -1, 0), (1, -1, 0), (0, 1, 0)], [(0, 1, 2)], normals=tilted.T, loops=np.array([[0], [1], [2]]))
     scale = np.diag([1.0, 1.0, 4.0])
     alone, shared = (
-        cast(camera_at(), shapes_of((quad, (0, 0, -3), scale), shared=np.array([both])), ("normal", "uv"), np.float64)
+        cast(
+            camera_at(),
+            shapes_of((quad, (0, 0, -3), scale), shared=np.array([both])),
+            passes=("normal", "uv"),
+            dtype=np.float64,
+        )
         for both in (False, True)
     )
     assert (alone["uv"] == 0).all()
@@ -194,7 +199,7 @@ def test_the_map_the_face_and_the_material_are_those_of_the_point():
     )
     shapes = shapes_of((ball(4, 4), (0, 0, 9), 1.0), (mesh, (0, 0, -2), 1.0), slots=slots)
     passes = "position", "uv", "face_index", "material_index", "combined"
-    images = cast(camera_at(), shapes, passes, np.float64)
+    images = cast(camera_at(), shapes, passes=passes, dtype=np.float64)
     hit = images["face_index"] >= 0
     x, y, _ = images["position"][hit].T
     np.testing.assert_allclose(images["uv"][hit], np.stack((0.25 * x + 3, -y, 0 * x), axis=1), atol=1e-14)
@@ -209,7 +214,7 @@ def test_a_mesh_without_a_map_has_0_beside_one_with_a_map():
     bare = grid(1, 1, lambda u, v: (u - 0.5, v - 0.5, 0 * u))
     mapped = replace(bare, uv=np.full((4, 2), 0.25, np.float32), loops=bare.triangles)
     shapes = shapes_of((bare, (0.5, 0, -3), 1.0), (mapped, (-0.5, 0, -3), 1.0))
-    images = cast(camera_at(), shapes, ("uv", "shape_index"))
+    images = cast(camera_at(), shapes, passes=("uv", "shape_index"))
     for shape, expected in enumerate(([0, 0, 0], [0.25, 0.25, 0])):
         found = images["uv"][images["shape_index"] == shape]
         assert len(found) > 10
@@ -224,7 +229,11 @@ def test_the_grid_is_that_of_the_map_or_of_the_edges_of_faces():
     cam = camera_at(resolution_x=201, resolution_y=101)
     for shown in (faces, mapped):
         images = cast(
-            cam, shapes_of((shown, (0.0, 0.0, -1), 1.0)), ("combined", "position"), np.float64, shading="GRID"
+            cam,
+            shapes_of((shown, (0.0, 0.0, -1), 1.0)),
+            passes=("combined", "position"),
+            dtype=np.float64,
+            shading="GRID",
         )
         hit = images["combined"][..., 3] > 0
         x, y, _ = images["position"][hit].T
@@ -253,7 +262,9 @@ def test_more_triangles_than_the_memory_holds_are_refused_before_any_is_placed(m
 
 def test_many_triangles_in_one_pixel_are_a_hit_of_the_nearest():
     """Forty thousand, a tenth of a pixel wide together, whose bounds hold a pixel's center."""
-    images = cast(camera_at(), shapes_of((ball(100, 200), (0, 0, -5), 0.01)), ("depth", "shape_index"), np.float64)
+    images = cast(
+        camera_at(), shapes_of((ball(100, 200), (0, 0, -5), 0.01)), passes=("depth", "shape_index"), dtype=np.float64
+    )
     assert (images["shape_index"] >= 0).sum() == 1
     assert images["depth"][16, 16] == pytest.approx(4.99, abs=1e-5)
 
@@ -264,13 +275,13 @@ def test_a_vertex_far_away_takes_no_digits_from_the_others(away):
     alone = grid(4, 5, lambda u, v: (2 * u - 1, 1.5 * v - 0.75, -3 - u * v))
     near, triangles = alone.vertices.T.tolist(), alone.triangles.T.tolist()
     beside = [(away, 0.0, -3.0), (away, away, -3.0), (away, 0.0, -away)]
-    expected = cast(camera_at(**SMALL), shapes_of((alone, tuple(alone.middle), 1.0)), BOUNDS, float)
+    expected = cast(camera_at(**SMALL), shapes_of((alone, tuple(alone.middle), 1.0)), passes=BOUNDS, dtype=float)
     assert (expected["shape_index"] == 0).any()
     first = len(near)
     for others in ([], [(first, first + 1, first + 2)]):
         mesh = mesh_of(near + beside, triangles + others)
         shapes = shapes_of((mesh, tuple(mesh.middle), 1.0))
-        found = cast(camera_at(**SMALL), shapes, BOUNDS, float)
+        found = cast(camera_at(**SMALL), shapes, passes=BOUNDS, dtype=float)
         np.testing.assert_array_equal(found["face_index"], expected["face_index"])
         hit = expected["shape_index"] == 0
         assert (np.abs(found["distance"][hit] - expected["distance"][hit]) <= found["distance_bound"][hit]).all()

@@ -42,7 +42,7 @@ def test_meshes_pay_for_what_is_seen_of_them(monkeypatch):
     own, own_place = MeshesInView.triangles, MeshesInView._place
     monkeypatch.setattr(MeshesInView, "triangles", triangles)
     monkeypatch.setattr(MeshesInView, "_place", place)
-    images = cast(cam, shapes, ("depth", "shape_index"))
+    images = cast(cam, shapes, passes=("depth", "shape_index"))
     ((meshes,),) = ([one.meshes] for one in images.plan.sets)
     assert set(meshes.blocks.shape) == {0, 2}
     assert looked_at[0] > len(front) / 2
@@ -69,7 +69,9 @@ def test_blocks_leave_out_nothing_that_is_seen(key, far):
         cam = camera(key, settings | SMALL | {"matrix_world": matrix})
         if cam.pixel_time is not None:
             continue
-        seen, everywhere = (cast(cam, shapes, ("shape_index", "face_index"), cull=cull) for cull in (True, False))
+        seen, everywhere = (
+            cast(cam, shapes, passes=("shape_index", "face_index"), cull=cull) for cull in (True, False)
+        )
         for name, image in seen.items():
             np.testing.assert_array_equal(image, everywhere[name])
 
@@ -83,7 +85,7 @@ def test_pictures_whose_rays_are_polynomials_show_what_single_pixels_show(key):
         cam = camera(key, settings | frame)
         if cam.pixel_time is not None:
             continue
-        whole = cast(cam, shapes, ("depth", "face_index"), np.float64)
+        whole = cast(cam, shapes, passes=("depth", "face_index"), dtype=np.float64)
         columns, rows = np.arange(3, 320, 29), np.arange(5, 180, 17)
         some = passes_at(cam, shapes, columns, rows, ("depth", "face_index", "distance_bound"))
         at = np.ix_(rows, columns)

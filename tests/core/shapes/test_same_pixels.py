@@ -28,9 +28,9 @@ def test_a_pixel_is_the_same_in_every_part_of_the_picture(kind):
     shapes = shapes_of(*rows)
     size = {"type": kind, "ortho_scale": 4.0, "resolution_x": 240, "resolution_y": 160, "shift_x": 0.1}
     passes = "depth", "position", "normal", "face_index", "shape_index"
-    whole = cast(camera_at(**size), shapes, passes, np.float64)
+    whole = cast(camera_at(**size), shapes, passes=passes, dtype=np.float64)
     assert (whole["face_index"] >= 0).mean() > 0.2
-    again = cast(camera_at(**size), shapes, passes, np.float64, threads=1, cull=False)
+    again = cast(camera_at(**size), shapes, passes=passes, dtype=np.float64, threads=1, cull=False)
     for name in passes:
         np.testing.assert_array_equal(again[name], whole[name], name)
     ends = np.sort(2 * rng.integers(0, (120, 80), (30, 2, 2)), axis=1)
@@ -39,7 +39,7 @@ def test_a_pixel_is_the_same_in_every_part_of_the_picture(kind):
         border = {"border_min_x": x0, "border_max_x": x1, "border_min_y": y0, "border_max_y": y1}
         border = {name: value / (240 if name.endswith("x") else 160) for name, value in border.items()}
         cam = camera_at(**size, use_border=True, **border)
-        part = cast(cam, shapes, passes, np.float64)
+        part = cast(cam, shapes, passes=passes, dtype=np.float64)
         rows, columns = (np.s_[a:b] for a, b in ((cam.raster.y0, cam.raster.y1), (cam.raster.x0, cam.raster.x1)))
         for name in passes:
             np.testing.assert_array_equal(part[name], whole[name][rows, columns], name)

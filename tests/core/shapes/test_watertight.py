@@ -23,12 +23,14 @@ def test_every_ray_from_within_a_closed_surface_meets_it(key):
         radius = 2 + 4 * np.abs(origins).max()
         sphere = ball(16, 24, radius)
         uneven = mesh_of((sphere.vertices * rng.uniform(0.7, 1.3, sphere.vertices.shape[1])).T, sphere.triangles.T)
-        seen = cast(cam, shapes_of((uneven, (0, 0, 0), 1.0)), ("face_index", "valid"))
+        seen = cast(cam, shapes_of((uneven, (0, 0, 0), 1.0)), passes=("face_index", "valid"))
         assert ((seen["face_index"] >= 0) == seen["valid"]).all()
         on_rays = origins + 2 * radius * rays.directions[rays.valid]
         fan = np.arange(len(on_rays) - 2)
         strip = mesh_of(on_rays[:600], np.stack((fan, fan + 1, fan + 2), axis=1)[:598])
-        seen = cast(cam, shapes_of((sphere, (0, 0, 0), 1.5), (strip, strip.middle, 1.0)), ("face_index", "valid"))
+        seen = cast(
+            cam, shapes_of((sphere, (0, 0, 0), 1.5), (strip, strip.middle, 1.0)), passes=("face_index", "valid")
+        )
         assert ((seen["face_index"] >= 0) == seen["valid"]).all()
 
 
@@ -63,7 +65,10 @@ def test_no_pixel_is_lost_in_a_sheet(name, kind):
         }.get(kind, {})
         cam = camera_at(pose(basis, (0, 0, 0)), type=kind, ortho_scale=8.0, resolution_x=64, resolution_y=64, **more)
         images = cast(
-            cam, shapes_of((sheet, sheet.middle, 1.0)), ("face_index", "ray_direction", "ray_origin"), np.float64
+            cam,
+            shapes_of((sheet, sheet.middle, 1.0)),
+            passes=("face_index", "ray_direction", "ray_origin"),
+            dtype=np.float64,
         )
         ahead = -images["ray_direction"][..., 2:]
         crossing = images["ray_origin"] + 4 * images["ray_direction"] / np.where(ahead > 0.1, ahead, np.nan)
@@ -86,7 +91,7 @@ def test_a_scene_of_any_size_has_the_same_picture(turn):
         mesh = mesh_of(uneven * np.float32(size), round_one.triangles.T)
         cam = camera_at(pose(rolled, (0, 0, 8 * size)), type="ORTHO", ortho_scale=3 * size, resolution_x=150,
                         resolution_y=150, clip_start=size / 64)  # fmt: skip
-        found = cast(cam, shapes_of((mesh, mesh.middle, 1.0)), ("depth", "face_index"), np.float64)
+        found = cast(cam, shapes_of((mesh, mesh.middle, 1.0)), passes=("depth", "face_index"), dtype=np.float64)
         pictures.append((found["depth"] / size, found["face_index"]))
     for depth, face in pictures[1:]:
         np.testing.assert_array_equal(face, pictures[0][1])

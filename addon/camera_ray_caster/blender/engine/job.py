@@ -123,8 +123,8 @@ class Job:
         require(needed, of_pixels("the passes", self.stored))
         into = reusable(spare, tuple(self.passes), self.camera.raster.shape, np.float32)
         images = cast(
-            self.camera, self.shapes, self.passes, **settings, progress=progress, finished=finished, preview=preview,
-            into=into,
+            self.camera, self.shapes, passes=self.passes, **settings, progress=progress, finished=finished,
+            preview=preview, into=into,
         )  # fmt: skip
         began = perf_counter()
         bounds = accuracy(self.camera, self.shapes, images.plan)

@@ -199,7 +199,7 @@ def _cast(target: Target, shapes, shown: dict[str, str], step: int, spare: Image
     """
     camera, passes = target.camera(step), ("combined",)
     into = reusable(spare, passes, camera.raster.shape, np.float32)
-    images = cast(camera, shapes, passes, np.float32, **shown, progress=progress, into=into)
+    images = cast(camera, shapes, passes=passes, dtype=np.float32, **shown, progress=progress, into=into)
     return images, target.rectangle(camera.raster)
 
 

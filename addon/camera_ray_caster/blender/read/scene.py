@@ -2,11 +2,11 @@
 
 from contextlib import contextmanager
 from dataclasses import replace
-from functools import partial
+from functools import partial, wraps
 
 import bpy
 
-from ...core.arguments import number, shown, word, words
+from ...core.arguments import deprecated, keywords, number, shown, word, words
 from ...core.camera.camera import Camera
 from ...core.camera.pixel_time import LAST_FRAME
 from ...core.camera.stereo import eye_record
@@ -23,7 +23,22 @@ from .physics import prepare
 from .shapes import shapes_record
 
 
-def read_scene(scene, frame=None, camera_object=None, view="", passes=()) -> Scene:
+def _frame_came_second(function):
+    """Let a function take its arguments by position as they were before version 0.3, with a DeprecationWarning."""
+
+    @wraps(function)
+    def call(scene, camera_object=None, *others, **keywords):
+        if not others and not isinstance(camera_object, int | float):
+            return function(scene, camera_object, **keywords)
+        old = dict(zip(("frame", "camera_object", "view", "passes"), (camera_object, *others), strict=False))
+        deprecated(f"{function.__name__} takes all but the scene and the camera as keywords: frame=..., view=...")
+        return function(scene, **old, **keywords)
+
+    return call
+
+
+@_frame_came_second
+def read_scene(scene, camera_object=None, *, frame=None, view="", passes=()) -> Scene:
     """Return camera and shapes in one reading, as one record that ``cast`` takes: ``cast(scene, passes=...)``.
 
     Camera and shapes are those of ``read_camera`` and ``read_shapes`` for the same arguments. ``next`` and ``previous``
@@ -36,7 +51,8 @@ def read_scene(scene, frame=None, camera_object=None, view="", passes=()) -> Sce
         return _with_motion(scene, active, depsgraph, view, passes)
 
 
-def read_camera(scene, camera_object=None, frame=None, view="") -> Camera:
+@keywords
+def read_camera(scene, camera_object=None, *, frame=None, view="") -> Camera:
     """Return the scene's camera as evaluated, with parents, constraints, drivers, animation and timeline markers.
 
     ``camera_object``: default the scene's active camera at that frame. ``frame``: default the current frame; its
@@ -53,7 +69,8 @@ def read_camera(scene, camera_object=None, frame=None, view="") -> Camera:
         return replace(camera, timeline=Timeline(motion))
 
 
-def read_shapes(scene, frame=None, camera_object=None, view="") -> Shapes:
+@_frame_came_second
+def read_shapes(scene, camera_object=None, *, frame=None, view="") -> Shapes:
     """Return the scene's shapes as evaluated, in the world, and the names of objects that cannot be cast.
 
     The arguments are as in ``read_camera``. The camera matters only if its pixels have their own times: the shapes then

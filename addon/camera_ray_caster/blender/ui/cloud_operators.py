@@ -96,7 +96,7 @@ class SavePoints(OfPoints, ExportHelper, bpy.types.Operator):
         """Write the files and report the result."""
         path = Path(bpy.path.abspath(self.filepath))
         cloud = self.points(context)
-        paths = save_points(self.format, cloud, path.parent, path.stem, axes=self.axes)
+        paths = save_points(cloud, path.parent, self.format, name=path.stem, axes=self.axes).paths
         self.report({"INFO"}, f"Wrote {len(cloud):,} points into {', '.join(one.name for one in paths)}")
         return {"FINISHED"}
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
+from ...core.arguments import keywords
 from ...core.camera.camera import Camera
 from ...core.camera.facts import camera_facts
 from ...core.camera.stereo import eye_record
@@ -25,7 +26,8 @@ MOVING_GRID = 2
 """Number of pixels per side at which a moving camera is verified: each projection is searched over all of its times."""
 
 
-def verify_camera(scene, camera_object=None, frame=None, view="") -> list[Finding]:
+@keywords
+def verify_camera(scene, camera_object=None, *, frame=None, view="") -> list[Finding]:
     """Return the findings on the camera that ``read_camera`` returns for these arguments; raises the same errors."""
     return _read_and_verified(scene, camera_object, frame, view)[1]
 

@@ -48,7 +48,7 @@ def seen_key_points(camera: Camera, shapes: Shapes, points: Sequence[KeyPoint]) 
     places = np.array([point.place for point in points], float).reshape(-1, 3)
     pixels = camera.project(places)
     tolerance = PLACE_ROUNDING * float(np.abs(places).max(initial=0.0))
-    found = [Visibility(code) for code in visible(camera, shapes, places, tolerance).tolist()]
+    found = [Visibility(code) for code in visible(camera, shapes, places, tolerance=tolerance).tolist()]
     rays, raster = camera.rays_at(*pixels.T), camera.raster
     low, high = (raster.x0, raster.y0), (raster.x1, raster.y1)
     is_inside = ((pixels >= low) & (pixels <= high)).all(axis=1)

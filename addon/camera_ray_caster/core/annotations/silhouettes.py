@@ -47,7 +47,7 @@ def silhouettes(
     Each shape is cast by itself, in its bounds. ``images``: a cast of these, if there is one.
     """
     if images is None or "shape_index" not in images:
-        images = cast(camera, shapes, ("shape_index",))
+        images = cast(camera, shapes, passes=("shape_index",))
     index = images["shape_index"]
     rows, columns = np.nonzero(index >= 0)
     found = dict(zip(*_boxes(index[rows, columns], columns, rows), strict=True))
@@ -67,7 +67,7 @@ def _alone(camera: Camera, shapes: Shapes, plan: Plan) -> Iterator[tuple[int, in
     """
     if camera.pixel_time is not None or is_cast_by_rays(camera):
         for row in range(len(shapes)):
-            pixels = cast(camera, _only(shapes, row), ("shape_index",), threads=1)["shape_index"] >= 0
+            pixels = cast(camera, _only(shapes, row), passes=("shape_index",), threads=1)["shape_index"] >= 0
             if pixels.any():
                 yield row, 0, 0, pixels
         return

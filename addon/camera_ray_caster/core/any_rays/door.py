@@ -42,15 +42,16 @@ class RayImages(dict[str, np.ndarray]):
     shapes: Shapes
 
 
+@arguments.keywords
 def cast_rays(
     origins,
     directions,
     shapes: Shapes,
+    *,
     passes: str | Iterable[str] = ("distance", "normal"),
     times=None,
     near: float = 0.0,
     far: float = math.inf,
-    *,
     all_hits: bool = False,
     dtype=np.float64,
 ) -> RayImages:
@@ -105,7 +106,8 @@ def cast_rays(
     return images
 
 
-def occluded(origins, targets, shapes: Shapes, times=None) -> np.ndarray:
+@arguments.keywords
+def occluded(origins, targets, shapes: Shapes, *, times=None) -> np.ndarray:
     """Return whether something lies between origins and targets, (..., 3) each, in the world: bool of the shape to
     which they broadcast.
 

@@ -47,8 +47,10 @@ def cast_sweep(
             raise Cancelled
         rows = slice(first, min(first + step, height))
         rays = replace(camera, raster=_part(camera.raster, rows)).rays()
-        span = camera.clip_start, camera.clip_end
-        found = cast_rays(rays.origins, rays.directions, shapes, request.passes, rays.time, *span, dtype=dtype)
+        found = cast_rays(
+            rays.origins, rays.directions, shapes, passes=request.passes, times=rays.time, near=camera.clip_start,
+            far=camera.clip_end, dtype=dtype,
+        )  # fmt: skip
         for name, image in images.items():
             image[rows] = found[name]
     return images

@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from ..arguments import shown
 from ..cameras.model import Model
 from ..memory import of_pixels, require
 from ..records import InputError
@@ -112,7 +113,7 @@ def fit_model(
     if counted < LEFT:
         angles, near = _angles(rays[some]), search.near()
         edge = floor(10 * (angles.max() if near.all() else angles[~near].min())) / 10
-        remedy = f"fit those within {degrees(edge):.0f} degrees of the viewing direction (region={edge:g}), or fewer"
+        remedy = f"fit those within {degrees(edge):.0f} degrees of the viewing direction (within={edge:g}), or fewer"
         said = f"{kind.label} sees fewer than half of the rays"
         raise InputError(f"{said}: {remedy if edge else 'choose another region, or another model'}")
     fitted = camera_from(search.record(values))
@@ -128,11 +129,33 @@ def fit_model(
     )  # fmt: skip
 
 
-def within(camera: Camera, angle: float) -> np.ndarray:
-    """Return which pixels have a ray within an angle from the viewing direction, bool, (rows, columns)."""
-    rays = _rays(camera)
-    with np.errstate(invalid="ignore"):  # NaN means no ray
-        return _angles(rays) <= angle
+def region_of(camera: Camera, within, name: str = "within") -> np.ndarray:
+    """Return a part of the picture as bool, (rows, columns), of one of the forms that ``crc.fit`` takes as ``within``.
+    Raises InputError, which names the argument, for anything else.
+    """
+    width, height = camera.raster.size
+    if isinstance(within, int | float | np.number) and not isinstance(within, bool):
+        if not 0 < within <= np.pi:
+            raise InputError(f"{name} is {shown(within)}: as an angle it must be above 0, up to pi")
+        rays = _rays(camera)
+        with np.errstate(invalid="ignore"):  # NaN means no ray
+            return _angles(rays) <= float(within)
+    try:
+        region = np.asarray(within)
+    except ValueError:  # lists of unequal length
+        region = np.zeros(0)
+    if region.dtype == bool and region.shape == (height, width):
+        return region
+    if region.shape == (4,) and region.dtype.kind in "iu":
+        x0, y0, x1, y1 = region.tolist()
+        if 0 <= x0 < x1 <= width and 0 <= y0 < y1 <= height:
+            result = np.zeros((height, width), bool)
+            result[y0:y1, x0:x1] = True
+            return result
+    raise InputError(
+        f"{name} is {shown(within)}: it must be (x0, y0, x1, y1) within the frame of {width} x {height} pixels, a bool "
+        f"array of shape ({height}, {width}), or an angle in radians"
+    )
 
 
 def _angles(rays: np.ndarray) -> np.ndarray:
@@ -161,7 +184,7 @@ def _rays(camera: Camera) -> np.ndarray:
     with np.errstate(all="ignore"):  # NaN means no ray
         origin, direction = camera.model.rays(x, y)
         if not camera.model.central:
-            t = (camera.model.focused_at + origin[2]) / -direction[2]
+            t = ((camera.model.focused_at or 0.0) + origin[2]) / -direction[2]
             direction = tuple(o + np.where(t > 0, t, np.nan) * d for o, d in zip(origin, direction, strict=True))
         rays = np.stack([np.broadcast_to(part, (height, width)) for part in direction], axis=-1).astype(np.float64)
         return rays / np.linalg.norm(rays, axis=-1, keepdims=True)

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import Any, overload
 
 import numpy as np
 
-from ..arguments import number, numbers
+from ..arguments import keywords, number, numbers
 from ..camera.camera import Camera
 from ..conventions import gamma
 from ..maths.vector import components, norm
 from ..records import InputError, Shapes
+from ..scene import Scene
 from .pictures import Picture
 
 
@@ -25,9 +27,17 @@ class Visibility(IntEnum):
     SEEN = 2
 
 
-def visible(camera: Camera, shapes: Shapes, points, tolerance: float = 0.0) -> np.ndarray:
+@overload
+def visible(scene: Scene, points: Any, /, *, tolerance: float = 0.0) -> np.ndarray: ...
+@overload
+def visible(
+    camera: Camera | Scene, shapes: Shapes | None = None, points: Any = None, *, tolerance: float = 0.0
+) -> np.ndarray: ...
+@keywords
+def visible(camera, shapes=None, points=None, *, tolerance=0.0):
     """Return whether world points (..., 3) are seen, as numbers of ``Visibility``, (...) uint8.
 
+    camera, shapes: as in ``cast``; also ``visible(scene, points)``.
     A ray is cast to each point. The point is HIDDEN if a hit is nearer by more than the error bounds of both, so that a
     surface does not hide a point on it. ``tolerance`` is the largest error of the given points, in world units: a
     vertex that was rounded to float32 may lie inside its surface by 1e-7 of its coordinates.
@@ -35,16 +45,16 @@ def visible(camera: Camera, shapes: Shapes, points, tolerance: float = 0.0) -> n
     Raises InputError for an array of another shape, and for a tolerance that is not a number or is negative;
     TypeError for a camera or shapes of another type.
     """
-    if not (isinstance(camera, Camera) and isinstance(shapes, Shapes)):
-        raise TypeError(f"visible takes a camera and shapes as they are read, not {type(camera)} and {type(shapes)}")
+    scene, points = Scene.given_with(camera, shapes, points, "visible")
     points, tolerance = numbers(points, "points"), number(tolerance, "tolerance", np.inf)
     if points.shape[-1:] != (3,):
         raise InputError(f"points of shape {points.shape} cannot be tested: give x, y, z, shape (..., 3)")
     if tolerance < 0:
         raise InputError(f"tolerance is {tolerance:g}: it must be a length of 0 or more")
     each = points.reshape(-1, 3)
+    picture = Picture(scene.camera, scene.shapes)
     with np.errstate(over="ignore"):  # a place whose length overflows has no pixel
-        still, picture = _Still(each, tolerance + gamma(2) * norm(components(each))), Picture(camera, shapes)
+        still = _Still(each, tolerance + gamma(2) * norm(components(each)))
     before = picture.before(still, picture.pixels(still, len(each)))
     found = np.array([Visibility.SEEN, Visibility.HIDDEN, Visibility.OUTSIDE], np.uint8)[before]
     return found.reshape(points.shape[:-1])

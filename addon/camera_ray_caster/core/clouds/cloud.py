@@ -130,7 +130,7 @@ def scan(
             f"{MOST_CATEGORY}"
         )
     check_rows(shapes)
-    images, rays = cast(camera, shapes, PASSES, np.float64), camera.rays()
+    images, rays = cast(camera, shapes, passes=PASSES, dtype=np.float64), camera.rays()
     hit = (images["shape_index"] != NOTHING) & np.isfinite(images["distance"])
     ahead, true = np.where(hit[..., None], rays.directions, 0.0), np.where(hit, images["distance"], 0.0)
     incidence = np.clip(-(ahead * images["normal"]).sum(axis=-1), 0.0, 1.0)

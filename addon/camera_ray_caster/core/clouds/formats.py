@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arguments import unknown
+from ..arguments import chosen
 from ..records import InputError
 from ..units import BLENDER_UNITS, METERS, Unit, factor, unit_name
 from .cloud import SENSOR, PointCloud
@@ -155,7 +155,5 @@ def files_of(cloud: PointCloud, key: str, axes: str = SENSOR) -> Files:
     """Return the endings and contents of a cloud's files in a format. Raises InputError for an unknown format, and for
     numbers that it cannot store.
     """
-    if not isinstance(key, str) or key not in FORMATS:
-        raise unknown("format of points", key, FORMATS)
-    files, unit = FORMATS[key]
+    files, unit = FORMATS[chosen(key, "format of points", FORMATS)]
     return files(_in_unit(cloud, unit), axes)

@@ -8,8 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
-from ..arguments import unknown
+from ..arguments import chosen as the_word
 from ..camera.camera import Camera
 from ..programs import PROGRAMS
 from ..programs.parts.program import CameraRecord
@@ -33,18 +34,16 @@ FORMATS: tuple[Format, ...] = (
 def find_format(key: str) -> Format:
     """Return the format of a key. Raises InputError that lists the formats for an unknown key."""
     formats = {one.key: one for one in FORMATS}
-    if not isinstance(key, str) or key not in formats:
-        raise unknown("format", key, formats)
-    return formats[key]
+    return formats[the_word(key, "format", formats)]
 
 
 def export(
-    key: str, shots: Sequence[Shot], fit: float | None = None
+    key: str, shots: Sequence[Shot], fit: Any = None
 ) -> tuple[Iterator[tuple[str, Content]], list[str]]:
     """Return the files of an export, as an iterator over name and content, and lines of remarks for the user.
 
-    fit: of a lens that the format cannot represent, the nearest one that it can is written, fitted to the pixels within
-    this angle of the viewing direction, in radians; see ``fitted``. None: such a lens is refused.
+    fit: of a lens that the format cannot represent, the nearest one that it can is written, fitted to
+    this part of the picture: see ``within`` of ``crc.fit``. None: such a lens is refused.
     The iterator makes each content when it is reached. Raises InputError, in one line, for an unknown format, and for a
     camera that the format cannot represent; the message then lists the formats that can.
     """
@@ -59,7 +58,7 @@ def records(key: str, shots: Sequence[Shot]) -> list[CameraRecord]:
     return chosen.records(able)
 
 
-def _prepared(key: str, shots: Sequence[Shot], fit: float | None):
+def _prepared(key: str, shots: Sequence[Shot], fit: Any):
     """Return the format, the shots as it represents them, remarks for heads of files, and remarks for the user."""
     chosen, fits = find_format(key), list[str]()
     if fit is not None:

@@ -15,7 +15,7 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
-from ..arguments import number, shown, word
+from ..arguments import keywords, number, shown, word
 from ..camera import pixel_time
 from ..camera.build import camera_from
 from ..camera.camera import Camera
@@ -74,7 +74,8 @@ def camera_to_json(camera: Camera) -> str:
     return _text([Shot(camera.name, float(camera.record.settings.get(FRAME, 0.0)), camera)])
 
 
-def camera_from_json(path_or_text: str | Path, frame: float | None = None, camera: str | None = None) -> Camera:
+@keywords
+def camera_from_json(path_or_text: str | Path, frame: float | None = None, *, camera: str | None = None) -> Camera:
     """Return a camera of a camera.json or a report.json, given by its path or its text. Blender is not needed.
 
     The rays are those of the camera that was written, bit for bit, on the same machine and numpy version.

@@ -9,9 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from math import pi
+from typing import Any
+
+import numpy as np
 
 from ..camera.camera import Camera
-from ..camera.fit import HELD, HELD_OF, Fit, fit_model, within
+from ..camera.fit import HELD, HELD_OF, Fit, fit_model, region_of
 from ..cameras import MODELS
 from ..cameras.parts.calibration import CALIBRATION
 from ..programs.parts.lens import MATRIX
@@ -27,10 +30,10 @@ FIT, FIT_WITHIN = "Fit Nearest Lens", "Within"
 Refusal = Callable[[Format, Shot], str | None]
 
 
-def with_fits(chosen: Format, shots: Sequence[Shot], angle: float, refusal: Refusal) -> tuple[list[Shot], list[str]]:
+def with_fits(chosen: Format, shots: Sequence[Shot], part: Any, refusal: Refusal) -> tuple[list[Shot], list[str]]:
     """Return the shots, with fitted cameras where the format refuses a lens, and a remark on each of those lenses.
 
-    angle: of the pixels that count, the largest one from the viewing direction, in radians. Raises InputError if no
+    part: of the picture that counts: see ``within`` of ``crc.fit``. Raises InputError if no
     lens of the format is near.
     """
     known: dict[str, tuple[Camera, str]] = {}
@@ -42,8 +45,8 @@ def with_fits(chosen: Format, shots: Sequence[Shot], angle: float, refusal: Refu
             continue
         key = repr((type(camera.model), camera.settings, camera.raster))
         if key not in known:
-            nearest = _nearest(chosen, shot, angle, refusal)
-            known[key] = nearest.camera, _remark(shot, nearest, angle)
+            nearest = _nearest(chosen, shot, part, refusal)
+            known[key] = nearest.camera, _remark(shot, nearest, part)
         fitted, remark = known[key]
         found.append(replace(shot, camera=_lent(camera, fitted), fit=remark))
     return found, list(dict.fromkeys(shot.fit for shot in found if shot.fit))
@@ -59,11 +62,11 @@ def _lent(camera: Camera, fitted: Camera) -> Camera:
     return replace(camera, model=fitted.model, record=replace(fitted.record, name=camera.record.name))
 
 
-def _nearest(chosen: Format, shot: Shot, angle: float, refusal: Refusal) -> Fit:
+def _nearest(chosen: Format, shot: Shot, part: Any, refusal: Refusal) -> Fit:
     camera, terms = shot.camera, dict[str, set[str]]()
     for key, names in getattr(chosen, "table", {}).values():
         terms.setdefault(key, set()).update(names)
-    region = None if angle >= pi else within(camera, angle)
+    region = region_of(camera, part, "fit")
     found: list[Fit] = []
     for kind in MODELS:
         if kind.key not in terms or not set(CALIBRATION) <= set(kind.SETTINGS):
@@ -90,8 +93,10 @@ def _nearest(chosen: Format, shot: Shot, angle: float, refusal: Refusal) -> Fit:
     return best
 
 
-def _remark(shot: Shot, fit: Fit, angle: float) -> str:
-    within = f", within {angle * 180 / pi:.4g} degrees of the viewing direction" if angle < pi else ""
+def _remark(shot: Shot, fit: Fit, part: Any) -> str:
+    within = ", within a part of the picture"
+    if np.ndim(part) == 0:
+        within = f", within {part * 180 / pi:.4g} degrees of the viewing direction" if part < pi else ""
     return f"{shot.name}: fitted to its {shot.camera.model.label}{within}: {fit.summary}"
 
 

@@ -1,5 +1,4 @@
-"""Step-by-step explanation of a pixel, with numbers: raster, view coordinates, model formula, ray, shapes, hit, color.
-"""
+"""Explanation of a pixel in steps, with numbers: raster, view coordinates, model formula, ray, shapes, hit, color."""
 
 from __future__ import annotations
 
@@ -131,7 +130,9 @@ def lesson(
     if samples > 1:
         mean = None
         if samples <= most:
-            images = cast(still, shapes, "combined", np.float64, samples=samples, progress=progress, **look)
+            images = cast(
+                still, shapes, passes="combined", dtype=np.float64, samples=samples, progress=progress, **look
+            )
             mean = images["combined"][0, 0]
         lines.append(_mean(camera, samples, mean))
     steps.append(("Color", tuple(lines)))

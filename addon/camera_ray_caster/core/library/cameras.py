@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ..arguments import count, flag, number, shown, unknown, word
+from ..arguments import chosen as the_word
+from ..arguments import count, flag, keywords, number, shown, unknown, word
 from ..arguments import name as a_name
 from ..camera import pixel_time
 from ..camera.build import camera_from
@@ -72,17 +73,12 @@ def camera(model: str, size, pose=None, **settings: Any) -> Camera:
     and for values without meaning.
     """
     known = models()
-    if not isinstance(model, str) or model not in known:
-        raise unknown("model", model, known)
+    model = the_word(model, "model", known)
     width, height = pair_of_pixels(size)
     name = a_name(settings.pop("name", "Camera"))
     frame = number(settings.pop("frame", 0.0), "frame", pixel_time.LAST_FRAME)
-    mode = settings.pop(pixel_time.MODE.name, pixel_time.NONE)
-    if not isinstance(mode, str) or mode not in pixel_time.SETTINGS:
-        raise unknown(pixel_time.MODE.name, mode, pixel_time.SETTINGS)
-    port = settings.get(PORT.name, PORT.default)
-    if not isinstance(port, str) or port not in PORTS:
-        raise unknown(PORT.name, port, PORTS)
+    mode = the_word(settings.pop(pixel_time.MODE.name, pixel_time.NONE), pixel_time.MODE.name, pixel_time.SETTINGS)
+    port = the_word(settings.get(PORT.name, PORT.default), PORT.name, PORTS)
     kind = behind(known[model], port)
     declared = {one.name: one for one in (*kind.SETTINGS, *DEPTH_OF_FIELD, *pixel_time.SETTINGS[mode])}
     for key in settings:
@@ -123,8 +119,9 @@ def camera(model: str, size, pose=None, **settings: Any) -> Camera:
     return camera_from(raw)
 
 
+@keywords
 def load_calibration(
-    path: str | os.PathLike[str], camera: str | None = None, size=None, pose=None, *, model: str = ""
+    path: str | os.PathLike[str], camera: str | None = None, *, size=None, pose=None, model: str = ""
 ) -> Camera:
     """Return a camera with the lens of a calibration file: of OpenCV, ROS, COLMAP, nerfstudio, Kalibr, mrcal, Project
     Aria, NVIDIA (f-theta), OCamCalib and others, which the table of models lists.
@@ -137,7 +134,7 @@ def load_calibration(
 
     Raises InputError, in one line, for a file that cannot be read, has no such camera, or does not state its size.
     """
-    file = checked_path(path, model)
+    file, model = checked_path(path), model and the_word(model, "model", models())
     chosen = "" if camera is None else word(camera, "camera")
     lens = chosen_lens(file, model, chosen, None if size is None else pair_of_pixels(size))
     size = size_of(file, lens) if size is None else size
@@ -166,10 +163,8 @@ def size_of(file: str, lens: Lens) -> tuple[int, int]:
     return size
 
 
-def checked_path(path: str | os.PathLike[str], model: str) -> str:
-    """Return the path of a file as text. Raises InputError for anything else, and for an unknown model's key."""
-    if model and model not in models():
-        raise unknown("model", model, models())
+def checked_path(path: str | os.PathLike[str]) -> str:
+    """Return the path of a file as text. Raises InputError for anything else."""
     try:
         return str(os.fspath(path))
     except TypeError as error:

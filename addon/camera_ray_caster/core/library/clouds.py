@@ -3,30 +3,45 @@
 from __future__ import annotations
 
 import os
-from pathlib import Path
 
 from .. import arguments
 from ..clouds.cloud import AXES, SENSOR, PointCloud
 from ..clouds.formats import files_of
 from ..exports.writing import write
 from ..names import file_name
+from .files import Exported, destination, format_came_first
+
+ENDINGS = {".pcd.bin": "nuscenes", ".ply": "ply", ".pcd": "pcd", ".bin": "kitti", ".las": "las", ".npz": "npz"}
+"""Formats of points by the ends of their files' names; the first one that fits counts."""
 
 
+@format_came_first("cloud", lambda done: done.paths)
 def save_points(
-    format: str, cloud: PointCloud, folder: str | os.PathLike[str], name: str = "", *, axes: str = SENSOR
-) -> list[Path]:
-    """Write a point cloud of ``scan`` into a folder, for another program; return the paths.
+    data: PointCloud,
+    path: str | os.PathLike[str],
+    format: str | None = None,
+    *,
+    name: str = "",
+    axes: str = SENSOR,
+) -> Exported:
+    """Write a point cloud of ``scan`` to a file or a folder, for another program; return the paths, as ``export`` does.
 
+    path: a file, whose ending tells the format, or with ``format`` a folder.
     format: "ply", "pcd", "kitti" (.bin, and SemanticKITTI's .label), "nuscenes" (.pcd.bin and labels), "las" (1.4) or
         "npz".
-    name: of the files, without an ending; default: the camera's.
+    name: of the files in a folder, without an ending; default: the camera's.
     axes: "sensor", x ahead, y to the left and z up where each beam fired, or "world".
 
     All files are written or none. Raises InputError, in one line, for an unknown format or axes, for numbers that the
     format cannot store, and for a folder that cannot be written.
     """
-    if not isinstance(cloud, PointCloud):
-        raise TypeError(f"save_points takes the points of scan, not {type(cloud)}")
-    chosen, stem = arguments.word(axes, "axes", AXES), file_name(arguments.name(name) or cloud.name)
-    files = ((stem + ending, content) for ending, content in files_of(cloud, format, chosen))
-    return write(files, arguments.folder(folder))
+    if not isinstance(data, PointCloud):
+        raise TypeError(f"save_points takes the points of scan, not {type(data)}")
+    chosen, stem = arguments.word(axes, "axes", AXES), file_name(arguments.name(name) or data.name)
+    folder, file, key = destination(path, format, ENDINGS)
+    files = {(stem + ending): content for ending, content in files_of(data, key, chosen)}
+    if file:
+        first, *others = files
+        cut = file[: -len(next(ending for ending in ENDINGS if file.lower().endswith(ending)))]
+        files = {file: files[first], **{cut + other[len(stem) :]: files[other] for other in others}}
+    return Exported(write(files.items(), folder), [])

@@ -1,21 +1,22 @@
-"""Cameras written to files of other programs, without Blender."""
+"""Cameras written to files of other programs, without Blender, under a path that may tell the format."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import wraps
+from itertools import chain
 from math import pi
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import numpy as np
-
+from ..arguments import P, R, deprecated, number, shown, spelled
 from ..arguments import folder as a_folder
-from ..arguments import number, shown
 from ..camera.camera import Camera
+from ..camera.fit import region_of
 from ..exports import FORMATS, find_format
 from ..exports import export as files_of
-from ..exports.format import Shot
+from ..exports.format import Content, Shot
 from ..exports.writing import write
 from ..names import file_names
 from ..programs.parts.program import in_words
@@ -31,56 +32,114 @@ class Exported(NamedTuple):
     """What the files do not say of the cameras, one line each."""
 
 
+ENDINGS = {
+    "cameras.txt": "colmap", "transforms.json": "nerfstudio", "camchain.yaml": "kalibr", "scene_camera.json": "bop",
+    "_tum.txt": "tum", "_kitti.txt": "kitti", "_euroc.csv": "euroc", ".cameramodel": "mrcal", ".yml": "opencv",
+    ".yaml": "ros", ".npz": "npz", ".exr": "stmap", ".json": "json",
+}  # fmt: skip
+"""Formats of cameras by the ends of their files' names; the first one that fits counts."""
+
+
+def destination(
+    path: str | os.PathLike[str], format: str | None, endings: Mapping[str, str]
+) -> tuple[Path, str, str]:
+    """Return the folder, the name of the file and the format of an export to a path; "" if the path is a folder, whose
+    files have the format's own names. Raises InputError if neither path nor ``format`` tell the format.
+    """
+    file = a_folder(path)
+    for ending, key in endings.items():
+        if file.name.lower().endswith(ending) and spelled(format or key, [key]) == key:
+            return file.parent, file.name, key
+    if format is None:
+        raise InputError(f"{file.name!r} does not end like the files of a format, {', '.join(endings)}: give format=")
+    return file, "", format
+
+
+def format_came_first(
+    name: str, result: Callable[[Any], Any] = lambda done: done
+) -> Callable[[Callable[P, R]], Callable[P, R]]:
+    """Let a function of (data, path, format) take (format, data, folder) as before version 0.3, with a
+    DeprecationWarning; the data were called ``name``, and the result was ``result`` of today's.
+    """
+
+    def decorated(function: Callable[P, R]) -> Callable[P, R]:
+        @wraps(function)
+        def call(*args: P.args, **kwargs: P.kwargs) -> R:
+            by_name: Any = function
+            if not (args and isinstance(args[0], str)) and not {name, "folder"} & kwargs.keys():
+                return function(*args, **kwargs)
+            deprecated(f"{function.__name__} takes ({name}, path, format=...)")
+            old: dict[str, Any] = dict(zip(("format", name, "folder", "name"), args, strict=False)) | kwargs
+            return result(by_name(old.pop(name), old.pop("folder"), **old))
+
+        return call
+
+    return decorated
+
+
+@format_came_first("cameras")
 def export(
-    format: str,
-    cameras: Camera | Sequence[Camera],
-    folder: str | os.PathLike[str],
+    data: Camera | Sequence[Camera],
+    path: str | os.PathLike[str],
+    format: str | None = None,
     *,
     meters: float = 1.0,
     target: Camera | None = None,
-    fit: bool | float = False,
+    fit: Any = False,
 ) -> Exported:
-    """Write cameras into a folder, for another program; return the paths and remarks.
+    """Write cameras to a file or a folder, for another program; return the paths and remarks.
 
-    format: KEYS.
-    cameras: a camera, or several. Those of one name are one camera at several frames: see ``name`` and ``frame`` of
+    data: a camera, or several. Those of one name are one camera at several frames: see ``name`` and ``frame`` of
         ``crc.camera``.
+    path: a file, whose ending tells the format, or with ``format`` a folder.
+    format: KEYS.
     meters: length of a unit, for formats with meters.
     fit: whether a lens that the format cannot represent is replaced by the nearest one that it can, with its error in
-        pixels in the files and the remarks; a number is the largest angle from the viewing direction, in radians, of
-        the pixels that count. See ``crc.fit``.
+        pixels in the files and the remarks. In place of True: the part of the picture that counts, as ``within`` of
+        ``crc.fit``, such as the largest angle from the viewing direction, in radians.
     target: for "stmap", the camera to whose picture the maps lead; default the perspective of the same lens.
 
     All files are written or none. Raises InputError, in one line, for an unknown format, a camera that the format
     cannot represent (it names the formats that can), two cameras of one name and frame, a unit without length, and a
     folder that cannot be written.
     """
-    given = [cameras] if isinstance(cameras, Camera) else list(cameras)
+    given = [data] if isinstance(data, Camera) or not isinstance(data, Iterable) else list(data)
     for one in (*given, *([] if target is None else [target])):
         if not isinstance(one, Camera):
             raise TypeError(f"export takes cameras, not {type(one)}")
     if not given:
         raise InputError("there is no camera to export: give one or more")
-    chosen = find_format(format)
+    folder, name, key = destination(path, format, ENDINGS)
+    chosen = find_format(key)
     if target is not None and not chosen.takes_target:
-        raise InputError(f"format {format} has no target camera: only maps have a target")
+        raise InputError(f"format {chosen.key} has no target camera: only maps have a target")
     unit = number(meters, "meters", 1e12)
     if unit <= 0:
         raise InputError(f"meters is {shown(meters)}: it must be above 0, the length of a unit")
-    is_angle = isinstance(fit, int | float | np.integer | np.floating) and 0 < fit <= pi
-    if not isinstance(fit, bool) and not is_angle:
-        raise InputError(f"fit is {shown(fit)}: it must be True, False or an angle above 0, up to pi")
-    angle = (pi if fit else None) if isinstance(fit, bool) else float(fit)
+    part = (pi if fit else None) if isinstance(fit, bool) else fit
+    if part is not None:
+        region_of(given[0], part, "fit")
     names = file_names(one.name for one in given)
     shots = [Shot(names[one.name], _frame(one), one, unit, target) for one in given]
     if len({shot.stem for shot in shots}) < len(shots):
         raise InputError("two cameras have one name and one frame: give them names (name=) or frames (frame=)")
-    files, remarks = files_of(format, sorted(shots, key=lambda shot: shot.frame), angle)
-    return Exported(write(files, a_folder(folder)), remarks)
+    files, remarks = files_of(chosen.key, sorted(shots, key=lambda shot: shot.frame), part)
+    return Exported(write(_named(files, name) if name else files, folder), remarks)
 
 
 _KEYS = in_words([f'"{one.key}"' for one in FORMATS])
 export.__doc__ = (export.__doc__ or "").replace("KEYS", _KEYS)
+
+
+def _named(files: Iterator[tuple[str, Content]], name: str) -> Iterator[tuple[str, Content]]:
+    """Yield the files of an export, a single one under another name. Raises InputError if none of several has it."""
+    names = []
+    first = next(files)
+    for own, content in chain([first, second] if (second := next(files, None)) else [(name, first[1])], files):
+        names.append(own)
+        yield own, content
+    if name not in names:
+        raise InputError(f"the export has {len(names)} files: give a folder in place of {name!r}, and format=")
 
 
 def _frame(camera: Camera) -> float:

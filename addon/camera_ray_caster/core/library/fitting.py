@@ -5,21 +5,21 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import Any
 
-import numpy as np
-
-from ..arguments import shown, unknown
+from ..arguments import chosen, deprecated, shown, unknown
 from ..camera.camera import Camera
-from ..camera.fit import Fit, fit_model, within
+from ..camera.fit import Fit, fit_model, region_of
 from ..records import InputError
 from .models import models
 from .values import plain
 
 
-def fit(camera: Camera, model: str, region=None, free: Collection[str] | None = None, **settings: Any) -> Fit:
+def fit(
+    camera: Camera, model: str, *others: Any, within: Any = None, free: Collection[str] | None = None, **settings: Any
+) -> Fit:
     """Return the camera of another model whose pixels are nearest to a camera's, by least squares.
 
     model: the key of the model: see ``models``.
-    region: the part of the picture that counts: (x0, y0, x1, y1), columns x0 to x1 - 1 and rows y0 to y1 - 1 from the
+    within: the part of the picture that counts: (x0, y0, x1, y1), columns x0 to x1 - 1 and rows y0 to y1 - 1 from the
         bottom; a bool array (rows, columns); or a number, the largest angle from the viewing direction, in radians.
         Default: all.
     free: names of the numbers to fit, of those in ``parameters``. Default: all on which the picture depends, but for
@@ -36,9 +36,14 @@ def fit(camera: Camera, model: str, region=None, free: Collection[str] | None = 
     """
     if not isinstance(camera, Camera):
         raise TypeError(f"fit takes a camera, not {type(camera)}")
+    old = dict(zip(("within", "free"), others, strict=False)) | (
+        {"within": settings.pop("region")} if "region" in settings else {}
+    )
+    if old:
+        deprecated(f"fit takes keywords here: {', '.join(f'{name}=' for name in old)}")
+        return fit(camera, model, **{"within": within, "free": free, **settings, **old})
     known = models()
-    if not isinstance(model, str) or model not in known:
-        raise unknown("model", model, known)
+    model = chosen(model, "model", known)
     declared = {one.name: one for one in known[model].SETTINGS}
     for name in settings:
         if name not in declared:
@@ -48,31 +53,4 @@ def fit(camera: Camera, model: str, region=None, free: Collection[str] | None = 
         names = {free} if isinstance(free, str) else None if free is None else set(free)
     except TypeError as error:
         raise InputError(f"free is {shown(free)}: it must be names of parameters of {model}") from error
-    return fit_model(camera, known[model], _region(camera, region), names, given)
-
-
-def _region(camera: Camera, region) -> np.ndarray | None:
-    """Return a region as a bool array (rows, columns); None for all."""
-    width, height = camera.raster.size
-    if region is None:
-        return None
-    if isinstance(region, int | float | np.number) and not isinstance(region, bool):
-        if not 0 < region <= np.pi:
-            raise InputError(f"region is {shown(region)}: as an angle it must be above 0, up to pi")
-        return within(camera, float(region))
-    try:
-        found = np.asarray(region)
-    except ValueError:  # lists of unequal length
-        found = np.zeros(0)
-    if found.dtype == bool and found.shape == (height, width):
-        return found
-    if found.shape == (4,) and found.dtype.kind in "iu":
-        x0, y0, x1, y1 = found.tolist()
-        if 0 <= x0 < x1 <= width and 0 <= y0 < y1 <= height:
-            result = np.zeros((height, width), bool)
-            result[y0:y1, x0:x1] = True
-            return result
-    raise InputError(
-        f"region is {shown(region)}: it must be (x0, y0, x1, y1) within the frame of {width} x {height} pixels, a bool "
-        f"array of shape ({height}, {width}), or an angle in radians"
-    )
+    return fit_model(camera, known[model], None if within is None else region_of(camera, within), names, given)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arguments import numbers, shown
+from ..arguments import keywords, numbers, shown
 from ..cameras.parts.pose import pose_matrix
 from ..records import InputError
 
 
-def look_at(eye, target, up=(0.0, 0.0, 1.0)) -> np.ndarray:
+@keywords
+def look_at(eye, target, *, up=(0.0, 0.0, 1.0)) -> np.ndarray:
     """Return the pose, (4, 4) float64, of a camera at ``eye`` that looks at ``target``, with ``up`` upward in the
     picture. Raises InputError if they do not determine a direction.
     """

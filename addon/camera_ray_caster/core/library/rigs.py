@@ -9,12 +9,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..arguments import number, shown
+from ..arguments import chosen, number, shown
 from ..camera.camera import Camera
 from ..maths.rotations import polar
 from ..programs.reading.mounted import Mounted, mounted
 from ..records import InputError
 from .cameras import checked_path, of_lens, pair_of_pixels, size_of
+from .models import models
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +67,7 @@ def load_rig(
     Raises InputError, in one line, for a file that cannot be read, has no poses or no lenses, or does not state the
     size of its pictures. A ``UserWarning`` says which poses of the file are left out.
     """
-    file = checked_path(path, model)
+    file, model = checked_path(path), model and chosen(model, "model", models())
     frame = None if size is None else pair_of_pixels(size)
     rate = number(frame_rate, "frame_rate", 1e6)
     if rate <= 0:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..arguments import flag, numbers, shape_of, shown
+from ..arguments import flag, keywords, numbers, shape_of, shown
 from ..arguments import name as a_name
 from ..cameras.parts.pose import flaw_of_last_row
 from ..mesh import Mesh
@@ -20,8 +20,9 @@ GRAY = 0.8, 0.8, 0.8, 1.0
 LARGEST_INDEX = 2**31 - 1
 
 
+@keywords
 def spheres(
-    centers, radii=1.0, axes=None, *, object_index=0, material_index=0, color=GRAY, name: str | Sequence[str] = "sphere"
+    centers, radii=1.0, *, axes=None, object_index=0, material_index=0, color=GRAY, name: str | Sequence[str] = "sphere"
 ) -> Shapes:
     """Return spheres, or ellipsoids, one per row of ``centers``.
 
@@ -68,12 +69,13 @@ def planes(
     return _exact(kind, centers, _matrices(axes, len(centers), True), object_index, material_index, color, name)
 
 
+@keywords
 def mesh(
     vertices,
     faces,
+    *,
     normals=None,
     uv=None,
-    *,
     pose=None,
     object_index=0,
     material_index=0,

@@ -59,7 +59,7 @@ def _cast(view: MeshView) -> tuple[Mapping[str, np.ndarray], dict[str, Any]]:
     names = {shapes.names[index] for index in shapes.name_index.tolist()}
     if missing := sorted(category.keys() - names):
         raise no_shape(missing[0])
-    images = cast(view.camera, shapes, ("distance", "shape_index"), np.float64)
+    images = cast(view.camera, shapes, passes=("distance", "shape_index"), dtype=np.float64)
     sheet = Sheet.of(view.camera.raster)
     image = {name: value for name, value in before["images"][0].items() if name not in ("id", "width", "height")}
     told = document(image, sheet, view.camera, shapes, lambda name: category.get(name, name), (), images)

@@ -145,11 +145,11 @@ def test_a_point_is_blurred_to_the_hole_as_seen_from_it(distance):
 def test_the_blur_shrinks_with_the_hole_to_the_pinhole_picture():
     """The blurred edge of a wall is as wide as the hole's image: its light spills in proportion to the hole."""
     scene = replace(glowing((0, 0, -6), 2.0), kind=np.array([PLANE], np.uint8))
-    sharp = cast(camera(BOX | {"obscura_hole": 1e-9}, model="CAMERA_OBSCURA"), scene, ("combined",), samples=64)
+    sharp = cast(camera(BOX | {"obscura_hole": 1e-9}, model="CAMERA_OBSCURA"), scene, passes=("combined",), samples=64)
     errors = []
     for hole in (0.4, 0.2, 0.1):
         box = camera(BOX | {"obscura_hole": hole}, model="CAMERA_OBSCURA")
-        blurred = cast(box, scene, ("combined",), samples=64)["combined"]
+        blurred = cast(box, scene, passes=("combined",), samples=64)["combined"]
         errors.append(float(np.abs(blurred - sharp["combined"])[..., 0].mean()))
     rates = np.log2(np.array(errors[:-1]) / errors[1:])
     assert rates == pytest.approx([1.0, 1.0], abs=0.25)  # first order: a band of width h around the edge
@@ -157,7 +157,7 @@ def test_the_blur_shrinks_with_the_hole_to_the_pinhole_picture():
 
 def test_samples_of_a_sharp_camera_only_smooth_its_edges():
     scene = glowing((0, 0, -6), 1.0)
-    one, many = (cast(camera(lens=50.0), scene, ("combined", "depth"), samples=n) for n in (1, 16))
+    one, many = (cast(camera(lens=50.0), scene, passes=("combined", "depth"), samples=n) for n in (1, 16))
     assert np.array_equal(one["depth"], many["depth"])
     inside = np.isfinite(one["depth"])
     grown = inside | np.roll(inside, 1, 0) | np.roll(inside, -1, 0) | np.roll(inside, 1, 1) | np.roll(inside, -1, 1)
@@ -180,7 +180,7 @@ def test_culling_loses_nothing_that_a_blurred_camera_sees(kind):
         blurred = example("OPENCV_PINHOLE", settings | tilted)
     else:
         blurred = camera(settings, type=kind, clip_start=0.01)
-    pictures = [cast(blurred, scene, ("combined",), samples=4, cull=cull)["combined"] for cull in (True, False)]
+    pictures = [cast(blurred, scene, passes=("combined",), samples=4, cull=cull)["combined"] for cull in (True, False)]
     assert np.array_equal(*pictures)
 
 
@@ -196,4 +196,4 @@ def test_bad_aperture_and_samples_are_refused():
     with pytest.raises(InputError, match="aperture_ratio"):
         camera(LENS | {"aperture_ratio": 0.0})
     with pytest.raises(InputError, match="samples is 0"):
-        cast(camera(), glowing((0, 0, -5), 1.0), ("combined",), samples=0)
+        cast(camera(), glowing((0, 0, -5), 1.0), passes=("combined",), samples=0)
