@@ -121,7 +121,8 @@ def test_poses_of_a_sequence_are_in_meters():
 UNITS = {
     "COLMAP": "", "nerfstudio": "", "Kalibr": "m", "EuRoC": "m", "OKVIS": "m", "Basalt": "m", "BOP": "mm",
     "Project Aria": "m", "maplab": "m", "HOT3D": "m", "Metashape": "", "Meshroom": "", "Polycam": "m",
-    "NVIDIA NCore": "m",
+    "NVIDIA NCore": "m", "CAHVOR": "m", "DepthAI": "m", "Anipose": "", "EasyMocap": "m", "CMU Panoptic": "m",
+    "nuScenes": "m",
     "ARKitScenes": "m", "OpenCV": "", "mrcal": "", "OpenSfM": "m", "RealityCapture": "", "openMVG": "",
     "Bundler": "", "NVM": "", "Gaussian splatting": "", "nerfstudio camera paths": "", "LLFF": "",
     "Surround360": "", "fSpy": "", "Open3D": "m",

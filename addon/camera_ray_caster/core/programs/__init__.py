@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from . import (
+    anipose,
     aria,
     arkitscenes,
     basalt,
     bop,
     bundler,
     cahvor,
+    callab,
     camera_path,
     colmap,
+    depthai,
+    easymocap,
     euroc,
     euroc_trajectory,
     fspy,
@@ -30,6 +34,7 @@ from . import (
     ncore,
     nerf,
     nerfstudio,
+    nuscenes,
     nvidia,
     nvm,
     ocam,
@@ -39,7 +44,9 @@ from . import (
     openmvg,
     opensfm,
     orbslam,
+    ost,
     ouster,
+    panoptic,
     polycam,
     ptgui,
     ray_table,
@@ -65,7 +72,8 @@ MODULES = (
     cahvor, nvidia, ncore, woodscape, opensfm, maplab, hot3d, metashape, meshroom, realitycapture, openmvg, bundler,
     nvm, gaussian_splatting, camera_path, llff, open3d, surround360, fspy, polycam, arkitscenes, tum,
     kitti, gyroflow, ocam, lensfun, hugin, ptgui, velodyne,
-    ouster, hesai, recorded, schops, ray_table, rpc, nerf, euroc_trajectory, stmap,
+    ost, depthai, anipose, easymocap, panoptic, nuscenes, callab,
+    ouster, hesai, recorded, schops, rpc, ray_table, nerf, euroc_trajectory, stmap,
 )  # fmt: skip
 PROGRAMS: tuple[ProgramFiles, ...] = tuple(module.PROGRAM for module in MODULES)
 """All programs, in the order in which messages name them."""

@@ -1,9 +1,9 @@
 """Reads the contents of calibration files: YAML, JSON and XML as OpenCV's cv::FileStorage and its relatives write them.
 
-JSON is read by the standard library. Beyond the JSON standard, OpenCV writes the words .Nan and .Inf, and comments. A
-file of several JSON objects, one per line, and a list stand for a mapping of their entries by number. Files that are
-compressed by gzip are read, too. Reading is limited by memory and processor time, so that any file ends in a lens or in
-one line.
+JSON and TOML are read by the standard library. Beyond the JSON standard, OpenCV writes the words .Nan and .Inf, and
+comments. A file of several JSON objects, one per line, and a list stand for a mapping of their entries by number. Files
+that are compressed by gzip are read, too. Reading is limited by memory and processor time, so that any file ends in a
+lens or in one line.
 Reference: OpenCV documentation, File Input and Output using XML / YAML / JSON files.
 """
 
@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import json
 import re
+import tomllib
 import zlib
 from collections.abc import Callable
 from pathlib import Path
@@ -36,6 +37,8 @@ JSON_WORDS = {"//": "", ".N": "NaN", ".I": "Infinity", "-.": "-Infinity"}
 BEYOND_JSON = "//", ".Nan", ".Inf"
 LIST_OF_NUMBERS = re.compile(r"\s*\[[\s\[]*[-+.\d]")
 """How a list of numbers begins, or one of lists of numbers."""
+TABLE = re.compile(r"(?:\s*#[^\n]*\n)*\s*\[[A-Za-z_][\w.\-]*\][^\S\n]*(?:#[^\n]*)?\n")
+"""How TOML begins, with the name of its first table."""
 MOST_LISTED = 1 << 18
 """Largest number of entries of a file that is a list: more take readers longer than LONGEST."""
 HALF = re.compile(r"\\u[dD][89a-fA-F]")
@@ -72,7 +75,9 @@ def entries_of(text: str, path: str, check: Check | None = None) -> dict:
     begin = text.lstrip()[:1]
     if LIST_OF_NUMBERS.match(text):
         raise InputError(f"calibration file {path!r} is a list of numbers without names: choose another file")
-    if begin in ("{", "["):
+    if TABLE.match(text):
+        entries = _toml(text, path, check)
+    elif begin in ("{", "["):
         entries = _json(text, path, check)
     elif begin == "<":
         try:
@@ -100,6 +105,20 @@ def element_of(text: str, path: str, check: Check) -> Element:
         return tree(text, check)
     except XmlError as error:
         raise InputError(f"calibration file {path!r} is not XML: {error}") from error
+
+
+def _toml(text: str, path: str, check: Check) -> dict:
+    def number(digits: str) -> float:
+        check()
+        return float(digits)
+
+    try:
+        return tomllib.loads(text, parse_float=number)
+    except (ValueError, RecursionError) as error:
+        if isinstance(error, InputError):
+            raise
+        reason = error if isinstance(error, ValueError) else "it is nested too deeply"
+        raise InputError(f"calibration file {path!r} is not TOML: {reason}") from error
 
 
 def _json(text: str, path: str, check: Check) -> dict | list:

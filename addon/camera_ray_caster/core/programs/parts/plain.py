@@ -97,6 +97,16 @@ def plain_lenses(document: Document) -> list[Lens] | None:
     return lenses
 
 
+def of_matrix(
+    document: Document, camera: Fields, matrix: str, distortion: str, size: dict, kind: str = "plumb_bob"
+) -> Lens:
+    """Return the lens of entries that name a camera matrix and OpenCV's coefficients, of a picture's size."""
+    plain = {"camera_matrix": camera.matrix(matrix, 9), "distortion_model": kind}
+    plain["distortion_coefficients"] = camera.matrix(distortion, default=[0.0] * 4)
+    lens = plain_lens(document.part(plain))
+    return lens._replace(name=camera.label, settings=lens.settings | size)
+
+
 def _cameras(document: Document) -> list[tuple[str, Spelled]]:
     """Return the cameras of a document with their names."""
     cameras = []

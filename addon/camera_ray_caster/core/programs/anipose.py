@@ -1,0 +1,57 @@
+"""Anipose's and aniposelib's calibration.toml: cameras with rotation and translation from the world.
+
+Coefficients are OpenCV's; fisheye = true makes them those of its fisheye. The center of the first pixel is (0, 0), and
+lengths are those of the pattern that was calibrated with.
+Reference: aniposelib documentation, Calibration.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..maths.rotations import rotation
+from .parts.document import Document
+from .parts.fields import Fields
+from .parts.lens import Lens, one_of_several
+from .parts.placed import Placed, inverted
+from .parts.plain import of_matrix
+from .parts.program import ProgramFiles
+
+
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    return bool(_cameras(document))
+
+
+def _cameras(document: Document) -> list[Fields]:
+    sections = document.entries.named().items()
+    return [one.labeled(one.text("name", section)) for section, one in sections
+            if one.has("matrix", "distortions", "rotation", "translation")]  # fmt: skip
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    return [one_of_several(camera.label, _lens, document, camera) for camera in _cameras(document)]
+
+
+def _lens(document: Document, camera: Fields) -> Lens:
+    kind = "fisheye" if camera.text("fisheye", "False") != "False" else "plumb_bob"
+    return of_matrix(document, camera, "matrix", "distortions", camera.size("size"), kind)
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles."""
+    return [Placed(camera.label, "", None, _pose(camera)) for camera in _cameras(document)]
+
+
+def _pose(camera: Fields) -> np.ndarray:
+    to_camera = np.eye(4)
+    to_camera[:3, :3] = rotation(np.array([camera.numbers("rotation", 3)]))[0]
+    to_camera[:3, 3] = camera.numbers("translation", 3)
+    return inverted(to_camera)
+
+
+PROGRAM = ProgramFiles(
+    "Anipose", "calibration.toml", looks, marks="matrix distortions rotation translation size fisheye",
+    reads="pinhole, fisheye", read=read, poses=poses,
+)  # fmt: skip

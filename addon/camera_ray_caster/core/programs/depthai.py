@@ -1,0 +1,87 @@
+"""DepthAI's calibration of Luxonis' devices, JSON: cameraData is a list of sockets with their cameras.
+
+Coefficients are OpenCV's 14, and of cameraType 1 those of its fisheye. extrinsics leads from the camera, x right, y
+down, z ahead, to that of toCameraSocket, in centimeters; the camera that leads to none is the frame of all. Sockets
+are named as DepthAI does: CAM_A is 0. The center of the first pixel is (0, 0).
+Reference: DepthAI documentation, Calibration; Extrinsics.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..units import METERS
+from .parts.document import Document
+from .parts.fields import Fields
+from .parts.lens import Lens, one_of_several
+from .parts.placed import Placed, checked
+from .parts.plain import of_matrix
+from .parts.program import ProgramFiles
+
+CENTIMETER = 0.01
+TYPES = {"0": "plumb_bob", "1": "fisheye"}
+FIRST = ord("A")
+
+
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    return bool(_cameras(document))
+
+
+def _cameras(document: Document) -> dict[int, Fields]:
+    """Return the cameras that are calibrated by the number of their socket."""
+    cameras = {}
+    for entry in document.entries.each("cameraData"):
+        if entry.count_of("cameraData") != 2:
+            raise entry.refusal("cameraData", "a list of pairs, a socket and its camera")
+        number, camera = (Fields(document, {"socket": one}) for one in entry.values["cameraData"])
+        socket = number.whole("socket")
+        found = camera.part("socket").labeled(f"CAM_{chr(FIRST + socket % 26)}")
+        if found.count_of("intrinsicMatrix") and any(found.matrix("intrinsicMatrix", 9)[:8]):
+            cameras[socket] = found
+    return cameras
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    return [one_of_several(camera.label, _lens, document, camera) for camera in _cameras(document).values()]
+
+
+def _lens(document: Document, camera: Fields) -> Lens:
+    kind = TYPES[document.one_of(f"{camera.number('cameraType', 0.0):g}", camera.said("cameraType"), TYPES)]
+    size = camera.sides("width", "height")
+    count = 4 if kind == "fisheye" else 14
+    coefficients = camera.numbers("distortionCoeff", default=[0.0])
+    if any(coefficients[count:]):
+        raise document.refusal(f"{camera.said('distortionCoeff')} has more than {count} numbers")
+    cut = camera.merged(Fields(document, {"distortionCoeff": coefficients[:count]}))
+    return of_matrix(document, cut, "intrinsicMatrix", "distortionCoeff", size, kind)
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles: in the frame of the camera to which the others lead."""
+    cameras = _cameras(document)
+    placed = []
+    for camera in cameras.values():
+        pose, at, steps = np.eye(4), camera, 0
+        while (to := at.part("extrinsics").number("toCameraSocket", -1.0)) >= 0:
+            pose, steps = _pose(at.part("extrinsics")) @ pose, steps + 1
+            if to not in cameras or steps > len(cameras):
+                raise document.refusal(f"extrinsics of {at.label} lead to socket {to:g}, which leads nowhere")
+            at = cameras[int(to)]
+        placed.append(Placed(camera.label, "", None, pose))
+    return placed
+
+
+def _pose(extrinsics: Fields) -> np.ndarray:
+    pose, place = np.eye(4), extrinsics.part("translation")
+    pose[:3, :3] = np.reshape(extrinsics.matrix("rotationMatrix", 9), (3, 3))
+    pose[:3, 3] = [CENTIMETER * place.number(axis) for axis in "xyz"]
+    return checked(extrinsics.document, pose, extrinsics.said("rotationMatrix"))
+
+
+PROGRAM = ProgramFiles(
+    "DepthAI", "calibration of a device as .json", looks,
+    marks="cameraData cameraType distortionCoeff extrinsics intrinsicMatrix specTranslation toCameraSocket boardName",
+    reads="perspective, fisheye", lost="other types are refused", read=read, poses=poses, unit=METERS,
+)  # fmt: skip

@@ -1,0 +1,51 @@
+"""nuScenes' calibrated_sensor.json: a list of sensors with pose and, of cameras, a matrix; pictures are undistorted.
+
+The pose leads from the camera, x right, y down, z ahead, to the vehicle: rotation is w, x, y, z. Cameras are named by
+their token; other sensors are left out. The center of the first pixel is (0, 0).
+Reference: nuScenes documentation, Schema: calibrated_sensor.
+"""
+
+from __future__ import annotations
+
+from ..units import METERS
+from .parts.document import Document
+from .parts.fields import Fields
+from .parts.lens import FRAME_SIZE, Lens, one_of_several
+from .parts.placed import Placed, of_quaternion
+from .parts.plain import of_matrix
+from .parts.program import ProgramFiles
+
+
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    sensors = document.entries.named().values()
+    return bool(sensors) and all(one.has("sensor_token", "camera_intrinsic", "rotation") for one in sensors)
+
+
+def _cameras(document: Document) -> list[Fields]:
+    sensors = document.entries.named().values()
+    return [one.labeled(one.text("token")) for one in sensors if one.count_of("camera_intrinsic")]
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    return [one_of_several(camera.label, _lens, document, camera) for camera in _cameras(document)]
+
+
+def _lens(document: Document, camera: Fields) -> Lens:
+    return of_matrix(document, camera, "camera_intrinsic", "camera_distortion", dict(FRAME_SIZE))
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles: in the vehicle."""
+    placed = []
+    for camera in _cameras(document):
+        turn, place = camera.numbers("rotation", 4), camera.numbers("translation", 3)
+        placed.append(Placed(camera.label, "", None, of_quaternion(document, turn, place, camera.label)))
+    return placed
+
+
+PROGRAM = ProgramFiles(
+    "nuScenes", "calibrated_sensor.json", looks, marks="token sensor_token translation rotation camera_intrinsic",
+    reads="pinhole", lost="the size of the pictures, 1600 x 900", read=read, poses=poses, unit=METERS,
+)  # fmt: skip

@@ -1,0 +1,57 @@
+"""CMU Panoptic's calibration_*.json: cameras with K, distCoef, R and t.
+
+R and t lead from the world, in centimeters, to the camera, x right, y down, z ahead. The center of the first pixel is
+(0, 0), and coefficients are OpenCV's.
+Reference: CMU Panoptic Studio toolbox.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..units import METERS
+from .parts.document import Document
+from .parts.fields import Fields
+from .parts.lens import Lens, one_of_several
+from .parts.placed import Placed, checked, inverted
+from .parts.plain import of_matrix
+from .parts.program import ProgramFiles
+
+CENTIMETER = 0.01
+
+
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    cameras = document.entries.parts("cameras")
+    return bool(cameras) and all(one.has("K", "distCoef", "R", "t") for one in cameras)
+
+
+def _cameras(document: Document) -> list[Fields]:
+    return [one.labeled(one.text("name", f"camera {i}")) for i, one in enumerate(document.entries.parts("cameras"))]
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    return [one_of_several(camera.label, _lens, document, camera) for camera in _cameras(document)]
+
+
+def _lens(document: Document, camera: Fields) -> Lens:
+    return of_matrix(document, camera, "K", "distCoef", camera.size("resolution"))
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles."""
+    return [Placed(camera.label, "", None, _pose(camera)) for camera in _cameras(document)]
+
+
+def _pose(camera: Fields) -> np.ndarray:
+    to_camera = np.eye(4)
+    to_camera[:3, :3] = np.reshape(camera.matrix("R", 9), (3, 3))
+    to_camera[:3, 3] = np.multiply(CENTIMETER, camera.matrix("t", 3))
+    return inverted(checked(camera.document, to_camera, camera.said("R")))
+
+
+PROGRAM = ProgramFiles(
+    "CMU Panoptic", "calibration_*.json", looks, marks="calibDataSource cameras panel node K distCoef R t resolution",
+    reads="pinhole", read=read, poses=poses, unit=METERS,
+)  # fmt: skip
