@@ -50,6 +50,30 @@ def step_through(user, scenes):
     assert np.count_nonzero(np.abs(on - off).max(axis=2) > 0.1) > 500
 
 
+def lens_in_view(user, scenes):
+    """A pixel of a real lens is clicked: its glass, its rays and its section are drawn, until it is cleared."""
+    yield from load(user, scenes, "real_lens")
+    space, lesson = user.area().spaces.active, addon("view3d.lesson")
+    yield from user.press(f"{BUTTON}step_through(")
+    yield from user.wait(0.5)
+    yield from user.click(*place_of(user, 200, 110))
+    assert len(lesson.pixels) == 1
+    yield from user.key("Escape")
+    user.picture("lens_section")
+    camera = addon("read.scene_cache").cached_scene(bpy.context).camera
+    assert addon("lens_icon").icon(camera, lesson.pixels[0])
+    space.region_3d.view_perspective = "ORTHO"
+    space.region_3d.view_location = camera.pose.eye
+    space.region_3d.view_rotation = Euler((np.pi / 2, 0, np.pi / 2)).to_quaternion()
+    space.region_3d.view_distance = 2.0
+    yield from user.wait(0.7)
+    on = user.cut(user.picture("lens_in_view"), user.region("WINDOW"))
+    bpy.ops.camera_ray_caster.clear_steps()
+    yield from user.wait(0.7)
+    off = user.cut(user.picture("lens_cleared"), user.region("WINDOW"))
+    assert np.count_nonzero(np.abs(on - off).max(axis=2) > 0.1) > 2000
+
+
 def beside(user):
     """An Image Editor beside the 3D View, which keeps two fifths of its place."""
     before = list(user.window.screen.areas)
@@ -164,4 +188,4 @@ def examples(user, scenes):
     assert bpy.context.scene.camera.data.camera_ray_caster.slit_2 is not None
 
 
-LESSON_SCENARIOS = (step_through, step_through_image, examples)
+LESSON_SCENARIOS = (step_through, step_through_image, lens_in_view, examples)

@@ -20,8 +20,8 @@ OUTPUT = ROOT / "out" / "gui"
 SCENARIOS = (
     "panel", "no_camera", "left_out", "stop", "stop_samples", "load_while_casting", "show_result", "overlay",
     "ray_under_mouse", "viewport", "cycles", "camera_settings", "model_gallery", "search", "told", "step_through",
-    "step_through_image", "examples", "cast_a_cube", "see_through", "ray_of_a_pixel", "export_colmap", "notes_stay",
-    "results_stay", "redraws_of_shapes", "redraws_of_monkeys", "redraws_all_around", "redraws_of_models",
+    "step_through_image", "lens_in_view", "examples", "cast_a_cube", "see_through", "ray_of_a_pixel", "export_colmap",
+    "notes_stay", "results_stay", "redraws_of_shapes", "redraws_of_monkeys", "redraws_all_around", "redraws_of_models",
     "shown_camera", "set_frame", "other_engine", "marks", "click_seen", "drag_a_ray", "cast_all", "cast_all_by_cycles",
     "export_all", "scanned_points", "slit_scan_movie",
     "drag_x_before_a_class", "autosaved",

@@ -6,7 +6,7 @@ from contextlib import ExitStack, suppress
 import bpy
 
 from ..core.records import InputError
-from . import gallery
+from . import gallery, lens_icon
 from .cycles import follow
 from .engine import engine, viewport
 from .output import images, reports
@@ -69,9 +69,9 @@ CLASSES = (
 """Blender types in registration order: a panel comes after its parent panel."""
 
 MODULES = (
-    groups, paths, kept, follow, reports, images, gallery, scene_cache, engine, viewport, cast_operator, overlay,
-    points, lesson, live, notice, render_panels, menus, gallery_operators, lesson_operators, presets, export_operators,
-    rig_operators, commands, other_engine, see_through, hide_overlays, select_seen, in_steps,
+    groups, paths, kept, follow, reports, images, gallery, lens_icon, scene_cache, engine, viewport, cast_operator,
+    overlay, points, lesson, live, notice, render_panels, menus, gallery_operators, lesson_operators, presets,
+    export_operators, rig_operators, commands, other_engine, see_through, hide_overlays, select_seen, in_steps,
 )  # fmt: skip
 """Modules that register more than classes. Their ``register(undo)`` gives ``undo`` the callbacks that undo it."""
 

@@ -4,6 +4,8 @@ from collections.abc import Iterator
 
 import bpy
 
+from ...core.lesson.lesson import GLASS
+from .. import lens_icon
 from ..read.scene_cache import cached_scene
 from ..view3d.camera_frame import is_picture
 from ..view3d.lesson import lessons
@@ -12,8 +14,11 @@ from .lesson_operators import ClearSteps, CopySteps, StepThrough
 from .open_lesson import OpenLesson
 from .point_operators import EmptyAtHit, PixelOfPoint
 
-OPEN = ("Model", "Ray", "Ray in the world", "Seen", "Color")
+OPEN = ("Model", GLASS, "Ray", "Ray in the world", "Seen", "Color")
 """Titles of the steps that are open at first."""
+
+HEIGHT = 12.0
+"""Height of the section of a lens, in rows of the panel."""
 
 LISTED = 3
 """Maximum number of objects that the panel names."""
@@ -48,6 +53,8 @@ class Steps:
             header, body = layout.panel(f"camera_ray_caster {title}", default_closed=title not in OPEN)
             header.label(text=f"{title} {latest.seen.pixel[0]}, {latest.seen.pixel[1]}" if title == "Pixel" else title)
             if body:
+                if title == GLASS:
+                    body.template_icon(lens_icon.icon(cached_scene(context).camera, latest.seen.pixel), scale=HEIGHT)
                 for line in lines:
                     draw_message(body, context, line, "BLANK1" if line.startswith(" ") else "DOT")
 

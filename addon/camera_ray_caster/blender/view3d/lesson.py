@@ -22,6 +22,7 @@ from ..properties.declared import SHADING
 from ..read.scene_cache import CachedScene, cached_scene
 from ..read.view import camera_frame
 from .camera_frame import frame_in, in_pixels
+from .glass import draw_lens, forget_lens, parts_of_paths
 from .overlay import batch_of, draw_batch
 
 FAR = 100.0
@@ -68,10 +69,16 @@ def draw() -> None:
     gpu.state.blend_set("ALPHA")
     gpu.state.depth_test_set("NONE")
     for one in found.values():
-        for kind, points, color, width in _parts(cached_scene(context).camera, one, size):
+        camera = cached_scene(context).camera
+        for kind, points, color, width in (*parts_of_paths(camera, one), *_parts(camera, one, size)):
             if np.isfinite(points).all():
                 draw_batch(batch_of(kind, points), kind, color, width * scale)
     gpu.state.blend_set("NONE")
+
+
+def draw_glass() -> None:
+    """Draw a real lens while steps or the overlay are shown; called by Blender for each 3D View."""
+    draw_lens(bpy.context, bool(pixels))
 
 
 def _parts(camera, one: Lesson, size: float):
@@ -152,6 +159,7 @@ def forget(*_):
     """Forget the pixels: another file is loaded."""
     pixels.clear()
     held.clear()
+    forget_lens()
     _read.clear()
 
 
@@ -160,6 +168,7 @@ def register(undo) -> None:
     undo.callback(forget)
     undo.add_handlers([("load_pre", forget)])
     for space, function, when in (
+        (bpy.types.SpaceView3D, draw_glass, "POST_VIEW"),
         (bpy.types.SpaceView3D, draw, "POST_VIEW"),
         (bpy.types.SpaceView3D, draw_marks, "POST_PIXEL"),
         (bpy.types.SpaceImageEditor, draw_marks, "POST_PIXEL"),

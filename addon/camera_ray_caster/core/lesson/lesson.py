@@ -14,6 +14,7 @@ from ..cameras.model import WindowModel
 from ..cameras.parts.calibrated import Calibrated
 from ..cameras.parts.calibration import PRINCIPAL_POINT, Calibration
 from ..cameras.parts.film import Film
+from ..cameras.real_lens import RealLens
 from ..cast import MOST_SAMPLES, cast
 from ..casting.hit_values import HitValues
 from ..casting.passes import PASSES
@@ -23,11 +24,16 @@ from ..casting.request import MATERIAL, Request
 from ..records import InputError, Shapes
 from .diagram import PROBED, Probe, probe_of
 from .formula import shown, worked_out
+from .glass import refraction_lines
 from .light import color_lines
 from .meetings import Meeting, meetings, nearest, words
 
 NORMALIZED = "[-1, 1]²"
 """Text in the words of a formula step whose x and y are view coordinates instead of pixels."""
+
+
+GLASS = "Through the glass"
+"""Title of the step of a real lens's surfaces."""
 
 
 @dataclass(frozen=True)
@@ -120,6 +126,8 @@ def lesson(
     seen = probe_of(camera, shapes, column, row, found)
     point, normal, color, depth = (found[name][0, 0] for name in names)
     steps, met = [*_raster(camera, seen), ("Model", tuple(_formula(camera, seen)))], []
+    if isinstance(camera.model, RealLens):
+        steps.append((GLASS, tuple(refraction_lines(camera.model, column + 0.5, row + 0.5))))
     if np.isnan(seen.direction).any():
         steps.append(("Ray", ("none: the model has no ray for this pixel",)))
     else:
