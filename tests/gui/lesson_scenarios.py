@@ -59,6 +59,9 @@ def lens_in_view(user, scenes):
     yield from user.click(*place_of(user, 200, 110))
     assert len(lesson.pixels) == 1
     yield from user.key("Escape")
+    yield from user.point(user.region().x + 60, user.region().y + 60)
+    yield from user.scroll(40)
+    yield from user.wait(0.5)
     user.picture("lens_section")
     camera = addon("read.scene_cache").cached_scene(bpy.context).camera
     assert addon("lens_icon").icon(camera, lesson.pixels[0])
