@@ -64,7 +64,7 @@ def lens_in_view(user, scenes):
     yield from user.wait(0.5)
     user.picture("lens_section")
     camera = addon("read.scene_cache").cached_scene(bpy.context).camera
-    assert addon("lens_icon").icon(camera, lesson.pixels[0])
+    assert addon("view3d.lens_icon").icon(camera, lesson.pixels[0])
     space.region_3d.view_perspective = "ORTHO"
     space.region_3d.view_location = camera.pose.eye
     space.region_3d.view_rotation = Euler((np.pi / 2, 0, np.pi / 2)).to_quaternion()

@@ -6,7 +6,7 @@ from contextlib import ExitStack, suppress
 import bpy
 
 from ..core.records import InputError
-from . import gallery, lens_icon
+from . import gallery
 from .cycles import follow
 from .engine import engine, viewport
 from .output import images, reports
@@ -52,7 +52,7 @@ from .ui import (
     through_model,
     verify_panels,
 )
-from .view3d import lesson, live, mouse_gizmo, notice, overlay, points
+from .view3d import lens_icon, lesson, live, mouse_gizmo, notice, overlay, points
 
 CLASSES = (
     *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 import bpy
 
 from ...core.lesson.lesson import GLASS
-from .. import lens_icon
 from ..read.scene_cache import cached_scene
+from ..view3d import lens_icon
 from ..view3d.camera_frame import is_picture
 from ..view3d.lesson import lessons
 from .drawing import Sidebar, draw_message

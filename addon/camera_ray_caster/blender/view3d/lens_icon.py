@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import bpy.utils.previews
 
-from ..core.camera.camera import Camera
-from ..core.lesson.section import SIDE, section
+from ...core.camera.camera import Camera
+from ...core.lesson.section import SIDE, section
 
 NAME = "section"
 _previews: list[bpy.utils.previews.ImagePreviewCollection] = []
