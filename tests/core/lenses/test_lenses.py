@@ -183,3 +183,18 @@ def test_polynomials_without_values_are_not_taken(monkeypatch, undefined, tmp_pa
     else:
         with pytest.raises(crc.InputError, match=r"chief rays cannot be described.*lens\.dat"):
             crc.camera("REAL_LENS", SIZE, lens_file=str(lens))
+
+
+@pytest.mark.parametrize("stop", [0, 1])
+def test_a_stop_on_a_surface_that_refracts_is_a_stop_at_its_vertex(stop):
+    """The same rays as with a plane stop there, in the medium before it."""
+    rows = [Row(1 / 60, 5.0, 1.6, 8.0), Row(-1 / 90, 3.0, 1.0, 8.0), Row(1 / 80, 2.0, 1.5, 20.0),
+            Row(-1 / 70, 0.0, 1.0, 20.0)]  # fmt: skip
+    plane = Row(0.0, 0.0, rows[stop - 1].index if stop else 1.0, 8.0)
+    on, before = (Optics.of(Prescription(tuple(each), stop)) for each in (rows, (*rows[:stop], plane, *rows[stop:])))
+    assert on.exit_pupil == pytest.approx(before.exit_pupil, rel=1e-12)
+    assert on.entrance_pupil == pytest.approx(before.entrance_pupil, rel=1e-12)
+    film = on.paraxial_film(1000.0)
+    ours, theirs = chief_rays(on, film), chief_rays(before, film)
+    for r in (2.0, 10.0):
+        np.testing.assert_allclose(ours.at(np.float64(r * r)), theirs.at(np.float64(r * r)), rtol=1e-11)

@@ -1,11 +1,11 @@
 """The chief rays of a lens: the real rays through the center of the stop, a family of one parameter.
 
-They begin at the center of the stop, at an angle to the axis, and are traced to the front and to the film. The ray
-before the lens does not depend on the film; the film's place gives the radius r at which the ray meets it. A family of
-polynomials gives from r what a camera needs: the height h and the place z at which the ray leaves the front surface,
-the tangent of half its angle to the axis, and the height e at which it crosses the paraxial exit pupil. With R the
-radius at which rays cease to exist, by grazing refraction or since r stops growing, the functions h / r, z, tan / r and
-e / r have a root at R, and are smooth functions of t = sqrt(1 - r^2 / R^2).
+They begin at the center of the stop, at an angle to the axis in the medium before it, and are traced to the front and
+to the film. The ray before the lens does not depend on the film; the film's place gives the radius r at which the ray
+meets it. A family of polynomials gives from r what a camera needs: the height h and the place z at which the ray leaves
+the front surface, the tangent of half its angle to the axis, and the height e at which it crosses the paraxial exit
+pupil. With R the radius at which rays cease to exist, by grazing refraction or since r stops growing, the functions h /
+r, z, tan / r and e / r have a root at R, and are smooth functions of t = sqrt(1 - r^2 / R^2).
 References: J. Boyd, Chebyshev and Fourier Spectral Methods, 2nd ed. (2001), section 2; W. Smith, Modern Optical
 Engineering, 4th ed. (2008), section 9 (pupils).
 """
@@ -148,7 +148,7 @@ def _family(optics: Optics, film: float):
         start, zero = optics.surfaces[optics.stop].z, np.zeros_like(angle)
         direction = zero, -np.sin(angle), np.cos(angle)
         with np.errstate(all="ignore"):
-            return trace(optics.surfaces[optics.stop + 1 :], (zero, zero, start + zero), direction, True, clip)
+            return trace(optics.surfaces[optics.stop :], (zero, zero, start + zero), direction, True, clip)
 
     def radius(angle):
         (_, y, z), (_, dy, dz) = rear(angle)

@@ -101,11 +101,7 @@ class Optics:
     @cached_property
     def exit_pupil(self) -> tuple[float, float]:
         """z of the image of the stop that the film sees, and its magnification."""
-        last = len(self.surfaces) - 1
-        if self.stop == last:
-            return self.rear.z, 1.0
-        gap = (self.surfaces[self.stop + 1].z - self.surfaces[self.stop].z) / self.surfaces[self.stop].behind
-        (_, b), (_, d) = self.matrix(self.stop + 1, last) @ np.array([[1.0, gap], [0.0, 1.0]])
+        (_, b), (_, d) = self.matrix(self.stop, len(self.surfaces) - 1)
         return float(self.rear.z - self.rear.behind * b / d), float(1 / d)
 
     @cached_property
