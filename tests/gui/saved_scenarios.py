@@ -59,7 +59,7 @@ def save(user, path):
 
 
 def see_through(user, scenes):
-    """Look through a camera that is cast: what was hidden is back, and the engine comes back after a second press."""
+    """Look through a camera that is cast: in the file what was hidden is back, and so are shading and engine."""
     yield from load(user, scenes, "living_room_omnimax")
     bpy.context.scene.render.engine, before = "BLENDER_WORKBENCH", overlays(user.area().spaces.active)
     bpy.context.scene.camera.data.camera_ray_caster.model = "GENERAL_LINEAR"  # of many origins: a cast shows it
@@ -69,7 +69,8 @@ def see_through(user, scenes):
     def held():
         assert overlays(user.area().spaces.active) == before
         assert addon("ui.hide_overlays").MARK not in user.window.screen
-        assert bpy.context.scene[addon("ui.see_through").BEFORE] == "BLENDER_WORKBENCH"
+        assert bpy.context.scene.render.engine == "BLENDER_WORKBENCH"
+        assert user.area().spaces.active.shading.type == "SOLID"
 
     return held
 

@@ -9,6 +9,7 @@ from all_scenarios import ALL_SCENARIOS
 from animated_scenarios import ANIMATED_SCENARIOS
 from camera_scenarios import CAMERA_SCENARIOS
 from cast_scenarios import CAST_SCENARIOS
+from left_scenarios import LEFT_SCENARIOS
 from lesson_scenarios import LESSON_SCENARIOS
 from live_scenarios import LIVE_SCENARIOS
 from parts import BUTTON, MODULE, addon, load, timed
@@ -264,6 +265,6 @@ SCENARIOS = {
         panel, no_camera, left_out, *CAST_SCENARIOS, overlay, ray_under_mouse, viewport,
         cycles, *CAMERA_SCENARIOS, *LESSON_SCENARIOS, *STRANGER_SCENARIOS, *REDRAW_SCENARIOS, *WINDOW_SCENARIOS,
         *ALL_SCENARIOS, *WALK_SCENARIOS, *POINTS_SCENARIOS, *VIEWS_SCENARIOS, *ANIMATED_SCENARIOS, *SAVED_SCENARIOS,
-        *LIVE_SCENARIOS, disable,
+        *LIVE_SCENARIOS, *LEFT_SCENARIOS, disable,
     )
 }  # fmt: skip

@@ -26,7 +26,8 @@ SCENARIOS = (
     "export_all", "scanned_points", "slit_scan_movie",
     "drag_x_before_a_class", "autosaved",
     "quad_and_local_views", "undone", "linked_cameras", "by_hand", "every_kind", "saved_views", "saved_runs",
-    "live_picture", "live_ends", "live_redraws", "live_shadings", "live_look", "disable",
+    "live_picture", "live_ends", "live_redraws", "live_shadings", "live_look", "left_however",
+    "own_view", "live_mishaps", "disable",
 )  # fmt: skip
 SEEDS = "1", "2", "3", "4"
 """Of random acts, 250 each: see random_acts.py."""

@@ -260,7 +260,7 @@ def test_lengths_in_millimeters_are_blender_s_own_and_the_panel_says_so(blender,
 def test_a_camera_of_cycles_shows_the_settings_of_its_own_type_and_the_way_back(osl, blender, camera_scene):
     data = camera_scene.camera.data
     assert drawn(blender, ModelPanel, data)[0] == ()
-    assert drawn.operators == ["load_calibration", "use_in_cycles"]
+    assert drawn.operators == ["load_calibration", "use_in_cycles", "add_projector"]
     to_cycles(camera_scene)
     camera_scene.render.engine = "CYCLES"
     assert drawn(blender, ModelPanel, data)[0] == ("lens",)

@@ -2,8 +2,10 @@
 
 from types import SimpleNamespace
 
+import bpy
 import pytest
 
+from camera_ray_caster.blender.ui import see_through
 from camera_ray_caster.blender.ui.camera_notes import missing
 from camera_ray_caster.blender.ui.see_through import BEFORE, shows_picture
 from camera_ray_caster.blender.view3d import notice
@@ -26,27 +28,84 @@ def test_see_through_shows_the_camera_s_own_picture_and_restores_everything(blen
             assert scene.render.engine == engine
 
 
-@pytest.mark.parametrize("engine", ["BLENDER_WORKBENCH", "OF_ANOTHER_VERSION"])
-def test_a_file_saved_meanwhile_knows_the_engine_of_before(blender, scene, tmp_path, engine):
-    def press():
-        area = next(area for area in blender.context.window.screen.areas if area.type == "VIEW_3D")
-        area.spaces.active.shading.type = "SOLID"  # as Blender loads it
-        with blender.context.temp_override(area=area):
-            blender.ops.camera_ray_caster.see_through()
-        return area.spaces.active, blender.context.scene
-
+@pytest.fixture
+def view(blender, scene):
+    """A 3D View in Solid that See Through shows by a cast, of a scene with another engine."""
     scene.render.engine = "BLENDER_WORKBENCH"
-    _, scene = press()
-    scene[BEFORE] = engine
-    blender.ops.wm.save_as_mainfile(filepath=str(tmp_path / "seen.blend"))
-    blender.ops.wm.open_mainfile(filepath=str(tmp_path / "seen.blend"))
-    assert blender.context.scene.render.engine == "CAMERA_RAY_CASTER"
-    space, scene = press()
-    assert shows_picture(space, scene)
-    with blender.context.temp_override(area=next(a for a in blender.context.screen.areas if a.spaces.active == space)):
+    area = next(area for area in blender.context.window.screen.areas if area.type == "VIEW_3D")
+    area.spaces.active.shading.type = "SOLID"
+    with blender.context.temp_override(area=area):
         blender.ops.camera_ray_caster.see_through()
+    assert shows_picture(area.spaces.active, scene)
+    see_through.watch()
+    assert shows_picture(area.spaces.active, scene)
+    return area.spaces.active
+
+
+def leave_for_perspective(scene, view):
+    view.region_3d.view_perspective = "PERSP"
+
+
+def choose_a_shading(scene, view):
+    view.shading.type = "WIREFRAME"
+
+
+def choose_an_engine(scene, view):
+    scene.render.engine = "CYCLES"
+
+
+def delete_the_camera(scene, view):
+    bpy.data.objects.remove(scene.camera)
+
+
+def show_another_editor(scene, view):
+    next(a for a in bpy.context.screen.areas if a.spaces.active == view).type = "IMAGE_EDITOR"
+
+
+def disable_it(scene, view):
+    see_through.stop()
+
+
+@pytest.mark.parametrize(("leave", "engine", "shading"), [
+    (leave_for_perspective, "BLENDER_WORKBENCH", "SOLID"), (choose_a_shading, "BLENDER_WORKBENCH", "WIREFRAME"),
+    (choose_an_engine, "CYCLES", "RENDERED"), (delete_the_camera, "BLENDER_WORKBENCH", "SOLID"),
+    (show_another_editor, "BLENDER_WORKBENCH", "SOLID"), (disable_it, "BLENDER_WORKBENCH", "SOLID"),
+])  # fmt: skip
+def test_engine_and_shading_are_given_back_however_it_is_left(blender, scene, view, leave, engine, shading):
+    leave(scene, view)
+    assert see_through.watch() is None
+    assert (scene.render.engine, view.shading.type) == (engine, shading)
+    assert BEFORE not in scene
+
+
+@pytest.mark.parametrize("engine", ["BLENDER_WORKBENCH", "OF_ANOTHER_VERSION"])
+def test_a_saved_file_has_the_engine_of_before(blender, scene, view, tmp_path, engine):
+    path = str(tmp_path / "seen.blend")
+    blender.ops.wm.save_as_mainfile(filepath=path)
+    assert shows_picture(view, scene)
+    assert scene[BEFORE] == "BLENDER_WORKBENCH"
+    blender.ops.wm.open_mainfile(filepath=path)
+    assert blender.context.scene.render.engine == "BLENDER_WORKBENCH"
+    blender.context.scene.render.engine, blender.context.scene[BEFORE] = "CAMERA_RAY_CASTER", engine  # by Auto Save
+    bpy.app.handlers.save_pre.remove(see_through.give_back)
+    try:
+        blender.ops.wm.save_as_mainfile(filepath=path)
+    finally:
+        bpy.app.handlers.save_pre.append(see_through.give_back)
+    blender.ops.wm.open_mainfile(filepath=path)
+    scene = blender.context.scene
     assert scene.render.engine == (engine if engine == "BLENDER_WORKBENCH" else "CAMERA_RAY_CASTER")
     assert BEFORE not in scene
+
+
+def test_it_can_be_switched_off_where_the_camera_is_a_light(blender, scene, view):
+    lamp = blender.data.objects.new("Lamp", blender.data.lights.new("Lamp", "POINT"))
+    scene.collection.objects.link(lamp)
+    scene.camera = lamp
+    with blender.context.temp_override(area=next(a for a in blender.context.screen.areas if a.spaces.active == view)):
+        assert blender.ops.camera_ray_caster.see_through() == {"FINISHED"}
+        assert not blender.ops.camera_ray_caster.see_through.poll()
+    assert scene.render.engine == "BLENDER_WORKBENCH"
 
 
 def test_the_engine_is_undone_and_redone(blender, scene):

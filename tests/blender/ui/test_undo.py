@@ -93,6 +93,7 @@ CALLS = {
     "choose_lens": lambda folder: own(model="REAL_LENS") or {"name": "tessar_100mm"},
     "own_focal_length": lambda folder: own(model="REAL_LENS"),
     "fit_lens": lambda folder: own(model="OPENCV_PINHOLE"),
+    "add_projector": lambda folder: own(model="OMNIMAX"),
     "follow_timeline": lambda folder: own(time_mode="ROWS"),
     "set_frame": stretched,
     "append_camera": lambda folder: {"name": "cross_slit"},

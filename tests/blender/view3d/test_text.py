@@ -71,7 +71,7 @@ def test_the_text_at_the_mouse_is_of_the_ray_alone_and_in_the_view(mouse, side, 
     assert len(scene.differences) == 2
     context = SimpleNamespace(**vars(interface), scene=camera_scene)
     monkeypatch.setattr(mouse_gizmo, "cached_scene", lambda context: scene)
-    monkeypatch.setattr(mouse_gizmo, "camera_frame", lambda context: (0, 0, 800, 600))
+    monkeypatch.setattr(mouse_gizmo, "picture_frame", lambda context: (0, 0, 800, 600))
     monkeypatch.setattr(text, "visible", lambda context: (40, 800))
     monkeypatch.setattr(text, "write", lambda context, lines, place: written.append((lines, place)))
     mouse_gizmo.RayUnderMouse.draw(SimpleNamespace(mouse=(mouse, 300)), context)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from functools import partial
 
 from ...core.cameras.parts.settings import Setting
-from ..properties.declared import BLENDERS_OWN, GROUP
+from ..properties.declared import GROUP
 from ..properties.owners import owner_of
+from ..view3d.shown import drawn_alike
 from .facts_panels import camera_of
 from .follow_timeline import timeline_note
 from .frame import frame_note
@@ -50,13 +51,6 @@ def _draw_missing(camera, scene, setting: Setting, row) -> None:
     """Draw the button that adds an object, and a list from which it is chosen."""
     draw_add(row, setting)
     row.prop(owner_of(setting, camera, scene), setting.name, text="")
-
-
-def drawn_alike(camera) -> bool:
-    """Return whether Blender's overlays match the picture of a camera object's model."""
-    if camera is None or camera.type != "CAMERA":
-        return True
-    return getattr(camera.data, GROUP).model == BLENDERS_OWN and camera.data.type in {"PERSP", "ORTHO"}
 
 
 def missing(context, camera) -> list[Setting]:

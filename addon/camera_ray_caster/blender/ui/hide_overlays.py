@@ -15,7 +15,7 @@ from collections.abc import Iterator
 import bpy
 from bpy.app.handlers import persistent
 
-from .camera_notes import drawn_alike
+from ..view3d.shown import drawn_alike
 from .see_through import shows_cast, shows_picture
 
 MISLEADING = (

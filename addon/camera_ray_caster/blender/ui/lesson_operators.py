@@ -8,6 +8,7 @@ from bpy.props import FloatProperty, IntProperty, PointerProperty
 from ..read.scene_cache import cached_scene
 from ..view3d import lesson
 from ..view3d.camera_frame import frame_in
+from ..view3d.shown import is_other
 from .needs import OfScene
 
 HINT = "Click or drag in the camera's view or an Image Editor      Shift: One More      Esc, Enter: Done"
@@ -32,11 +33,17 @@ class StepThrough(OfScene, bpy.types.Operator):
         return not _waiting and super().poll(context)
 
     def invoke(self, context, event):
-        """Wait for clicks. If no 3D View is in camera view, put the first one into camera view."""
+        """Wait for clicks, in a view that shows the camera's picture: put the first 3D View into camera view if none
+        is, and see through the camera if all show Blender's own view.
+        """
         views = [area for area in context.screen.areas if area.type == "VIEW_3D"]
         through = [area for area in views if area.spaces.active.region_3d.view_perspective == "CAMERA"]
         if views and not through:
             views[0].spaces.active.region_3d.view_perspective = "CAMERA"
+            through = views[:1]
+        if through and all(is_other(area.spaces.active, context.scene) for area in through):
+            with context.temp_override(area=through[0]):
+                bpy.ops.camera_ray_caster.see_through()
         context.window_manager.modal_handler_add(self)
         _waiting.append(context.workspace.name)
         context.workspace.status_text_set(HINT)

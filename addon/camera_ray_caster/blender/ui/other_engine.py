@@ -10,7 +10,7 @@ from bpy.app.handlers import persistent
 from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
 from ..properties.labels import label_of
 from ..read.camera import shader_mark
-from ..view3d import live
+from ..view3d.shown import ENGINES
 from .cycles_operators import UseInCycles
 from .model_settings import blender_type
 from .needs import OfScene
@@ -67,7 +67,7 @@ def engine_label(engine: str) -> str:
 def engine_note(scene, camera) -> Note | None:
     """Return a note on what the scene's engine does not support, with buttons for the alternatives, or None."""
     said = ignored(scene, camera)
-    return Note(said, partial(_draw_buttons, scene.render.engine in live.ENGINES)) if said else None
+    return Note(said, partial(_draw_buttons, scene.render.engine in ENGINES)) if said else None
 
 
 def _draw_buttons(can_warp: bool, row) -> None:

@@ -2,7 +2,9 @@
 
 In a window the view is live: Blender's own drawing in the shading that the view has, warped by the model. What cannot
 be warped, such as a model whose rays have many origins, is shown by our own cast: shading and engine change for it.
-It is a switch: pressed again it restores the view, its shading and the scene's render engine.
+It is a switch: pressed again it restores the view, its shading and the scene's render engine. Shading and engine are
+given back, too, however else a cast's view is left: by another view, shading, engine or workspace, and without the
+camera. A saved file has those of before.
 """
 
 from contextlib import suppress
@@ -13,14 +15,18 @@ from bpy.app.handlers import persistent
 from ..properties.declared import ENGINE
 from ..view3d import lesson, live, notice, overlay
 from ..view3d.live_picture import why_not
+from ..view3d.shown import can_show, is_live
+from .in_steps import is_busy
 from .needs import OfScene
 
 SEEN = "CAMERA", "RENDERED"
 """Perspective and shading of a view that shows the picture of a cast."""
 _views: dict[int, tuple[str, str]] = {}
 """Perspective and shading before See Through, by the pointer of the 3D View."""
-_cast_instead: dict[int, str] = {}
-"""Shadings of live views whose camera is shown by a cast, by the pointer of the 3D View."""
+_cast: dict[int, str] = {}
+"""Shading before a cast is shown, by the pointer of the 3D View."""
+PERIOD = 0.2
+"""Seconds after which it is looked again whether a cast is still shown."""
 BEFORE = "camera_ray_caster_engine"
 """Custom property of a scene: its render engine before See Through, which a file keeps that is saved meanwhile."""
 OVER = overlay.draw_in_picture, lesson.draw_marks, notice.draw
@@ -40,7 +46,9 @@ class SeeThrough(OfScene, bpy.types.Operator):
     def poll(cls, context):
         """Gray out the operator without a camera, and outside a 3D View."""
         cls.poll_message_set("Available only in a 3D View")
-        return context.area is not None and context.area.type == "VIEW_3D" and super().poll(context)
+        if context.area is None or context.area.type != "VIEW_3D":
+            return False
+        return is_seen_through(context) or super().poll(context)
 
     def execute(self, context):
         """Look through the camera, or restore what was before; report a change of the scene's engine."""
@@ -53,13 +61,12 @@ class SeeThrough(OfScene, bpy.types.Operator):
             _views[space.as_pointer()] = before
         space.use_local_camera = False
         space.region_3d.view_perspective = "CAMERA"
-        can_be_live = not bpy.app.background and live.can_show(space, scene)
+        can_be_live = not bpy.app.background and can_show(space, scene)
         if can_be_live:
             live.begin(space, follow, OVER)
             reason = why_not(scene.camera, context.evaluated_depsgraph_get())
             if not reason:
                 return {"FINISHED"}
-            _cast_instead[space.as_pointer()] = space.shading.type
         if show_cast(space, scene):
             self.report({"INFO"}, f"{reason}: {RESTORES}" if can_be_live else f"T{RESTORES[1:]}")
         return {"FINISHED"}
@@ -70,25 +77,66 @@ def show_cast(space, scene) -> bool:
     is_other = scene.render.engine != ENGINE
     if is_other:
         scene[BEFORE] = scene.render.engine
+    _cast.setdefault(space.as_pointer(), space.shading.type)
     scene.render.engine, space.shading.type = ENGINE, "RENDERED"
+    if not bpy.app.timers.is_registered(watch):
+        bpy.app.timers.register(watch, first_interval=PERIOD)
     return is_other
+
+
+def watch() -> float | None:
+    """Give back shading and engine where a cast is no longer shown; called by a timer until none is."""
+    if is_busy():  # with an engine of its own
+        return PERIOD
+    shown = {space.as_pointer(): window.scene for window, space in _every_view()}
+    spaces = {space.as_pointer(): space for space in _spaces()}
+    for place, shading in list(_cast.items()):
+        space, scene = spaces.get(place), shown.get(place)
+        if space is None:  # closed
+            del _cast[place]
+            _views.pop(place, None)
+        elif scene is None or scene.camera is None or not shows_cast(space, scene):
+            del _cast[place]
+            _left(space, scene, shading)
+    restore_engines()
+    return PERIOD if _cast else None
+
+
+def _left(space, scene, shading: str) -> None:
+    """Restore the shading of a 3D View that no longer shows a cast, but for one that was chosen, or an engine. In
+    another workspace (``scene`` None) or from another side the view stays live, and shows the cast again later.
+    """
+    is_camera_view = space.region_3d.view_perspective == "CAMERA"
+    is_chosen = scene is not None and (space.shading.type != "RENDERED" or (is_camera_view and BEFORE in scene))
+    if not is_chosen or scene.camera is None:
+        space.shading.type = shading
+    if scene is not None and (is_camera_view or scene.camera is None):
+        live.end(space)
+        perspective, _ = _views.pop(space.as_pointer(), ("CAMERA", shading))
+        if not is_chosen:  # undone
+            space.region_3d.view_perspective = perspective
 
 
 def end(context) -> None:
     """Restore a 3D View, and the scene's engine if no other view shows a cast."""
-    space, scene = context.space_data, context.scene
+    space = context.space_data
     live.end(space)
-    _cast_instead.pop(space.as_pointer(), None)
+    _cast.pop(space.as_pointer(), None)
     perspective, shading = _views.pop(space.as_pointer(), ("CAMERA", "SOLID"))
     space.region_3d.view_perspective, space.shading.type = perspective, shading
-    _restore_engine(scene)
+    restore_engines()
 
 
-def _restore_engine(scene) -> None:
-    views = [space for window, space in _every_view() if window.scene == scene]
-    if not any(shows_cast(view, scene) for view in views):
-        with suppress(TypeError):  # an engine that this Blender does not have
-            scene.render.engine = scene.pop(BEFORE, scene.render.engine)
+@persistent
+def restore_engines(*_) -> None:
+    """Restore the engines of scenes of which no view shows a cast, unless another one was chosen meanwhile."""
+    cast = [window.scene for window, space in _every_view() if shows_cast(space, window.scene)]
+    for scene in bpy.data.scenes:
+        if BEFORE in scene and scene not in cast:
+            before = scene.pop(BEFORE)
+            if scene.render.engine == ENGINE:
+                with suppress(TypeError):  # an engine that this Blender does not have
+                    scene.render.engine = before
 
 
 def _every_view():
@@ -99,28 +147,33 @@ def _every_view():
                 yield window, area.spaces.active
 
 
+def _spaces():
+    """Yield each 3D View, also those that are not shown."""
+    areas = (area for screen in bpy.data.screens for area in screen.areas)
+    yield from (space for area in areas for space in area.spaces if space.type == "VIEW_3D")
+
+
 def follow() -> None:
     """Show live views whose camera cannot be live by a cast, and again live once it can; called by a timer."""
     for window, space in _every_view():
         scene, place = window.scene, space.as_pointer()
-        if not live.is_live(space) or space.region_3d.view_perspective != "CAMERA" or scene.camera is None:
+        if not is_live(space) or space.region_3d.view_perspective != "CAMERA" or scene.camera is None:
             continue
         reason = why_not(scene.camera, window.view_layer.depsgraph)
-        if reason and live.can_show(space, scene):
-            _cast_instead[place] = space.shading.type
+        if reason and can_show(space, scene):
             show_cast(space, scene)
-        elif not reason and place in _cast_instead:
-            shading = _cast_instead.pop(place)
+        elif not reason and place in _cast:
+            shading = _cast.pop(place)
             if shows_cast(space, scene):
                 space.shading.type = shading
-                _restore_engine(scene)
+                restore_engines()
 
 
 def is_seen_through(context) -> bool:
     """Return whether See Through is on in the 3D View."""
     space = context.space_data
-    is_live = live.is_live(space) and space.region_3d is not None and space.region_3d.view_perspective == "CAMERA"
-    return is_live or shows_cast(space, context.scene)
+    is_camera_view = space.region_3d is not None and space.region_3d.view_perspective == "CAMERA"
+    return (is_camera_view and is_live(space)) or shows_cast(space, context.scene)
 
 
 def shows_picture(space, scene) -> bool:
@@ -131,7 +184,7 @@ def shows_picture(space, scene) -> bool:
 def shows_live(space, scene) -> bool:
     """Return whether a 3D View shows the picture of a scene's camera live."""
     view = space.region_3d
-    is_shown = live.is_live(space) and live.can_show(space, scene)
+    is_shown = is_live(space) and can_show(space, scene)
     return is_shown and view is not None and view.view_perspective == "CAMERA"
 
 
@@ -142,10 +195,45 @@ def shows_cast(space, scene) -> bool:
 
 
 @persistent
+def give_back(*_) -> None:
+    """Restore shadings and engines, while a file is saved or for good."""
+    for space in _spaces():
+        if space.as_pointer() in _cast:
+            space.shading.type = _cast[space.as_pointer()]
+    restore_engines()
+
+
+@persistent
+def show_again(*_) -> None:
+    """Show casts as before the file was saved."""
+    for window, space in _every_view():
+        if space.as_pointer() in _cast:
+            show_cast(space, window.scene)
+
+
+@persistent
+def restore_saved(*_) -> None:
+    """Restore a file that Blender saved by itself meanwhile: Auto Save calls no handlers."""
+    scenes = [scene for scene in bpy.data.scenes if BEFORE in scene]
+    for window, space in _every_view():
+        if window.scene in scenes and shows_cast(space, window.scene):
+            space.shading.type = "SOLID"
+    restore_engines()
+
+
+@persistent
 def forget(*_) -> None:
     """Forget what was before: another file is loaded."""
     _views.clear()
-    _cast_instead.clear()
+    _cast.clear()
+
+
+def stop() -> None:
+    """Restore everything."""
+    if bpy.app.timers.is_registered(watch):
+        bpy.app.timers.unregister(watch)
+    give_back()
+    forget()
 
 
 CLASSES = (SeeThrough,)
@@ -153,5 +241,8 @@ CLASSES = (SeeThrough,)
 
 def register(undo) -> None:
     """Register this module; see ``registration``."""
-    undo.callback(forget)
-    undo.add_handlers([("load_pre", forget)])
+    undo.callback(stop)
+    undo.add_handlers([
+        ("load_pre", forget), ("save_pre", give_back), ("save_post", show_again), ("load_post", restore_saved),
+        ("undo_post", restore_engines), ("redo_post", restore_engines),
+    ])  # fmt: skip

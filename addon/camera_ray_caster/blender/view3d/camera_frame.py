@@ -9,7 +9,7 @@ import gpu
 import numpy as np
 
 from ..output import images
-from ..read.view import camera_frame
+from .shown import picture_frame
 
 FAR = 1000.0
 """Distance in pixels from the region's corner to the point where the scale of an Image Editor is measured."""
@@ -17,7 +17,7 @@ FAR = 1000.0
 
 def frame_in(context, raster) -> tuple[float, float, float, float] | None:
     """Return left, bottom, right, top of the camera's frame in the context's region, or None if it is not shown."""
-    return image_frame(context, raster) if context.area.type == "IMAGE_EDITOR" else camera_frame(context)
+    return image_frame(context, raster) if context.area.type == "IMAGE_EDITOR" else picture_frame(context)
 
 
 @contextmanager

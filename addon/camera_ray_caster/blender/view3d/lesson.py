@@ -20,10 +20,10 @@ from ...core.lesson.in_picture import lines_in_picture, points_in_picture
 from ...core.lesson.lesson import Lesson, lesson
 from ..properties.declared import SHADING
 from ..read.scene_cache import CachedScene, cached_scene
-from ..read.view import camera_frame
 from .camera_frame import frame_in, in_pixels
 from .glass import draw_lens, forget_lens, parts_of_paths
 from .overlay import batch_of, draw_batch
+from .shown import picture_frame
 
 FAR = 100.0
 """Drawn length of a ray that hits nothing, in units of the camera's display size."""
@@ -62,7 +62,7 @@ def lessons(context) -> dict[tuple[int, int], Lesson]:
 def draw() -> None:
     """Draw the rays, the outlines of the pixels and the points on the rays in space; called for each 3D View."""
     context = bpy.context
-    if not (pixels and context.space_data.overlay.show_overlays) or camera_frame(context) is not None:
+    if not (pixels and context.space_data.overlay.show_overlays) or picture_frame(context) is not None:
         return
     found, scale = lessons(context), context.preferences.system.ui_scale
     size = context.scene.camera.data.display_size if found else 0.0

@@ -15,9 +15,9 @@ from bpy.app.handlers import persistent
 from ..read.view import camera_frame
 from .live_picture import LiveView, camera_of, draw_picture, draw_picture_anew, is_blenders
 from .live_programs import forget
+from .shown import can_show, is_live
+from .shown import live as _live
 
-ENGINES = "BLENDER_EEVEE", "BLENDER_EEVEE_NEXT", "BLENDER_WORKBENCH"
-"""Engines whose Rendered shading is shown live."""
 FAILURES = RuntimeError, SystemError, ValueError, MemoryError, ReferenceError
 """What Blender raises if the GPU cannot do it."""
 MATCAP = "A MatCap turns with each face of the live view, so that brightness jumps: choose Studio or Flat lighting"
@@ -25,8 +25,6 @@ SETTLED = 0.2
 """Seconds without a change after which Blender's texts and gizmos are drawn over the picture again."""
 
 
-_live: dict[int, dict[int, LiveView]] = {}
-"""The views of the regions of each live 3D View, by pointers."""
 _handles: list = []
 _state: dict[str, Any] = {"changes": 0, "busy": False, "follow": None, "over": ()}
 
@@ -61,16 +59,6 @@ def stop() -> None:
         if function in handlers:
             handlers.remove(function)
     forget()
-
-
-def is_live(space) -> bool:
-    """Return whether a 3D View is live."""
-    return bool(_live) and space.as_pointer() in _live
-
-
-def can_show(space, scene) -> bool:
-    """Return whether the shading of a 3D View is one that can be live."""
-    return space.shading.type != "RENDERED" or scene.render.engine in ENGINES
 
 
 @persistent

@@ -9,8 +9,8 @@ import bpy
 from ...core.lesson.diagram import Probe, probe
 from ..read.lengths import length
 from ..read.scene_cache import cached_scene
-from ..read.view import camera_frame
 from . import text
+from .shown import picture_frame
 
 MARGIN = 14
 """Distance between mouse and text, in pixels at interface scale 1."""
@@ -30,7 +30,7 @@ class RayUnderMouse(bpy.types.Gizmo):
 
     def draw(self, context):
         """Write what the ray hits next to the mouse, if the mouse is inside the camera's frame."""
-        frame = camera_frame(context)
+        frame = picture_frame(context)
         scene = cached_scene(context)
         if self.mouse is None or frame is None or scene.camera is None:
             return

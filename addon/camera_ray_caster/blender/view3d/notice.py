@@ -14,6 +14,7 @@ import bpy
 from ..properties.declared import ENGINE
 from ..read.scene_cache import cached_scene
 from . import live, text
+from .shown import is_live
 
 MARGIN = 28
 """Distance between the text and the edge, in pixels at interface scale 1."""
@@ -33,7 +34,7 @@ def draw() -> None:
 def _sentences(context) -> Iterator[str]:
     """Yield the sentences for a view that shows the camera's picture or another one of this engine, or the overlay."""
     scene, space = context.scene, context.space_data
-    if live.is_live(space) and context.region_data.view_perspective == "CAMERA":
+    if is_live(space) and context.region_data.view_perspective == "CAMERA":
         yield from live.sentences(context)
     is_rendered = space.shading.type == "RENDERED" and scene.render.engine == ENGINE
     is_overlaid = scene.camera_ray_caster_overlay.show and space.overlay.show_overlays

@@ -18,8 +18,8 @@ from ...core.clouds.colors import LABEL, RANGE, RING
 from ...core.lesson.diagram import Diagram, diagram
 from ...core.lesson.in_picture import lines_in_picture, points_in_picture
 from ..read.scene_cache import CachedScene, cached_scene
-from ..read.view import camera_frame
 from .camera_frame import in_pixels
+from .shown import picture_frame
 
 
 class OverlayProperties(bpy.types.PropertyGroup):
@@ -87,7 +87,7 @@ def draw() -> None:
     """Draw the overlay in space; called by Blender for each 3D View. A view through the camera has its own."""
     context = bpy.context
     settings, scene = context.scene.camera_ray_caster_overlay, _shown(context)
-    if scene is None or camera_frame(context) is not None:
+    if scene is None or picture_frame(context) is not None:
         return
     batches = _batches(scene, context.scene.camera.data.display_size, settings.rays)
     gpu.state.blend_set("ALPHA")
@@ -108,7 +108,7 @@ def draw_in_picture() -> None:
     """
     context = bpy.context
     scene = _shown(context)
-    frame = None if scene is None else camera_frame(context)
+    frame = None if scene is None else picture_frame(context)
     if frame is None:
         if scene is not None and context.scene.camera_ray_caster_overlay.show_frustum:
             _name_axes(context, scene.camera)

@@ -14,7 +14,7 @@ from ...core.clouds.colors import colors_of
 from ...core.records import InputError
 from ..read.frames import frame_of
 from ..read.scene_cache import CachedScene, cached_scene
-from .camera_frame import camera_frame
+from .shown import picture_frame
 
 WIDTH = 3.0
 """Size of a point in pixels at interface scale 1."""
@@ -35,7 +35,7 @@ def draw() -> None:
     settings, scene = context.scene.camera_ray_caster_overlay, None
     if settings.show and settings.show_points and context.space_data.overlay.show_overlays:
         scene = cached_scene(context)
-    if scene is None or scene.camera is None or camera_frame(context) is not None:
+    if scene is None or scene.camera is None or picture_frame(context) is not None:
         return
     batch = _batch(scene, settings.points_by, swept(context.scene, scene.camera) if settings.show_sweep else None)
     if batch is not None:
