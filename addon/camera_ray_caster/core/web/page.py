@@ -17,6 +17,7 @@ from ..camera.own_frame import within
 from ..cameras import MODELS
 from ..cameras.model import GROUPS, Model
 from ..cameras.parts.parameters import parameters_of
+from ..cameras.real_lens import RealLens
 from ..library.cameras import camera
 from ..records import InputError
 from ..shaders.glsl import GlslWriter
@@ -59,7 +60,7 @@ HELD = {
 """Settings that are no knobs: each of their variants holds the table, or the traced lens, again."""
 
 FILES = Path(__file__).with_name("page_files")
-SCRIPTS = "formula", "scene", "picture", "space", "state", "own", "main"
+SCRIPTS = "formula", "scene", "picture", "space", "state", "own", "glass", "main"
 TABLES = {"prepare": "PREPARE", "rays": "RAYS", "values": "VALUES"}
 """Names of the lists of functions, by the functions that ``functions`` gives."""
 
@@ -163,8 +164,23 @@ class _Tables:
             "options": program.options, "labels": {one.name: one.label for one in model.SETTINGS},
             "fixed": [setting.label for setting in program.fixed],
             "constants": parameters_of(program.fixed, program.record),
+            **({"glass": glass_of(model)} if isinstance(model, RealLens) else {}),
             "steps": [step._asdict() for step in model.steps], "variants": variants,
         }  # fmt: skip
+
+
+def glass_of(model: RealLens) -> dict[str, Any]:
+    """Return what the page's section of a lens is drawn and traced from, in mm of its file."""
+    optics, window = model.optics, model.window
+    rims = [surface.rim if surface.rim < np.inf else None for surface in optics.surfaces]
+    surfaces = [vars(surface) | {"rim": rim} for surface, rim in zip(optics.surfaces, rims, strict=True)]
+    return {
+        "surfaces": surfaces,
+        "stop": optics.stop, "film": float(model.film), "radius": float(model.radius), "wide": max(filter(None, rims)),
+        "exit": optics.exit_pupil[0], "magnification": optics.entrance_pupil[1], "focal": optics.focal_length,
+        "matrix": optics.whole.tolist(), "center": [float(window.center_x), float(window.center_y)],
+        "pitch": [float(window.pitch_x), float(window.pitch_y)],
+    }  # fmt: skip
 
 
 def _data(value: Any) -> str:

@@ -2,7 +2,7 @@
 const $ = (id) => document.getElementById(id);
 const SOFTWARE_BUDGET = 33, LEAST_SHARE = 0.2;
 let model, state, camera, seen = null, own = null, share = 1, waiting = 0, settling = 0;
-const picture = new Picture($("picture")), space = new Space($("space"));
+const picture = new Picture($("picture")), space = new Space($("space")), glass = new Glass($("glass"), $("glass-text"), $("glass-sines"));
 
 function make(tag, text, settings = {}) {
   const one = document.createElement(tag);
@@ -152,6 +152,8 @@ function show() {
     cross_();
     refreshers.forEach((refresh) => refresh());
     space.draw(camera, state, seen);
+    $("glass-card").hidden = Boolean(own) || !model.glass;
+    if (!$("glass-card").hidden) { glass.use(model); glass.draw(state.x, state.y); }
     paint(false);
   } catch (error) {
     if (!(error instanceof Refusal)) throw error;
@@ -314,6 +316,7 @@ window.lesson = {
   models: MODELS.map((one) => one.key),
   state: () => JSON.parse(JSON.stringify(state)),
   labels: () => space.labels,
+  glass: () => ({ ...glass.traced(state.x, state.y), fNumber: glass.fNumber, focus: glass.focus, film: glass.film, radius: glass.radius }),
   indices: (key) => { const next = freshState(MODELS.find((one) => one.key === key)); return picture.indices(cameraOf(MODELS.find((one) => one.key === key), next.values), next); },
   speed: (key, width) => { const one = MODELS.find((other) => other.key === key), next = freshState(one), made = cameraOf(one, next.values); picture.indices(made, next); const began = performance.now(); for (let n = 0; n < 5; n++) picture.draw(made, next, width / one.frame[0]); const pixel = new Uint8Array(4); picture.gl.readPixels(0, 0, 1, 1, picture.gl.RGBA, picture.gl.UNSIGNED_BYTE, pixel); return (performance.now() - began) / 5; },
 };

@@ -1,0 +1,53 @@
+"""The section of a lens in the page, by real mouse and keyboard events, beside the paths that Step Through draws."""
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.cameras.real_lens import RealLens
+from camera_ray_caster.core.lesson.glass import chief_path
+from camera_ray_caster.core.web.page import example
+
+from .test_page import by_id, fresh, mouse, settled, state
+
+pytestmark = pytest.mark.full
+LINK = "#v=1&model=REAL_LENS&x=500&y=300"
+
+
+def seen(driver):
+    return driver.execute_script("return window.lesson.glass()")
+
+
+def test_the_section_has_the_ray_of_the_pixel_and_its_stop_and_film_are_dragged(opened, page):
+    from selenium.webdriver.common.keys import Keys
+
+    fresh(opened, page)
+    assert not by_id(opened, "glass-card").is_displayed()
+    fresh(opened, page, LINK)
+    settled(opened, lambda one: state(one)["model"] == "REAL_LENS" and by_id(one, "glass-card").is_displayed())
+    model, first = example(RealLens).model, seen(opened)
+    path = chief_path(model, 500, 300)
+    height = np.hypot(*path.points[:, :2].T) / model.unit
+    place = path.points[:, 2] / model.unit + model.pupil
+    found = np.array(first["chief"]["points"])
+    np.testing.assert_allclose(found[:, 0], place, rtol=0, atol=1e-10)
+    np.testing.assert_allclose(np.abs(found[:, 1]), height, rtol=0, atol=1e-10)
+    sines = [(np.sin(one.in_front), np.sin(one.at_back)) for one in path.refractions]
+    np.testing.assert_allclose([one[1:] for one in first["chief"]["sines"]], sines, rtol=0, atol=1e-12)
+    stop = len(model.optics.surfaces) - model.optics.stop
+    reached = [one["points"][stop][1] / first["radius"] for one in first["fan"] if len(one["points"]) > stop]
+    assert len(reached) >= 6
+    assert np.abs(np.subtract.outer(reached, [-0.95, -0.7, -0.45, -0.2, 0.2, 0.45, 0.7, 0.95])).min(axis=1).max() < 1e-9
+    assert first["fNumber"] == pytest.approx(model.facts()["f_number"], rel=1e-12)
+    assert f"f/{first['fNumber']:.3g}" in by_id(opened, "glass-text").text
+
+    canvas = by_id(opened, "glass")
+    opened.execute_script("arguments[0].scrollIntoView({block: 'center'})", canvas)
+    canvas.send_keys(Keys.SHIFT, Keys.ARROW_DOWN)
+    settled(opened, lambda one: seen(one)["radius"] == pytest.approx(0.8 * first["radius"]))
+    assert seen(opened)["fNumber"] == pytest.approx(first["fNumber"] / 0.8)
+    film = mouse(opened).move_to_element_with_offset(canvas, int(0.4 * canvas.size["width"]), 0).click_and_hold()
+    film.move_by_offset(-8, 0).release().perform()
+    settled(opened, lambda one: seen(one)["film"] < first["film"])
+    nearer = seen(opened)
+    assert nearer["focus"] < 0 or nearer["focus"] > first["focus"]  # the film nearer to the lens: farther things
+    assert nearer["fNumber"] == pytest.approx(first["fNumber"] / 0.8)
