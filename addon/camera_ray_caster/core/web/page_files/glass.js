@@ -121,7 +121,7 @@ class Glass {
   }
 
   tell(chief) {
-    const away = this.focus, focus = away > 0 && away < 1e7 ? `${shown(away / 1000, 4)} m before the front surface is in focus` : away > 0 || Math.abs(away) >= 1e7 ? "the horizon is in focus" : "nothing before the lens is in focus";
+    const away = this.focus, focus = away > 0 && away < 1e7 ? `paraxial focus ${shown(away / 1000, 4)} m before the front surface` : away > 0 || Math.abs(away) >= 1e7 ? "paraxial focus at the horizon" : "no paraxial focus before the lens";
     this.text.textContent = `f/${shown(this.fNumber, 3)}, film ${shown(this.film - this.lens.surfaces[this.lens.surfaces.length - 1].z, 5)} mm behind the glass: ${focus}.${chief.stopped ? " A rim stops the chief ray." : ""}`;
     this.list.replaceChildren(...chief.sines.map(([k, before, behind]) => {
       const surface = this.lens.surfaces[k], sine = (index, value) => `${shown(index)} sin ${shown(Math.asin(Math.min(value, 1)) * DEGREES, 5)}°`;
