@@ -265,3 +265,19 @@ def test_a_report_states_the_errors_and_holds_small_tables_only():
         if held:
             again = crc.camera_from_json(as_json(report))
             np.testing.assert_array_equal(again.rays().directions, cam.rays().directions)
+
+
+@pytest.mark.parametrize(("key", "settings"), [SAMPLED[k] for k in (0, 2, 3)])
+def test_the_spline_is_as_near_as_one_without_knots_beside_its_ends(key, settings):
+    """By the not-a-knot spline of another library, also half an entry beyond the outermost entries."""
+    interpolate = pytest.importorskip("scipy.interpolate")
+    cam = camera(key, settings)
+    x, y = np.arange(24) * 4 + 2.0, np.arange(18) * 3 + 1.5
+    inside, table = cam.rays_at(x, y[:, None]).directions, sampled(cam, 24, 18)
+    u, v = np.linspace(0, 96, 97), np.linspace(0, 54, 55)
+    right = cam.rays_at(u, v[:, None]).directions
+    other = interpolate.CubicSpline(y, interpolate.CubicSpline(x, inside, axis=1)(u), axis=0)(v)
+    other /= np.linalg.norm(other, axis=2, keepdims=True)
+    off, others = (np.nanmax(np.linalg.norm(rays - right, axis=2)) for rays in
+                   (table.rays_at(u, v[:, None]).directions, other))  # fmt: skip
+    assert off <= 1.5 * others

@@ -1,10 +1,11 @@
 """Tables of vectors continued beyond their entries and into their holes, and the control points of the spline there.
 
-A missing entry beside known ones is the parabola, or with fewer than three known ones the line or the constant, through
-the nearest entries of its row or column; the mean, where several lead to it. A parabola is the end condition with which
-cubic interpolation keeps its order (R. Keys, Cubic Convolution Interpolation, 1981). The control points of the uniform
-cubic B-spline through the entries are those of M. Unser, Splines: A Perfect Fit for Signal and Image Processing (1999);
-an entry's influence on them falls by 0.27 from entry to entry, so that WIDE entries further on it is below 1e-7.
+A missing entry beside known ones continues the polynomial, a cubic or with fewer than four known ones of a lower degree,
+through the nearest entries of its row or column; the mean, where several lead to it. A spline through entries that are
+continued as cubics has the order of one without knots beside the ends (C. de Boor, A Practical Guide to Splines, 1978,
+chapter 4: "not-a-knot"). The control points of the uniform cubic B-spline through the entries are those of M. Unser,
+Splines: A Perfect Fit for Signal and Image Processing (1999); an entry's influence on them falls by 0.27 from entry to
+entry, so that WIDE entries further on it is below 1e-7.
 """
 
 from __future__ import annotations
@@ -14,13 +15,16 @@ import numpy as np
 WIDE = 12
 """Number of entries by which tables are continued."""
 
-BY_PARABOLA = 8
-"""Number of entries, along rows and columns together, that are continued by parabolas; further ones by lines, since a
-parabola leads far away. Control points of a parabola are off by 3e-5 of its second difference; with 4 by 0.004.
+BY_CURVE = 8
+"""Number of entries, along rows and columns together, that are continued by curves; further ones by lines, since a
+curve leads far away.
 """
 
-WEIGHTS = (1e-6, 1e-3, 1.0)
-"""Weights of a constant, a line and a parabola among the continuations that lead to an entry: the best counts alone."""
+CONTINUED = (1, 0, 0, 0), (2, -1, 0, 0), (3, -3, 1, 0), (4, -6, 4, -1)
+"""The next entry as a sum of the nearest four, of which one, two, three and four are known."""
+
+WEIGHTS = np.array((0.0, 1e-9, 1e-6, 1e-3, 1.0))
+"""Weights of continuations by how many entries they follow: if several lead to an entry, the best counts alone."""
 
 WAYS = ((0, 1), (0, -1), (1, 0), (-1, 0))
 
@@ -28,33 +32,29 @@ WAYS = ((0, 1), (0, -1), (1, 0), (-1, 0))
 def extended(values: np.ndarray, known: np.ndarray, degree: int) -> np.ndarray:
     """Return vectors (rows + 2 WIDE, columns + 2 WIDE, k) of a table (rows, columns, k), with a number everywhere.
 
-    known: (rows, columns) bool, which entries count; one at least. degree: 2 for parabolas, 1 for lines.
+    known: (rows, columns) bool, which entries count; one at least. degree: 3 for cubics, 1 for lines.
     """
-    reach = WIDE + 3  # so that three entries from any missing one are in the array
+    reach = WIDE + 4  # so that four entries from any missing one are in the array
     values = np.pad(values, ((reach, reach), (reach, reach), (0, 0)))
     known = np.pad(known, reach)
     values[~known] = 0.0
     for step in range(2 * WIDE):  # the corners are so far, along rows and columns
         beside = np.logical_or.reduce([np.roll(known, way, (0, 1)) for way in WAYS])
-        beside[:3], beside[-3:], beside[:, :3], beside[:, -3:] = False, False, False, False
+        beside[:4], beside[-4:], beside[:, :4], beside[:, -4:] = False, False, False, False
         row, column = np.nonzero(beside & ~known)
         if not len(row):
             break
         total, weight = np.zeros((len(row), values.shape[2])), np.zeros((len(row), 1))
+        most = 1 + (degree if step < BY_CURVE else 1)
         for down, right in WAYS:
-            place = [(row + k * down, column + k * right) for k in (1, 2, 3)]
-            first, second, third = (values[one] for one in place)
-            has = [known[one] for one in place]
-            order = has[0].astype(int) + (has[0] & has[1]) + (has[0] & has[1] & has[2])
-            order = np.minimum(order, 1 + (degree if step < BY_PARABOLA else 1))
-            own = np.where(order > 0, np.take(WEIGHTS, order - 1), 0.0)[:, None]
-            line = 2 * first - second
-            found = np.where(order[:, None] == 3, line + (first - 2 * second + third),
-                             np.where(order[:, None] == 2, line, first))  # fmt: skip
-            total, weight = total + own * found, weight + own
+            places = [(row + k * down, column + k * right) for k in range(1, 5)]
+            order = np.minimum(np.logical_and.accumulate([known[place] for place in places]).sum(axis=0), most)
+            factors = np.take(CONTINUED, order - 1, axis=0)
+            found = sum(values[place] * factor[:, None] for place, factor in zip(places, factors.T, strict=True))
+            total, weight = total + WEIGHTS[order, None] * found, weight + WEIGHTS[order, None]
         values[row, column], known[row, column] = total / weight, True
     _carry(values, known)
-    return values[3:-3, 3:-3]
+    return values[4:-4, 4:-4]
 
 
 def _carry(values: np.ndarray, known: np.ndarray) -> None:

@@ -131,8 +131,8 @@ class RayGrid:
         """Estimated largest errors of interpolated rays between the entries and half an entry beyond: the angle of
         directions in radians, and the distance of origins. 0 for SPLINE, whose curve is the table's own.
 
-        The table of every second row and column is interpolated where it has no entries. Its error there, over 2**3 for
-        cubics, which continue tables by parabolas, and over 2**2 for lines, is that of the whole table.
+        The table of every second row and column is interpolated where it has no entries. Its error there, over 2**4 for
+        cubics, and over 2**2 for lines, is that of the whole table.
         """
         if self.kind == SPLINE:
             return 0.0, 0.0
@@ -147,7 +147,7 @@ class RayGrid:
             near = known[np.ix_(*(np.clip(np.floor(place + 0.5).astype(int), 0, side - 1)
                                   for place, side in zip((row, column), known.shape, strict=True)))]  # fmt: skip
             worst.append(self._off(found, near & self.known))
-        order = 2 if self.kind == LINEAR else 3
+        order = 2 if self.kind == LINEAR else 4
         angle, distance = np.max(worst, axis=0) / 2**order
         return float(angle), float(distance)
 
@@ -187,7 +187,7 @@ class RayGrid:
 
 def nodes_of(values: np.ndarray, known: np.ndarray, kind: str) -> np.ndarray:
     """Return what the interpolation of a table (rows, columns, k) sums with weights: (rows + 4, columns + 4, k)."""
-    wide = extended(values, known, 1 if kind == LINEAR else 2)
+    wide = extended(values, known, 1 if kind == LINEAR else 3)
     kept = slice(WIDE - AROUND, AROUND - WIDE)
     return (control_points(wide) if kind == CUBIC else wide)[kept, kept]
 
