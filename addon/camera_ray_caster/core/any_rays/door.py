@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -36,10 +36,23 @@ FRAMES = 1e-6
 PARTS = "cast the rays in parts"
 
 
+class RayPattern(NamedTuple):
+    """Rays as ``cast_rays`` takes them."""
+
+    origins: Any
+    directions: Any
+    times: Any = None
+    rings: Any = None
+    near: float = 0.0
+    far: float = math.inf
+
+
 class RayImages(dict[str, np.ndarray]):
     """The passes by name, each an array of the rays' shape[, channels]."""
 
     shapes: Shapes
+    rays: RayPattern | None = None
+    """The rays, of whose nearest hits ``scan`` and ``save_points`` make a cloud; None with ``all_hits``."""
 
 
 @arguments.keywords
@@ -54,6 +67,7 @@ def cast_rays(
     far: float = math.inf,
     all_hits: bool = False,
     dtype=np.float64,
+    rings=None,
 ) -> RayImages:
     """Return the passes of the nearest hits of rays as a mapping of name to array.
 
@@ -67,6 +81,8 @@ def cast_rays(
 
     times: the frame of each ray, which broadcasts with the rays; None for the frame at which the shapes were read. The
     shapes have to be read with their motion, or stand still.
+
+    rings: a number for each ray, kept for the cloud that ``scan`` and ``save_points`` make of the result.
 
     With ``all_hits`` the arrays are flat, a row for each hit, by ray and distance, and there are two more: ``ray``, the
     index of the ray of each row, counted row by row, and ``count``, the number of hits of each ray, of the rays' shape.
@@ -92,7 +108,7 @@ def cast_rays(
     if all_hits:
         return _all(shapes, each, origin, direction, shape, passes, (near, far), dtype)
     images = RayImages({name: PASSES[name].empty((1, count), dtype) for name in passes})
-    images.shapes = shapes
+    images.shapes, images.rays = shapes, RayPattern(origins, directions, times, rings, near, far)
     moving = _moving(shapes, each, passes)
     if moving is not None and each is not None:
         cast_apart(moving, search_of(moving.still), origin, direction, each, (near, far), images)

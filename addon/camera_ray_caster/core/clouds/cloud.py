@@ -18,17 +18,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import arguments
+from ..any_rays.door import RayImages, RayPattern
 from ..camera.camera import Camera
 from ..cameras.scanner import Scanner
-from ..cast import cast
 from ..casting.hits import NOTHING
 from ..motion.moments import check_rows
 from ..records import InputError, Shapes
 from ..scene import Scene
-from ..units import UNIT_SCALE
-
-PASSES = ("distance", "position", "normal", "albedo", "shape_index", "object_index")
-"""What points are made of."""
+from .beams import CameraBeams, CloudBeams, RayBeams
 
 MOST_CATEGORY = np.iinfo(np.int32).max
 
@@ -44,9 +41,6 @@ LEAST = 1 / LARGEST
 
 OF_DEVICE = "DEVICE"
 """The quantum of the scanner's device."""
-
-FROM_CAMERA = np.array(((0.0, 0.0, -1.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0)))
-"""From the camera's axes, x right, y up, z back, to the sensor's."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,18 +85,31 @@ class PointCloud:
 
 
 def scan(
-    camera: Camera | Scene,
+    camera: Camera | Scene | None = None,
     shapes: Shapes | None = None,
     *,
+    rays=None,
+    times=None,
+    rings=None,
+    pose=None,
+    name: str = "rays",
+    fps: float = 24.0,
     noise: float = 0.0,
     dropout: float = 0.0,
     quantum: float | str = 0.0,
     seed: int = 0,
     categories: Mapping[str, int] | None = None,
 ) -> PointCloud:
-    """Return the points that a camera's rays hit, with range, ring, time, labels, normal and incidence.
+    """Return the points that rays hit, with range, ring, time, labels, normal and incidence.
 
     camera: as in ``cast``; each pixel's chief ray is a beam.
+    rays: in place of a camera, any pattern: origins and directions as in ``cast_rays``, with ``shapes=`` beside them,
+        or the result of ``cast_rays``. Points have the order of the rays; rays of one axis are one row.
+    times, rings: of ``rays``: frames, as in ``cast_rays``, and whole numbers; they broadcast with the rays. The cloud's
+        frame is the earliest. Without rings each row has its own.
+    pose: of the sensor that has ``rays``, as of a camera, (4, 4). Without it the sensor has the world's axes, and lies
+        where the rays begin, or at the world's origin if they begin in several places.
+    name, fps: of a cloud of ``rays``: its name, and the frames per second, by which times become seconds.
     noise: standard deviation of the ranges, in Blender units.
     dropout: range up to which a surface perpendicular to the beam always returns it. In general a return is lost with
         the probability 1 - cos(incidence) (dropout / range)², if this is above 0; with 0 none is lost.
@@ -115,12 +122,9 @@ def scan(
     device whose quantum is not known, for shapes that appear or disappear between the times of pixels, and for what
     ``cast`` refuses.
     """
-    scene = Scene.given(camera, shapes, "scan")
-    camera, shapes = scene.camera, scene.shapes
     noise, dropout = (
         arguments.number(value, name, LARGEST, 0.0) for value, name in ((noise, "noise"), (dropout, "dropout"))
     )
-    step, behind = _steps(camera, quantum)
     if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
         raise InputError(f"seed is {arguments.shown(seed)}: it must be a whole number, 0 or more")
     categories = {} if categories is None else categories
@@ -129,12 +133,21 @@ def scan(
             f"categories is {arguments.shown(categories)}: it must map names of objects to whole numbers from 0 to "
             f"{MOST_CATEGORY}"
         )
-    check_rows(shapes)
-    images, rays = cast(camera, shapes, passes=PASSES, dtype=np.float64), camera.rays()
+    beams: CloudBeams
+    if rays is None:
+        scene = Scene.given(camera, shapes, "scan")  # type: ignore[arg-type]  # it refuses None
+        shapes, (step, behind) = scene.shapes, _steps(scene.camera, quantum)
+        check_rows(shapes)
+        beams = CameraBeams.of(scene.camera, shapes)
+    else:
+        given, shapes = _given(rays, times, rings, camera, shapes)
+        (step, behind), rate = _steps(None, quantum), arguments.number(fps, "fps", LARGEST, LEAST)
+        check_rows(shapes)
+        beams = RayBeams.of(given, shapes, arguments.name(name), pose, rate)
+    images, frame = beams.images, beams.frame
     hit = (images["shape_index"] != NOTHING) & np.isfinite(images["distance"])
-    ahead, true = np.where(hit[..., None], rays.directions, 0.0), np.where(hit, images["distance"], 0.0)
+    ahead, true = np.where(hit[..., None], beams.directions, 0.0), np.where(hit, images["distance"], 0.0)
     incidence = np.clip(-(ahead * images["normal"]).sum(axis=-1), 0.0, 1.0)
-    frame = float(camera.record.settings.get("frame", 0.0))
     rng = np.random.default_rng((int(seed), round(frame * 1000) % (1 << 32)))
     away, chance = rng.normal(0.0, 1.0, hit.shape), rng.uniform(size=hit.shape)
     if dropout:
@@ -143,41 +156,57 @@ def scan(
     if step:
         measured = step * np.rint((measured + behind) / step) - behind
     hit &= measured > 0
-    column, row = np.nonzero(hit.T)
-    at = row, column
-    origin, beam = _in_camera(camera, row, column)
-    times = None if rays.time is None else rays.time[at]
-    rate = camera.record.settings.get("fps", 24) / camera.record.settings.get("fps_base", 1.0)
-    pose = np.eye(4)
-    pose[:3, :3], pose[:3, 3] = camera.pose.basis @ FROM_CAMERA.T, camera.pose.eye
+    at = beams.places(hit)
+    origin, beam = beams.rays(at)
     normal = images["normal"][at]
     return PointCloud(
-        name=camera.name,
-        pose=pose,
-        size=camera.raster.shape[::-1],
-        sensor=(origin + measured[at][:, None] * beam) @ FROM_CAMERA.T,
-        world=images["position"][at] + (measured - true)[at][:, None] * rays.directions[at],
+        name=beams.name,
+        pose=beams.pose,
+        size=hit.shape[::-1],
+        sensor=origin + measured[at][:, None] * beam,
+        world=images["position"][at] + (measured - true)[at][:, None] * beams.directions[at],
         normal=normal,
-        sensor_normal=np.einsum("nji,nj->ni", _bases(camera, times, len(row)), normal) @ FROM_CAMERA.T,
+        sensor_normal=beams.turned(at, normal),
         range=measured[at],
         true_range=true[at],
-        row=row.astype(np.int32),
-        column=column.astype(np.int32),
-        ring=_rings(camera, row),
-        time=np.zeros(len(row)) if times is None else (times - frame) / rate,
+        row=at[0].astype(np.int32),
+        column=at[1].astype(np.int32),
+        ring=beams.rings(at),
+        time=beams.seconds(at),
         instance=(images["shape_index"][at] + 1).astype(np.int32),
         category=_categories(shapes, images["shape_index"][at], images["object_index"][at], categories),
         incidence=incidence[at],
         reflectance=incidence[at] * images["albedo"][at].mean(axis=-1),
-        meters=camera.record.settings.get(UNIT_SCALE, 1.0),
+        meters=beams.meters,
     )
 
 
-def _steps(camera: Camera, quantum) -> tuple[float, float]:
+def _given(rays, times, rings, camera, shapes) -> tuple[RayPattern, Shapes]:
+    """Return the rays of a cloud, and the shapes at which they are cast."""
+    if isinstance(rays, RayImages):
+        if rays.rays is None:
+            raise InputError("all hits of rays are no cloud: cast the rays without all_hits")
+        given, shapes = rays.rays, rays.shapes if shapes is None else shapes
+    else:
+        try:
+            origins, directions = (rays.origins, rays.directions) if hasattr(rays, "origins") else rays
+        except (TypeError, ValueError) as error:
+            raise InputError("rays must be origins and directions, or the result of cast_rays") from error
+        given = RayPattern(origins, directions)
+    shapes = camera if shapes is None else shapes
+    if not isinstance(shapes, Shapes) or not (camera is None or camera is shapes):
+        raise InputError("scan takes a camera or rays: give rays= and shapes=")
+    times, rings = (old if new is None else new for old, new in ((given.times, times), (given.rings, rings)))
+    return given._replace(times=times, rings=rings), shapes
+
+
+def _steps(camera: Camera | None, quantum) -> tuple[float, float]:
     """Return the step of ranges, and how far behind the origins of beams these begin."""
     if not (isinstance(quantum, str) and quantum.upper() == OF_DEVICE):
         step = arguments.number(quantum, "quantum", LARGEST, 0.0)
         return (step if step >= LEAST else 0.0), 0.0
+    if camera is None:
+        raise InputError("the quantum of rays is not known: give a length")
     device = camera.model.device if isinstance(camera.model, Scanner) else None
     if device is None or not device.quantum:
         kind = camera.model.label if device is None else device.label
@@ -186,34 +215,6 @@ def _steps(camera: Camera, quantum) -> tuple[float, float]:
             "of Velodyne or Ouster"
         )
     return device.quantum, device.behind
-
-
-def _in_camera(camera: Camera, row: np.ndarray, column: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return origins and unit directions of rays, (n, 3) each, in the camera's frame."""
-    x, y = camera.raster.x0 + column + 0.5, camera.raster.y0 + row + 0.5
-    origin, direction = (
-        np.stack(np.broadcast_arrays(*vector, x)[:3], axis=-1) for vector in camera.model.rays(x, y)
-    )
-    return origin, direction / np.linalg.norm(direction, axis=-1, keepdims=True)
-
-
-def _bases(camera: Camera, times: np.ndarray | None, count: int) -> np.ndarray:
-    """Return the axes of the camera at the time of each of the points, (n, 3, 3)."""
-    motion = camera.timeline.motion
-    if times is None or motion is None:
-        return np.broadcast_to(camera.pose.basis, (count, 3, 3))
-    frames, which = np.unique(times, return_inverse=True)
-    poses = motion.poses_at(frames)
-    bases = np.array([camera.at(frame).pose.basis for frame in frames.tolist()]) if poses is None else poses[1]
-    return bases.reshape(-1, 3, 3)[which]
-
-
-def _rings(camera: Camera, row: np.ndarray) -> np.ndarray:
-    row = row + camera.raster.y0
-    if isinstance(camera.model, Scanner):
-        beams = camera.model.beams
-        row = beams.ring[(row * len(beams)) // camera.raster.height]
-    return row.astype(np.uint16)
 
 
 def _is_category(value) -> bool:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..camera.camera import Camera
 from ..units import METERS, UNIT_SCALE, factor
-from .cloud import FROM_CAMERA
+from .beams import FROM_CAMERA
 
 TO_CAMERA = np.diag((1.0, -1.0, -1.0, 1.0))
 """From Blender's camera axes to x right, y down, z ahead."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 
 from .. import arguments
-from ..clouds.cloud import AXES, SENSOR, PointCloud
+from ..any_rays.door import RayImages
+from ..clouds.cloud import AXES, SENSOR, PointCloud, scan
 from ..clouds.formats import files_of
 from ..exports.writing import write
 from ..names import file_name
@@ -17,14 +18,15 @@ ENDINGS = {".pcd.bin": "nuscenes", ".ply": "ply", ".pcd": "pcd", ".bin": "kitti"
 
 @format_came_first("cloud", lambda done: done.paths)
 def save_points(
-    data: PointCloud,
+    data: PointCloud | RayImages,
     path: str | os.PathLike[str],
     format: str | None = None,
     *,
     name: str = "",
     axes: str = SENSOR,
 ) -> Exported:
-    """Write a point cloud of ``scan`` to a file or a folder, for another program; return the paths, as ``export`` does.
+    """Write a point cloud of ``scan``, or of the rays of ``cast_rays``, to a file or a folder, for another program;
+    return the paths, as ``export`` does.
 
     path: a file, whose ending tells the format, or with ``format`` a folder.
     format: "ply", "pcd", "kitti" (.bin, and SemanticKITTI's .label), "nuscenes" (.pcd.bin and labels), "las" (1.4) or
@@ -35,8 +37,10 @@ def save_points(
     All files are written or none. Raises InputError, in one line, for an unknown format or axes, for numbers that the
     format cannot store, and for a folder that cannot be written.
     """
+    if isinstance(data, RayImages):
+        data = scan(rays=data)
     if not isinstance(data, PointCloud):
-        raise TypeError(f"save_points takes the points of scan, not {type(data)}")
+        raise TypeError(f"save_points takes the points of scan or the result of cast_rays, not {type(data)}")
     chosen, stem = arguments.word(axes, "axes", AXES), file_name(arguments.name(name) or data.name)
     folder, file, key = destination(path, format, ENDINGS)
     files = {(stem + ending): content for ending, content in files_of(data, key, chosen)}

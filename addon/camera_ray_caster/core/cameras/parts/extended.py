@@ -1,6 +1,6 @@
 """Tables of vectors continued beyond their entries and into their holes, and the control points of the spline there.
 
-A missing entry beside known ones continues the polynomial, a cubic or with fewer than four known ones of a lower degree,
+A missing entry beside known ones continues a cubic, or with fewer than four known ones a polynomial of a lower degree,
 through the nearest entries of its row or column; the mean, where several lead to it. A spline through entries that are
 continued as cubics has the order of one without knots beside the ends (C. de Boor, A Practical Guide to Splines, 1978,
 chapter 4: "not-a-knot"). The control points of the uniform cubic B-spline through the entries are those of M. Unser,
