@@ -286,6 +286,7 @@ def test_results_are_named_as_passes_are(blender, scene):
 def test_the_dialogs_show_calibration_files_and_say_what_the_target_is(blender):
     operators = blender.ops.camera_ray_caster.load_calibration, blender.ops.camera_ray_caster.export
     load, export = (operator.get_rna_type().properties for operator in operators)
-    kinds = "yml yaml json jsonl xml gz txt bin cameramodel sfm pincam npz npy exr csv obj"
+    kinds = "yml yaml json jsonl xml gz txt bin cameramodel sfm pincam npz npy exr csv obj pto pts cahv* fspy xmp nvm"
+    kinds += " out toml"
     assert set(load["filter_glob"].default.split(";")) == {f"*.{kind}" for kind in kinds.split()}
     assert export["target"].name == "Target Camera"

@@ -1,6 +1,7 @@
 """Undo and redo of every operator that is registered with UNDO, each called as from its button."""
 
 import bpy
+import numpy as np
 import pytest
 
 from camera_ray_caster.blender.output import reports
@@ -8,6 +9,7 @@ from camera_ray_caster.blender.properties.declared import CAMERA
 from camera_ray_caster.blender.registration import CLASSES
 from camera_ray_caster.blender.ui.presets import FOLDER
 from camera_ray_caster.blender.view3d import lesson
+from camera_ray_caster.core.sets.png import png
 
 OURS = bpy.ops.camera_ray_caster
 IN_A_VIEW = {"see_through", "select_seen"}
@@ -55,6 +57,11 @@ def stretched(folder):
 def calibration(folder):
     (folder / "cameras.txt").write_text("1 PINHOLE 1241 376 700 700 620 188\n")
     return {"filepath": str(folder / "cameras.txt")}
+
+
+def clip(folder):
+    (folder / "plate.png").write_bytes(png(np.zeros((24, 32, 3), np.uint8)))
+    bpy.context.scene.active_clip = bpy.data.movieclips.load(str(folder / "plate.png"))
 
 
 def cameras(folder):
@@ -106,6 +113,7 @@ CALLS = {
     "empty_at_hit": a_pixel,
     "preset_execute": lambda folder: {"filepath": str(next(FOLDER.glob("presets/*/TUM_VI*.py")))},
     "add_cameras": cameras,
+    "lens_of_clip": clip,
 }
 """What has to be there before an operator is called, which returns the operator's properties."""
 

@@ -41,6 +41,15 @@ def test_a_distortion_under_another_name_is_read(entries, tmp_path):
     assert found.values(("k1", "k2", "p1", "p2", "k3")) == [-0.3, 0.05, 0, 0, 0]
 
 
+def test_photon_vision_called_its_distortion_extrinsics(tmp_path):
+    found = {"cameraIntrinsics": {"rows": 3, "cols": 3, "data": [*K[0], *K[1], *K[2]]},
+             "resolution": {"width": 640, "height": 480},
+             "cameraExtrinsics": {"rows": 1, "cols": 5, "data": [-0.3, 0.05, 0, 0, 0.25]}}  # fmt: skip
+    (tmp_path / "a.json").write_text(json.dumps(found))
+    (lens,) = lenses_of(str(tmp_path / "a.json"))
+    assert lens.values(("fx", "k1", "k2", "p1", "p2", "k3")) == [400, -0.3, 0.05, 0, 0, 0.25]
+
+
 @pytest.mark.parametrize(
     "entries",
     [

@@ -3,6 +3,7 @@
 import bpy
 
 from ..properties.declared import BLENDERS_OWN, GROUP
+from ..read.movie_clips import clips_of
 from .camera_notes import missing, notes
 from .drawing import Sidebar, put_labels
 from .export_operators import ExportMenu
@@ -10,7 +11,7 @@ from .gallery_operators import ExamplesMenu
 from .gallery_panels import draw_model
 from .model_drawing import PRESETS, draw_cycles, draw_lens, draw_model_settings, draw_port, draw_times
 from .notes import Popover, draw_first, draw_notes, widen
-from .operators import LoadCalibration
+from .operators import LensOfClip, LoadCalibration
 from .see_through import SeeThrough, is_seen_through
 
 
@@ -40,6 +41,8 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
         row.menu(ExportMenu.bl_idname, text="Export", icon="EXPORT")
         row.menu(ExamplesMenu.bl_idname, text="Examples", icon="FILE_BLEND")
         layout.operator(LoadCalibration.bl_idname, icon="FILE_FOLDER")
+        if camera is not None and camera.type == "CAMERA" and clips_of(context.scene, camera):
+            layout.operator(LensOfClip.bl_idname, icon="TRACKER")
         if camera is not None and camera.type == "CAMERA":
             draw_cycles(layout, camera.data)
         draw_first(layout, notes(context), CameraNotes.bl_idname)

@@ -11,7 +11,7 @@ from .frame import SetFrame
 from .gallery_operators import CamerasMenu, ExamplesMenu
 from .gallery_panels import ModelMenu, TimeMenu
 from .lesson_operators import ClearSteps, CopySteps, StepThrough
-from .operators import CopyFacts, LoadCalibration, Verify, WriteReport
+from .operators import CopyFacts, LensOfClip, LoadCalibration, Verify, WriteReport
 from .other_engine import UseThisEngine
 from .point_operators import EmptyAtHit, PixelOfPoint
 from .rig_operators import AddCameras
@@ -21,7 +21,7 @@ from .through_model import RenderThroughModel
 
 LISTED = (
     SeeThrough, RenderThroughModel, Cast, Verify, StepThrough, PixelOfPoint, EmptyAtHit, CopySteps, ClearSteps,
-    SetFrame, LoadCalibration, AddCameras, AddGradient, FollowTimeline, UseThisEngine, UseInCycles, FitLens,
+    SetFrame, LoadCalibration, LensOfClip, AddCameras, AddGradient, FollowTimeline, UseThisEngine, UseInCycles, FitLens,
     BackToBlender, AddProjector, CopyFacts, CopyK, CopyWorldToCamera, WriteReport,
 )  # fmt: skip
 MENUS = (ModelMenu, TimeMenu, ResultsMenu, ExportMenu, ExamplesMenu, CamerasMenu)

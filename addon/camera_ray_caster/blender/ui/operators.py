@@ -6,6 +6,7 @@ from pathlib import Path
 import bpy
 from bpy.props import BoolProperty, StringProperty
 
+from ...core.camera.calibration_file import model_of
 from ...core.camera.facts import camera_facts
 from ...core.cameras.parts.calibration import SIZE
 from ...core.exports.camera_json import recorded
@@ -13,14 +14,15 @@ from ...core.programs import READ
 from ...core.records import InputError
 from ...core.report.report import Report, as_json
 from ..output import reports
-from ..properties.calibration import cameras_in, lenses_in, set_calibration
+from ..properties.calibration import cameras_in, lenses_in, set_calibration, set_lens
 from ..properties.labels import in_labels
+from ..read import movie_clips
 from ..read.frames import frame_of
 from ..read.scene import read_camera
 from ..verification.check import verified
 from .drawing import draw_message
 from .frame import SET_FRAME, framed
-from .needs import OfCamera, OfScene, camera_object_of, reporting, select_alone
+from .needs import OfCamera, OfScene, camera_object_of, can_use, reporting, select_alone
 
 NO_REPORT = "Render with the Camera Ray Caster first (F12), or cast from the sidebar"
 
@@ -130,6 +132,38 @@ class LoadCalibration(OfCamera, bpy.types.Operator):
         return {"FINISHED"}
 
 
+class LensOfClip(OfCamera, bpy.types.Operator):
+    """Set the camera model and the resolution to those of the movie clip that the camera is tracked from"""
+
+    bl_idname = "camera_ray_caster.lens_of_clip"
+    bl_label = "Lens of Movie Clip"
+    bl_options = {"REGISTER", "UNDO"}
+
+    clip: StringProperty(name="Movie Clip", description="Name of the clip; default the camera's first one")
+
+    @classmethod
+    def poll(cls, context):
+        """Gray out the operator without a clip."""
+        if not super().poll(context):
+            return False
+        has_clip = bool(movie_clips.clips_of(context.scene, camera_object_of(context)))
+        return can_use(cls, "" if has_clip else "The scene and the camera have no movie clip")
+
+    @reporting
+    def execute(self, context):
+        """Set the model and report the values."""
+        item = camera_object_of(context)
+        clips = movie_clips.clips_of(context.scene, item)
+        clip = next((one for one in clips if one.name == self.clip), None if self.clip else clips[0])
+        if clip is None:
+            raise InputError(f"the scene and the camera have no movie clip {self.clip!r}")
+        lens, render = movie_clips.lens_of(clip), context.scene.render
+        set_lens(item.data, lens)
+        render.resolution_x, render.resolution_y = lens.size
+        self.report({"INFO"}, f"{clip.name}: {model_of(lens).label}; the frame is {lens.size[0]} × {lens.size[1]}")
+        return {"FINISHED"}
+
+
 def sizes_in_words(context, item, path: str) -> list[str]:
     """Return the sizes of the pictures of a calibration file's cameras and of the frame, as lines; or what is wrong."""
     try:
@@ -202,4 +236,4 @@ class WriteReport(bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (Verify, CopyFacts, LoadCalibration, SelectLeftOut, WriteReport)
+CLASSES = (Verify, CopyFacts, LoadCalibration, LensOfClip, SelectLeftOut, WriteReport)

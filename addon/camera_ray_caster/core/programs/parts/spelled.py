@@ -26,6 +26,8 @@ DISTORTION = (
     "distortioncoeff", "coeffs", "distcoefs", "distcoef", "distortionparameters", "distcoefficients",
     "distortionparams", "kc",
 )  # fmt: skip
+PHOTON_VISION = "cameraextrinsics"
+"""What PhotonVision called the list of coefficients up to 2023."""
 LISTED = "params", "parameters", "values", "coefficients", "coeffs", "data"
 """Names of the list of coefficients inside of a mapping of a distortion."""
 FX, FY = ("fx", "flx", "focalx", "focallengthx", "fu"), ("fy", "fly", "focaly", "focallengthy", "fv")
@@ -93,6 +95,9 @@ class Spelled:
     def __init__(self, entries: Fields):
         self.document = entries.document
         self.found = self._merged(entries.values)
+        name, value = self.found.get(PHOTON_VISION, ("", None))
+        if isinstance(value, dict) and 1 in [*numbers_of(value.get("rows")), *numbers_of(value.get("cols"))]:
+            self.found[DISTORTION[0]] = name, self.found.pop(PHOTON_VISION)[1]
 
     def _merged(self, entries: Mapping[str, Any], depth: int = 3) -> dict[str, tuple[str, Any]]:
         found: dict[str, tuple[str, Any]] = {}
