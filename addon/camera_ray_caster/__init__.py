@@ -16,13 +16,15 @@ In Blender, or with pip's ``bpy``::
     images = crc.cast(crc.read_scene(bpy.context.scene), passes=("depth", "normal"))
 
 Cameras
-    camera, load_calibration, fit, models, register_model, camera_from_json, camera_to_json, look_at, pose_from_opencv
+    camera, load_calibration, load_rig, fit, models, register_model, camera_from_json, camera_to_json, look_at,
+    pose_from_opencv
 Shapes
     spheres, planes, mesh, join; Scene(camera, shapes) has both
 What is seen
-    cast, visible, explain; of rays given as arrays: cast_rays, occluded; as points: scan, save_points
+    cast, visible, explain; of rays given as arrays: cast_rays, occluded; as points: scan
+    top_down(images) has row 0 at the top
 Files
-    export
+    export, save_points
 In Blender only
     read_camera, read_shapes, read_scene, verify, register, unregister
 
@@ -42,9 +44,11 @@ if TYPE_CHECKING:
     from .blender.verification.check import verify_camera as verify
     from .core.any_rays.door import cast_rays, occluded
     from .core.camera.camera import Camera
+    from .core.camera.fit import Fit
     from .core.cameras.model import Model, Step
     from .core.cameras.parts.settings import Choice, Flag, Item, Number
     from .core.cast import cast
+    from .core.casting.images import Images
     from .core.casting.visibility import Visibility, visible
     from .core.clouds.cloud import PointCloud, scan
     from .core.exports.camera_json import camera_from_json, camera_to_json
@@ -58,7 +62,8 @@ if TYPE_CHECKING:
     from .core.library.poses import look_at, pose_from_opencv
     from .core.library.rigs import load_rig
     from .core.library.shapes import mesh, planes, spheres
-    from .core.records import Cancelled, InputError, Shapes
+    from .core.library.top_down import top_down
+    from .core.records import Cancelled, InputError, Rays, Shapes
     from .core.scene import Scene
     from .core.version import VERSION
 
@@ -68,12 +73,15 @@ _MODULES = {
     "Camera": ".core.camera.camera",
     "Cancelled": ".core.records",
     "Choice": ".core.cameras.parts.settings",
+    "Fit": ".core.camera.fit",
     "Flag": ".core.cameras.parts.settings",
+    "Images": ".core.casting.images",
     "InputError": ".core.records",
     "Item": ".core.cameras.parts.settings",
     "Model": ".core.cameras.model",
     "Number": ".core.cameras.parts.settings",
     "PointCloud": ".core.clouds.cloud",
+    "Rays": ".core.records",
     "Scene": ".core.scene",
     "Shapes": ".core.records",
     "Step": ".core.cameras.model",
@@ -102,6 +110,7 @@ _MODULES = {
     "save_points": ".core.library.clouds",
     "scan": ".core.clouds.cloud",
     "spheres": ".core.library.shapes",
+    "top_down": ".core.library.top_down",
     "verify": ".blender.verification.check:verify_camera",
     "visible": ".core.casting.visibility",
 }
@@ -111,12 +120,15 @@ __all__ = [
     "Camera",
     "Cancelled",
     "Choice",
+    "Fit",
     "Flag",
+    "Images",
     "InputError",
     "Item",
     "Model",
     "Number",
     "PointCloud",
+    "Rays",
     "Scene",
     "Shapes",
     "Step",
@@ -146,24 +158,30 @@ __all__ = [
     "save_points",
     "scan",
     "spheres",
+    "top_down",
     "unregister",
     "verify",
     "visible",
 ]
 
 
-def __getattr__(name: str):
-    if name not in _MODULES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    module, _, other = _MODULES[name].partition(":")
-    try:
-        found = getattr(import_module(module, __name__), other or name)
-    except ModuleNotFoundError as error:
-        if error.name != "bpy":
-            raise
-        raise AttributeError(f"{name} of module {__name__!r} needs Blender, or pip's bpy") from error
-    globals()[name] = found
-    return found
+if not TYPE_CHECKING:  # a type checker sees the imports above, and nothing else
+
+    def __getattr__(name: str):
+        if name not in _MODULES:
+            from .core.other_names import FUNCTIONS
+
+            use = f": use {FUNCTIONS[name.lower()]}" if name.lower() in FUNCTIONS else ""
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}{use}")
+        module, _, other = _MODULES[name].partition(":")
+        try:
+            value = getattr(import_module(module, __name__), other or name)
+        except ModuleNotFoundError as error:
+            if error.name != "bpy":
+                raise
+            raise AttributeError(f"{name} of module {__name__!r} needs Blender, or pip's bpy") from error
+        globals()[name] = value
+        return value
 
 
 def __dir__() -> list[str]:

@@ -64,7 +64,7 @@ def test_cameras_come_back_at_any_unit_scale(tmp_path, chosen):
         (found,) = mounted(str(path), "", (64, 48), 24.0, meters)
         first = np.eye(4)
         if chosen.key == "kalibr":  # the first camera's frame
-            first = np.linalg.inv(given[0].camera.world_to_opencv) @ np.diag((1, -1, -1, 1))
+            first = np.linalg.inv(given[0].camera.opencv_from_world) @ np.diag((1, -1, -1, 1))
             first[:3, :3] = np.eye(3)
         for place, shot in zip(found.poses, given, strict=False):
             assert np.allclose(place[:3, 3] + first[:3, 3], shot.camera.pose.eye, rtol=0, atol=1e-6)

@@ -37,6 +37,9 @@ EPS = float(np.finfo(np.float64).eps) / 2
 EPS32 = float(np.finfo(np.float32).eps) / 2
 """Unit roundoff of float32, 2**-24."""
 
+FROM_BLENDER = np.diag((1.0, -1.0, -1.0, 1.0))
+"""From Blender's camera axes, x right, y up, z back, to OpenCV's: x right, y down, z ahead; the same the other way."""
+
 LAST_FRAME = 1048574
 """Largest frame number in Blender; the smallest is its negative."""
 

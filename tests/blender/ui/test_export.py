@@ -124,7 +124,7 @@ def test_matrices_are_copied_with_all_digits(blender, scene, copied):
     scene.camera.data.lens = 33.3
     camera = read_camera(scene)
     assert np.array_equal(json.loads(copied(export_operators.CopyK)), camera.K)
-    assert np.array_equal(json.loads(copied(export_operators.CopyWorldToCamera)), camera.world_to_opencv)
+    assert np.array_equal(json.loads(copied(export_operators.CopyWorldToCamera)), camera.opencv_from_world)
     assert camera_from_json(copied(CopyFacts)).rays().directions.tobytes() == camera.rays().directions.tobytes()
 
 

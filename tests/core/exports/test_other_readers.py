@@ -48,7 +48,7 @@ def test_ros_rectifies_pixels_to_the_rays_of_points(tmp_path, name):
     assert said["camera_name"] == name
     apart = []
     for near, (points, pixels) in zip(nearest(name), views(name), strict=True):
-        seen = points @ near.world_to_opencv[:3, :3].T + near.world_to_opencv[:3, 3]
+        seen = points @ near.opencv_from_world[:3, :3].T + near.opencv_from_world[:3, 3]
         for point, pixel in zip(seen, pixels - 0.5, strict=True):
             apart.append(np.subtract(model.rectifyPoint(pixel), model.project3dToPixel(point)))
     assert np.abs(apart).max() < (1e-3 if any(info.D) else 1e-9)  # five steps of OpenCV's

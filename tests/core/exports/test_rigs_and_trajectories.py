@@ -38,9 +38,9 @@ def test_a_camchain_is_the_rig(tmp_path):
     written("kalibr", given, tmp_path)
     found = mounted(str(tmp_path / "camchain.yaml"), "", (640, 480), 24)
     assert [one.lens.model for one in found] == ["OPENCV_PINHOLE", "OPENCV_FISHEYE", "UCM"]
-    first = np.linalg.inv(with_rotation(given[0].camera)[0].world_to_opencv)
+    first = np.linalg.inv(with_rotation(given[0].camera)[0].opencv_from_world)
     for one, shot in zip(found, given, strict=False):
-        beside = np.linalg.inv(first) @ np.linalg.inv(with_rotation(shot.camera)[0].world_to_opencv)
+        beside = np.linalg.inv(first) @ np.linalg.inv(with_rotation(shot.camera)[0].opencv_from_world)
         beside[:3, 3] *= 0.5  # meters
         assert np.abs(one.poses[0] @ np.diag((1, -1, -1, 1)) - beside).max() < 1e-6
         for name, value in shot.camera.settings.items():

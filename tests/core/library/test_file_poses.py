@@ -38,7 +38,7 @@ def test_the_second_camera_of_kalibr_stands_beside_the_first(tmp_path):
     """x1 = x0 - (0.12, 0, -0.01) in OpenCV's axes: the world is that of the first camera."""
     camera, said = loaded(tmp_path, KALIBR, camera="cam1")
     np.testing.assert_allclose(camera.pose.eye, (0.12, 0.0, -0.01), atol=1e-12)
-    np.testing.assert_allclose(camera.world_to_opencv[:3, 3], (-0.12, 0.0, 0.01), atol=1e-12)
+    np.testing.assert_allclose(camera.opencv_from_world[:3, 3], (-0.12, 0.0, 0.01), atol=1e-12)
     assert (said, loaded(tmp_path, KALIBR, camera="cam0")[0].pose.eye.tolist()) == ([], [0, 0, 0])
 
 

@@ -65,7 +65,7 @@ def test_rounding_and_scale_are_no_flaws():
         found = crc.camera("PERSP", SIZE, matrix)
         np.testing.assert_allclose(found.pose.basis, POSE[:3, :3], atol=1e-7)
         np.testing.assert_allclose(crc.camera("PERSP", SIZE).with_pose(matrix).pose.eye, (1, 2, 3), atol=1e-7)
-    world_to_camera = crc.camera("PERSP", SIZE, POSE).world_to_opencv
+    world_to_camera = crc.camera("PERSP", SIZE, POSE).opencv_from_world
     np.testing.assert_allclose(
         crc.pose_from_opencv(np.diag([500.0, 400.0, 1.0]) @ world_to_camera[:3])[:3, 3], (1, 2, 3)
     )

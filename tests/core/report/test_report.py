@@ -266,7 +266,7 @@ def test_a_report_makes_the_camera_again(report):
     assert document["version"] == VERSION
     assert document["conventions"]["K"].startswith("as OpenCV")
     assert document["indices"]["Layer"]["shape_index"][0]["object"] == "Sphere"
-    assert np.array_equal(document["camera"]["world_to_opencv"], camera().world_to_opencv)
+    assert np.array_equal(document["camera"]["world_to_opencv"], camera().opencv_from_world)
     for asked in ({}, {"frame": 1.5}):
         assert camera_from_json(text, **asked).rays().directions.tobytes() == camera().rays().directions.tobytes()
     with pytest.raises(InputError, match=r"this report is of frame 1\.5, not 2"):

@@ -48,7 +48,7 @@ def check_lens(path, size, corner, cam):
     (lens,) = lenses_of(str(path), "", size)
     own = lens.settings
     points, pixels = points_in(cam, corner)
-    x, y, z = cam.world_to_opencv[:3, :3] @ points.T + cam.world_to_opencv[:3, 3:]
+    x, y, z = cam.opencv_from_world[:3, :3] @ points.T + cam.opencv_from_world[:3, 3:]
     place = np.stack((own["fx"] * x / z + own["cx"], own["fy"] * y / z + own["cy"]), axis=-1)
     assert np.abs(place - pixels).max() < 1e-4  # rotations that are near to float32 matrices
     assert (own.get("calibration_width") or size[0], own.get("calibration_height") or size[1]) == size
@@ -76,7 +76,7 @@ def test_cameras_are_those_of_the_picture(made, key, tmp_path):
         seen = facts.get("picture", {"size": facts["raster"], "K": facts["K"]})
         assert seen["size"] == list(size)
         points, pixels = points_in(cam, corner)
-        place = (cam.world_to_opencv[:3, :3] @ points.T).T + cam.world_to_opencv[:3, 3]
+        place = (cam.opencv_from_world[:3, :3] @ points.T).T + cam.opencv_from_world[:3, 3]
         place = place @ np.array(seen["K"]).T
         assert np.abs(place[:, :2] / place[:, 2:] - pixels).max() < 1e-9
     elif key not in NO_LENS:

@@ -284,7 +284,7 @@ def test_lengths_of_sets_follow_the_unit_scale(made, key):
             camera = json.loads(found[meters][scene + "scene_camera.json"])["1"]
             pixels = cv2.imdecode(np.frombuffer(found[meters][scene + "depth/000001.png"], np.uint8), -1)
             assert np.abs(pixels * camera["depth_scale"] - depth).max() <= camera["depth_scale"]
-            assert np.allclose(camera["cam_t_w2c"], casts[0][0].world_to_opencv[:3, 3] * 1000 * meters, rtol=1e-6)
+            assert np.allclose(camera["cam_t_w2c"], casts[0][0].opencv_from_world[:3, 3] * 1000 * meters, rtol=1e-6)
             truth = json.loads(found[meters][scene + "scene_gt.json"])["1"]
             objects = {one["obj_id"]: one["cam_t_m2c"] for one in truth}
             assert np.allclose(objects[1], np.array((-0.3, 0, 5)) * 1000 * meters, atol=1e-6 * meters)

@@ -201,7 +201,7 @@ class CopyWorldToCamera(OfScene, bpy.types.Operator):
     @reporting
     def execute(self, context):
         """Copy the matrix."""
-        context.window_manager.clipboard = _as_text(read_camera(context.scene).world_to_opencv)
+        context.window_manager.clipboard = _as_text(read_camera(context.scene).opencv_from_world)
         return {"FINISHED"}
 
 

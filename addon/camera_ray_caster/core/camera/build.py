@@ -82,6 +82,9 @@ def camera_from(raw: BlenderCamera) -> Camera:
     )
 
 
+Camera.from_record = staticmethod(camera_from)
+
+
 def _check_apart(raw: BlenderCamera, model: Model, pose: Pose) -> None:
     """Raise InputError if the pixels around the middle of the frame have the same direction in the world and the same
     point at the clip start. The message names the number that is farthest from 1. A middle without rays is accepted.

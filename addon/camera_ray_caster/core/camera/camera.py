@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, Literal, overload
+from typing import Any, ClassVar, Literal, overload
 
 import numpy as np
 
@@ -13,13 +13,15 @@ from ..arguments import numbers, shown
 from ..cameras import find_model
 from ..cameras.model import Model
 from ..cameras.parts.aperture import Aperture
-from ..cameras.parts.parameters import parameters_of, values_of, varied
+from ..cameras.parts.parameters import varied
 from ..conventions import gamma
 from ..maths.speed import lazy
-from ..maths.vector import inverse, matvec, norm
+from ..maths.vector import matvec, norm
 from ..memory import of_pixels, require
 from ..records import BlenderCamera, InputError, Pose, Raster, Rays, RaysJacobian
 from ..timeline import ONE_TIME, Timeline
+from .changed import changed
+from .description import Description
 from .evaluation import pixels_of, rays_through
 from .jacobian import of_projection, of_rays, of_settings
 from .meeting import meeting
@@ -31,13 +33,13 @@ from .sweep import rays_in_sweep
 from .times import PixelTime, SweepTime
 
 
-@dataclass(frozen=True, eq=False)
-class Camera:
+@dataclass(frozen=True, eq=False, repr=False)
+class Camera(Description):
     """A camera: a model, a pose, a raster and a clip range. It is made by ``crc.camera``, ``crc.read_camera``,
     ``crc.load_calibration`` or ``crc.camera_from_json``.
 
-    ``rays()``, ``rays_at(x, y)`` and ``project(points)`` are its main interface; ``pose``, ``K`` and
-    ``world_to_opencv`` say where it is and how it maps. Cameras compare by identity.
+    ``rays()``, ``rays_at(x, y)`` and ``project(points)`` are its main interface; ``K``, ``world_from_camera`` and
+    ``opencv_from_world`` say how it maps and where it is. Cameras with equal fields are equal.
     """
 
     name: str
@@ -55,25 +57,15 @@ class Camera:
     timeline: Timeline = ONE_TIME
     """The camera, and the shapes that it sees, at other times."""
 
+    from_record: ClassVar[Callable[[BlenderCamera], Camera]]
+    """The function of ``build`` that makes cameras."""
+
     def __post_init__(self) -> None:
         if self.model.frame != self.raster.size:
             raise InputError(
                 f"camera {self.name!r} has a raster of {self.raster.size} and a model of {self.model.frame} pixels: "
                 "make a camera of another size anew, by crc.camera"
             )
-
-    @property
-    def settings(self) -> dict[str, Any]:
-        """The values of the model's SETTINGS, by name, as plain numbers, words and lists."""
-        return values_of(find_model(self.record).SETTINGS, self.record)
-
-    @property
-    def parameters(self) -> dict[str, float]:
-        """The real numbers among the settings, by name, in the order of the model's SETTINGS: by these
-        ``project(points, jacobian="settings")`` differentiates. A vector's or polynomial's numbers have their places
-        beside the name, as in "ray_1[0]". Words, files, objects and whole numbers are none of them.
-        """
-        return parameters_of(find_model(self.record).SETTINGS, self.record)
 
     @lazy
     def _varied(self) -> Model:
@@ -93,25 +85,6 @@ class Camera:
                 )
             return made(varied(kind.SETTINGS, self.record, list(self.parameters)))
 
-    @property
-    def K(self) -> np.ndarray | None:
-        """The camera matrix, (3, 3) float64, in OpenCV's convention: y down, the origin in the center of the top left
-        pixel. With lens distortion K applies to the distorted coordinates. None for models without a camera matrix.
-        """
-        return self.model.K
-
-    @property
-    def world_to_opencv(self) -> np.ndarray:
-        """(4, 4) float64: from the world to OpenCV's camera frame, x right, y down, z ahead.
-
-        It is rigid up to the rounding of the matrix that Blender stores (float32, 1e-7), unless the camera is sheared.
-        The error of each entry is at most gamma(8) of the sum of the magnitudes times the basis's condition number.
-        """
-        result = np.diag([1.0, -1.0, -1.0, 1.0])  # from the camera's frame
-        result[:3, :3] = result[:3, :3] @ inverse(self.pose.basis)
-        result[:3, 3] = -result[:3, :3] @ self.pose.eye
-        return result
-
     def at(self, frame: float) -> Camera:
         """Return the camera at a frame, without its pixel_time."""
         motion = self.timeline.motion
@@ -122,6 +95,13 @@ class Camera:
         that is no pose, and for a camera that moves while it is exposed.
         """
         return posed(self, pose)
+
+    def with_settings(self, **settings: Any) -> Camera:
+        """Return the camera with other values of some settings, those of ``crc.camera``: all others stay. The numbers
+        of a calibration file stay, too, and the camera no longer refers to the file. Raises InputError for what
+        ``crc.camera`` refuses, and for a camera that moves while it is exposed.
+        """
+        return Camera.from_record(changed(self, settings))
 
     def from_eye(self, sampled: bool) -> bool:
         """Whether all rays leave the eye: the chief rays, or if ``sampled`` those through the whole aperture."""
@@ -230,7 +210,8 @@ class Camera:
     def rays_jacobian_at(self, x, y) -> RaysJacobian:
         """Return how the world rays through pixel coordinates x, y change there; see ``rays_at`` and ``rays_jacobian``.
 
-        The derivatives have the shape of x and y, and then 3 and 2.
+        The derivatives have the shape of x and y, and then 3 and 2. Raises InputError for a scanner, whose pixels are
+        single beams, and for what ``rays_at`` refuses.
         """
         self._check_differentiable()
         x, y, shape = given(x, y)
@@ -245,7 +226,8 @@ class Camera:
         directions by the pixel's x and y, world frame.
 
         They follow from the formula of each model: see ``camera.jacobian``, also for their accuracy. With pixel times
-        they belong to the camera at the pixel's own time, which is constant within a pixel.
+        they belong to the camera at the pixel's own time, which is constant within a pixel. Raises InputError for a
+        scanner.
         """
         return self.rays_jacobian_at(self.raster.columns(), self.raster.rows())
 
@@ -261,7 +243,8 @@ class Camera:
         angles); 0 by a number on which the picture does not depend.
 
         With pixel times and a moving camera the pixels are found by a search, with points that stand still: see
-        ``meeting``. Raises InputError for derivatives in this case, and for an array of another shape.
+        ``meeting``. Raises InputError for derivatives in this case and of a scanner, and for an array of another
+        shape.
         """
         points = numbers(points, "points")
         if points.shape[-1:] != (3,):

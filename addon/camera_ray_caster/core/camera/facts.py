@@ -50,7 +50,7 @@ def camera_facts(camera: Camera) -> dict[str, object]:
         **({} if camera.K is None else {"K": camera.K.tolist()}),
         **({"picture": _picture(camera)} if raster.size != raster.picture_size else {}),
         **({"plane_from_pixels": _plane(camera.model)} if isinstance(camera.model, WindowModel) else {}),
-        "world_to_opencv": camera.world_to_opencv.tolist(),
+        "world_to_opencv": camera.opencv_from_world.tolist(),
         "settings": dict(camera.settings),
         "formula": [step._asdict() for step in camera.model.steps],
     }

@@ -15,9 +15,14 @@ def posed(camera, matrix):
     """Return a ``Camera`` with another pose. Raises InputError for a matrix that is no pose, and for a camera that
     moves while it is exposed.
     """
-    if camera.timeline.motion is not None:
-        raise InputError(f"camera {camera.name!r} moves from pixel to pixel: give camera.at(frame) another pose")
+    check_still(camera, "pose")
     raw = replace(camera.record, matrix_world=pose_matrix(matrix))
     pose = pose_from(raw)
     model = with_eye(find_model(raw).from_blender(raw, camera.raster), raw, pose)
     return replace(camera, model=model, pose=pose, record=raw, aperture=model.aperture(raw, pose), timeline=ONE_TIME)
+
+
+def check_still(camera, what: str) -> None:
+    """Raise InputError for a camera that moves while it is exposed."""
+    if camera.timeline.motion is not None:
+        raise InputError(f"camera {camera.name!r} moves from pixel to pixel: give camera.at(frame) another {what}")

@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from ..conventions import gamma
+from ..conventions import FROM_BLENDER, gamma
 from ..maths.recording import is_recorded, look_up, vector
 from ..maths.recording.scalars import plain
 from ..maths.speed import taken
@@ -267,7 +267,7 @@ def _grid(directions, origins, kind: str, axes: str, slide: bool) -> RayGrid:
     """Return the table of some arrays, which are kept with it: the same arrays give the same table."""
     asked = (id(directions), id(origins), kind, axes, slide)
     if asked not in _latest:
-        flip = np.array((1.0, -1.0, -1.0)) if axes == OPENCV else 1.0
+        flip = FROM_BLENDER.diagonal()[:3] if axes == OPENCV else 1.0
         grid = RayGrid(directions * flip, None if origins is None else origins * flip, kind)
         if len(_latest) >= KEPT:
             _latest.clear()

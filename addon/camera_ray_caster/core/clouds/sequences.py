@@ -13,23 +13,21 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ..camera.camera import Camera
+from ..conventions import FROM_BLENDER
 from ..units import METERS, UNIT_SCALE, factor
 from .beams import FROM_CAMERA
-
-TO_CAMERA = np.diag((1.0, -1.0, -1.0, 1.0))
-"""From Blender's camera axes to x right, y down, z ahead."""
 
 
 def sequence(cameras: Sequence[Camera], seconds: Sequence[float]) -> Iterator[tuple[str, str]]:
     """Yield names and texts of the files of a sequence, given the camera and the time of each frame."""
-    from_sensor = TO_CAMERA.copy()
+    from_sensor = FROM_BLENDER.copy()
     from_sensor[:3, :3] = from_sensor[:3, :3] @ FROM_CAMERA.T
     poses = []
     for camera in cameras:
         pose = np.eye(4)
         pose[:3, :3], pose[:3, 3] = camera.pose.basis, camera.pose.eye
         pose[:3, 3] *= factor(METERS, camera.record.settings.get(UNIT_SCALE, 1.0))
-        poses.append(pose @ TO_CAMERA)
+        poses.append(pose @ FROM_BLENDER)
     first = np.linalg.inv(poses[0])
     yield "poses.txt", "".join(f"{_row(first @ pose)}\n" for pose in poses)
     yield "calib.txt", "".join(f"P{k}: {_row(np.eye(4))}\n" for k in range(4)) + f"Tr: {_row(from_sensor)}\n"

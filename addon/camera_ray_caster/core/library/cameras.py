@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from ..arguments import chosen as the_word
-from ..arguments import count, flag, keywords, number, shown, unknown, word
+from ..arguments import count, keywords, number, shown, word
 from ..arguments import name as a_name
 from ..camera import pixel_time
 from ..camera.build import camera_from
 from ..camera.calibration_file import chosen_lens
 from ..camera.camera import Camera
+from ..camera.completion import completed
+from ..camera.setting_values import checked, declared_by, line_in_words
 from ..cameras.behind_port import behind
 from ..cameras.parts.aperture import DEPTH_OF_FIELD
 from ..cameras.parts.calibration import FILE, SIZE
@@ -25,24 +26,7 @@ from ..cameras.parts.settings import RECORD_FIELDS, Line
 from ..programs.parts.lens import FRAME_SIZE, Lens
 from ..records import BlenderCamera, InputError
 from .file_poses import pose_in_file
-from .left_out import completed
 from .models import models
-from .values import a_number, line_in_words, plain, with_angles
-
-ANY_MODEL: dict[str, Callable[[Any, str], Any]] = {
-    "clip_start": lambda value, name: number(value, name, np.inf),
-    "clip_end": lambda value, name: number(value, name, np.inf),
-    "lens": lambda value, name: a_number(value, name),
-    "pixel_aspect_x": lambda value, name: a_number(value, name),
-    "pixel_aspect_y": lambda value, name: a_number(value, name),
-    "use_border": flag,
-    "use_crop_to_border": flag,
-    **dict.fromkeys(
-        ("border_min_x", "border_max_x", "border_min_y", "border_max_y"),
-        lambda value, name: max(0.0, number(value, name, 1)),
-    ),
-}
-"""Settings that every model has besides its own and those of depth of field and of pixel times, and their checks."""
 
 LARGEST_SIDE = 65536
 """Blender's largest resolution."""
@@ -80,24 +64,13 @@ def camera(model: str, size, pose=None, **settings: Any) -> Camera:
     mode = the_word(settings.pop(pixel_time.MODE.name, pixel_time.NONE), pixel_time.MODE.name, pixel_time.SETTINGS)
     port = the_word(settings.get(PORT.name, PORT.default), PORT.name, PORTS)
     kind = behind(known[model], port)
-    declared = {one.name: one for one in (*kind.SETTINGS, *DEPTH_OF_FIELD, *pixel_time.SETTINGS[mode])}
-    for key in settings:
-        with_ports = [repr(word) for word, read in PORTS.items() if key in {one.name for one in read}]
-        if with_ports and key not in declared:
-            words = " or ".join(with_ports)
-            raise InputError(f"{key} of {model} has no effect unless {PORT.name} is {words}: change one of them")
-        if key not in declared and key not in (*ANY_MODEL, PORT.name):
-            raise unknown(f"setting of {model}", key, dict.fromkeys([*declared, *ANY_MODEL, PORT.name]))
-    for one in declared.values():
-        if isinstance(one, Line) and one.name not in settings:
-            raise InputError(f"{model} needs {one.name}: {line_in_words(one)}")
+    declared = declared_by(kind, mode)
+    given = checked(model, declared, settings)
+    for setting in declared.values():
+        if isinstance(setting, Line) and setting.name not in settings:
+            raise InputError(f"{model} needs {setting.name}: {line_in_words(setting)}")
     if port == PORT.default:
-        settings.pop(PORT.name, None)
-    settings = with_angles(declared, settings)
-    given = {
-        key: plain(declared[key], value) if key in declared else ANY_MODEL[key](value, key)
-        for key, value in settings.items()
-    }
+        given.pop(PORT.name, None)
     given |= completed(model, declared, given, (width, height))
     given = {**kind.following(given), **given}
     values = {key: one.default for key, one in declared.items() if key not in RECORD_FIELDS}

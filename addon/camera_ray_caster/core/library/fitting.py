@@ -8,9 +8,9 @@ from typing import Any
 from ..arguments import chosen, deprecated, shown, unknown
 from ..camera.camera import Camera
 from ..camera.fit import Fit, fit_model, region_of
+from ..camera.setting_values import plain
 from ..records import InputError
 from .models import models
-from .values import plain
 
 
 def fit(

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..arguments import keywords, numbers, shown
 from ..cameras.parts.pose import pose_matrix
+from ..conventions import FROM_BLENDER
 from ..records import InputError
 
 
@@ -28,11 +29,11 @@ def look_at(eye, target, *, up=(0.0, 0.0, 1.0)) -> np.ndarray:
 
 def pose_from_opencv(world_to_camera) -> np.ndarray:
     """Return the pose, (4, 4) float64, of a camera given by OpenCV's matrix from the world to x right, y down, z ahead:
-    (3, 4) or (4, 4). It is the inverse of ``Camera.world_to_opencv``. Raises InputError for a matrix that is
+    (3, 4) or (4, 4). It is the inverse of ``Camera.opencv_from_world``. Raises InputError for a matrix that is
     transposed, mirrored, sheared beyond float32's rounding, or no pose for another reason, which it names.
     """
     matrix = pose_matrix(world_to_camera, "world_to_camera", world_to_camera=True)
-    return np.linalg.inv(np.diag([1.0, -1.0, -1.0, 1.0]) @ matrix)
+    return np.linalg.inv(FROM_BLENDER @ matrix)
 
 
 def _vector(value, name: str) -> np.ndarray:

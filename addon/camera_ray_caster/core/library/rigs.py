@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from .cameras import checked_path, of_lens, pair_of_pixels, size_of
 from .models import models
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class RigCamera(Camera):
     """A camera of a rig at its first frame. It is also the sequence of its cameras, one for each of its ``frames``."""
 
@@ -92,7 +92,7 @@ def _of(one: Mounted, frame: tuple[int, int] | None) -> RigCamera:
             settings = {**camera.record.settings, "frame": float(time)}
             camera = replace(camera, record=replace(camera.record, settings=settings))
         cameras.append(camera)
-    first = {name: getattr(cameras[0], name) for name in Camera.__dataclass_fields__}
+    first = {field.name: getattr(cameras[0], field.name) for field in fields(Camera)}
     return RigCamera(**first, others=() if one.frames == [None] else tuple(cameras))
 
 

@@ -13,6 +13,7 @@ from ..cameras.parts.pose import flaw_of_last_row
 from ..mesh import Mesh
 from ..records import INFINITE_PLANE, PLANE, SPHERE, InputError, Shapes, no_shapes
 from ..shapes.instances import Primitive, castable, mesh_primitive, put_in_world
+from .mesh_object import arrays_of, with_colors
 
 GRAY = 0.8, 0.8, 0.8, 1.0
 """Blender's color of a surface without a material."""
@@ -72,7 +73,7 @@ def planes(
 @keywords
 def mesh(
     vertices,
-    faces,
+    faces=None,
     *,
     normals=None,
     uv=None,
@@ -84,7 +85,9 @@ def mesh(
 ) -> Shapes:
     """Return a mesh, or several instances of it.
 
-    vertices: (v, 3). float32 is kept as it is, as Blender has it; all else becomes float64.
+    vertices: (v, 3). float32 is kept as it is, as Blender has it; all else becomes float64. Or an object with vertices
+        and faces, such as a mesh of trimesh: ``mesh(object)``, with its UV map and, unless ``color`` is given, the
+        colors of its vertices or faces.
     faces: (k, 3) triangles, (k, 4) quads, or a list of faces with any number of corners: whole numbers, the vertices of
         each face, counterclockwise as seen from its front. A face of more than three corners is cut into triangles from
         its first corner on, as fits a convex one. ``face_index`` of a pixel is the row.
@@ -96,6 +99,12 @@ def mesh(
     shapes. Raises InputError, in one line, for arrays of another shape, numbers that are not finite, and faces with
     vertices that do not exist.
     """
+    if faces is None:
+        looks = {"object_index": object_index, "material_index": material_index, "color": color, "name": name}
+        arrays = arrays_of(vertices)
+        given = {key: value for key, value in (("normals", normals), ("uv", uv)) if value is not None}
+        shapes = mesh(**(arrays | given), pose=pose, **looks)
+        return with_colors(shapes, vertices) if color is GRAY else shapes
     points = numbers(vertices, "vertices")
     if points.ndim != 2 or points.shape[1] != 3 or not np.isfinite(points).all():
         raise InputError(f"vertices are {shape_of(points)}: they must be (v, 3) finite numbers")

@@ -97,7 +97,7 @@ def _entry(view: View, content: Any) -> str:
 
 
 def _truth(view: View, one: dict[str, Any], numbers: dict[str, int]) -> dict[str, Any]:
-    matrix, millimeters = view.camera.world_to_opencv @ np.array(one["matrix"]), factor(MILLIMETERS, view.meters)
+    matrix, millimeters = view.camera.opencv_from_world @ np.array(one["matrix"]), factor(MILLIMETERS, view.meters)
     return {
         "cam_R_m2c": matrix[:3, :3].ravel().tolist(), "cam_t_m2c": (matrix[:3, 3] * millimeters).tolist(),
         "obj_id": numbers[one["category"]],

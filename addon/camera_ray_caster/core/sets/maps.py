@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ..conventions import FROM_BLENDER
 from ..records import InputError
 from ..units import MILLIMETERS, factor
 from .png import png, srgb
@@ -15,8 +16,6 @@ from .reading import View
 MOST = 65535
 SHOWN = "combined", "depth", "distance", "shape_index", "object_index", "normal"
 """Passes of which a preview shows those that there are."""
-
-OPENCV = np.array((1.0, -1.0, -1.0))
 
 
 def depth16(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
@@ -43,7 +42,8 @@ def normals(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
     of a render border.
     """
     for view in views:
-        turned = view.framed(view.pixels("normal").astype(np.float64) @ view.camera.pose.basis * OPENCV)
+        opencv_from_world = FROM_BLENDER[:3, :3] @ view.camera.pose.basis.T
+        turned = view.framed(view.pixels("normal").astype(np.float64) @ opencv_from_world.T)
         yield f"{view.name}_normal.png", png(np.round((turned + 1) / 2 * MOST).astype(np.uint16)[::-1])
 
 

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...conventions import FROM_BLENDER as FROM_BLENDER  # programs take it from here
 from ...maths.rotations import from_quaternion
 from ...text_forms.content import flat
 from .fields import Fields
@@ -21,9 +22,6 @@ SHORTEST = 1e-100
 
 NOT_TURNED = 1e-3
 """Largest departure of a rotation's products of columns from those of a rotation: files have from 4 digits on."""
-
-FROM_BLENDER = np.diag((1.0, -1.0, -1.0, 1.0))
-"""From Blender's camera frame, y up and z back, to that of files; the same the other way."""
 
 
 class Placed(NamedTuple):

@@ -29,7 +29,7 @@ def completed(model: str, declared: Settings, given: Values, frame: tuple[int, i
     values: dict[str, Any] = {}
     for name in given:
         if name in declared:
-            _check_effect(model, declared, given, declared[name])
+            check_effect(model, declared, given, declared[name])
     for one in declared.values():
         if one.name in given or one.partner not in given or not _has_effect(declared, given, one):
             continue
@@ -58,7 +58,7 @@ def completed(model: str, declared: Settings, given: Values, frame: tuple[int, i
     return {name: value for name, value in values.items() if name not in given}
 
 
-def _check_effect(model: str, declared: Settings, given: Values, setting: Setting) -> None:
+def check_effect(model: str, declared: Settings, given: Values, setting: Setting) -> None:
     """Raise InputError for a setting that has no effect, unless its value is the default."""
     for name, value in setting.used_with:
         is_other = name in declared and given.get(name, declared[name].default) != value

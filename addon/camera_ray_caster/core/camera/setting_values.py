@@ -10,11 +10,53 @@ from typing import Any
 
 import numpy as np
 
-from ..arguments import flag, numbers, shape_of, shown, word
+from ..arguments import flag, number, numbers, shape_of, shown, unknown, word
+from ..cameras.model import Model
+from ..cameras.parts.aperture import DEPTH_OF_FIELD
+from ..cameras.parts.port_settings import PORT
+from ..cameras.parts.port_settings import SETTINGS as PORTS
 from ..cameras.parts.scanners import Angles
 from ..cameras.parts.settings import Coefficients, Line, Setting, Whole
 from ..memory import require
 from ..records import InputError
+from . import pixel_time
+
+ANY_MODEL: dict[str, Callable[[Any, str], Any]] = {
+    "clip_start": lambda value, name: number(value, name, np.inf),
+    "clip_end": lambda value, name: number(value, name, np.inf),
+    "lens": lambda value, name: a_number(value, name),
+    "pixel_aspect_x": lambda value, name: a_number(value, name),
+    "pixel_aspect_y": lambda value, name: a_number(value, name),
+    "use_border": flag,
+    "use_crop_to_border": flag,
+    **dict.fromkeys(
+        ("border_min_x", "border_max_x", "border_min_y", "border_max_y"),
+        lambda value, name: max(0.0, number(value, name, 1)),
+    ),
+}
+"""Settings that every model has besides its own and those of depth of field and of pixel times, and their checks."""
+
+
+def declared_by(kind: type[Model], mode: str) -> dict[str, Setting]:
+    """Return the settings of a camera by name: those of its model, of depth of field and of a mode of pixel times."""
+    return {setting.name: setting for setting in (*kind.SETTINGS, *DEPTH_OF_FIELD, *pixel_time.SETTINGS[mode])}
+
+
+def checked(model: str, declared: Mapping[str, Setting], settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Return settings of a camera as records hold them. Raises InputError for one that does not exist, and for a value
+    of another type.
+    """
+    for key in settings:
+        with_ports = [repr(word) for word, read in PORTS.items() if key in {setting.name for setting in read}]
+        if with_ports and key not in declared:
+            words = " or ".join(with_ports)
+            raise InputError(f"{key} of {model} has no effect unless {PORT.name} is {words}: change one of them")
+        if key not in declared and key not in (*ANY_MODEL, PORT.name):
+            raise unknown(f"setting of {model}", key, dict.fromkeys([*declared, *ANY_MODEL, PORT.name]))
+    return {
+        key: plain(declared[key], value) if key in declared else ANY_MODEL.get(key, word)(value, key)
+        for key, value in with_angles(declared, settings).items()
+    }
 
 
 def with_angles(declared: Mapping[str, Setting], given: Mapping[str, Any]) -> dict[str, Any]:
@@ -37,7 +79,7 @@ def with_angles(declared: Mapping[str, Setting], given: Mapping[str, Any]) -> di
 
 def plain(setting: Setting, value: Any) -> Any:
     """Return a value as records hold it. Raises InputError, which names the setting, for one of another type."""
-    return KINDS[setting.kind](setting, value)
+    return CONVERSIONS[setting.kind](setting, value)
 
 
 def a_number(value, name: str) -> float:
@@ -51,17 +93,17 @@ def a_number(value, name: str) -> float:
 
 
 def _whole(setting: Whole, value) -> float:
-    found = a_number(value, setting.name)
-    if not float(found).is_integer():  # nor are NaN and infinity
+    whole = a_number(value, setting.name)
+    if not float(whole).is_integer():  # nor are NaN and infinity
         raise InputError(f"{setting.name} is {shown(value)}: it must be a whole number")
-    return found
+    return whole
 
 
 def _numbers(setting: Setting, value) -> tuple[float, ...]:
-    found = numbers(value, setting.name)
-    if found.ndim != 1:
-        raise InputError(f"{setting.name} is of shape {found.shape}: it must be a list of numbers")
-    return tuple(found.tolist())
+    vector = numbers(value, setting.name)
+    if vector.ndim != 1:
+        raise InputError(f"{setting.name} is of shape {vector.shape}: it must be a list of numbers")
+    return tuple(vector.tolist())
 
 
 def _text(setting: Setting, value) -> str:
@@ -107,12 +149,12 @@ def _image(setting: Setting, value) -> np.ndarray:
 def _vectors(setting: Setting, value) -> np.ndarray | None:
     if value is None:
         return None
-    given = numbers(value, setting.name)
-    require(2 * given.size * given.itemsize, f"the numbers of {setting.name}", "give a coarser table")
-    return given.copy()  # so that it stays as it is
+    vectors = numbers(value, setting.name)
+    require(2 * vectors.size * vectors.itemsize, f"the numbers of {setting.name}", "give a coarser table")
+    return vectors.copy()  # so that it stays as it is
 
 
-KINDS: dict[str, Callable[[Any, Any], Any]] = {
+CONVERSIONS: dict[str, Callable[[Any, Any], Any]] = {
     "FLOAT": lambda setting, value: a_number(value, setting.name),
     "INT": _whole,
     "BOOLEAN": lambda setting, value: flag(value, setting.name),

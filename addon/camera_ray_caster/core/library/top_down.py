@@ -1,0 +1,60 @@
+"""Pictures in the conventions of other programs, with row 0 at the top: rows, flow, pixels and the camera matrix."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..casting.images import Images
+
+OFFSETS = "flow_forward", "flow_backward"
+"""Passes whose last axis is an offset in pixels, x and y."""
+
+
+class TopDown(dict[str, np.ndarray]):
+    """Passes by name with row 0 at the top and y down, C-contiguous, and the camera in the same pixels."""
+
+    camera: Camera | None = None
+    """The camera of the pictures; None of arrays that no cast returned."""
+
+    @property
+    def K(self) -> np.ndarray | None:
+        """The camera matrix, (3, 3), of these pictures: pixel (0, 0) is the center of the top left one, also of a
+        render border. None for models without a camera matrix.
+        """
+        if self.camera is None or self.camera.K is None:
+            return None
+        matrix = self.camera.K.copy()
+        matrix[:2, 2] -= self._corner(self.camera)
+        return matrix
+
+    def project(self, points) -> np.ndarray:
+        """Return the pixels (..., 2), x right and y down from the center of the top left one, of world points (..., 3);
+        see ``Camera.project``.
+        """
+        if self.camera is None:
+            raise TypeError("these pictures have no camera: use top_down(images) of a cast")
+        x, y = np.moveaxis(self.camera.project(points), -1, 0)
+        return np.stack((x - 0.5, self.camera.height - 0.5 - y), axis=-1) - self._corner(self.camera)
+
+    @staticmethod
+    def _corner(camera: Camera) -> tuple[int, int]:
+        """Return the columns left of the pictures, and the rows above."""
+        return camera.raster.x0, camera.raster.height - camera.raster.y1
+
+
+def top_down(images: Mapping[str, np.ndarray]) -> TopDown:
+    """Return the pictures of a cast, or other passes by name, as OpenCV and most programs have them: row 0 at the top,
+    y down, offsets of flow as well, in new C-contiguous arrays. ``K`` and ``project`` of the result are for its pixels.
+
+    Positions, normals and all other values are in the world, as before.
+    """
+    turned = TopDown()
+    turned.camera = images.camera if isinstance(images, Images) else None
+    for name, image in images.items():
+        turned[name] = np.ascontiguousarray(np.asarray(image)[::-1])
+        if name in OFFSETS:
+            turned[name] = turned[name] * np.array((1, -1), turned[name].dtype)
+    return turned

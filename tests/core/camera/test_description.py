@@ -1,0 +1,132 @@
+"""What a camera says of itself, which cameras are equal, and cameras with other settings."""
+
+from pathlib import Path
+from subprocess import run
+from sys import executable
+
+import numpy as np
+import pytest
+
+import camera_ray_caster as crc
+
+SIZE = 640, 480
+LENS = {"fx": 210.0, "fy": 211.0, "cx": 300.0, "cy": 239.0, "k1": 0.1}
+POSE = crc.look_at((1, 2, 3), (0, 0, 0))
+
+
+def fisheye(**changed):
+    return crc.camera("OPENCV_FISHEYE", SIZE, POSE, **(LENS | changed))
+
+
+def test_equal_cameras_are_equal():
+    assert fisheye() == fisheye()
+    assert len({fisheye(), fisheye(), fisheye(k1=0.2), fisheye(name="other")}) == 3
+    assert fisheye() != fisheye().with_pose(np.eye(4))
+    assert fisheye() != "camera"
+    table = np.array([[(0, 0, -1.0), (0.1, 0, -1)], [(0, 0.1, -1), (0.1, 0.1, -1)]])
+    first, second, third = (
+        crc.camera("RAY_TABLE", (8, 8), ray_directions=rays) for rays in (table, table + 0, table[::-1])
+    )
+    assert first == second
+    assert first != third
+
+
+def test_a_camera_is_one_line_with_its_own_settings():
+    line = repr(fisheye(name="left"))
+    assert "\n" not in line
+    for words in ("'left'", "OPENCV_FISHEYE", "640 x 480", "fx=210.0", "k1=0.1", "at (1, 2, 3)"):
+        assert words in line
+    assert "pitch" not in line
+    assert "lens=35.0" in repr(crc.camera("PERSP", SIZE, lens=35.0))
+    assert "lens" not in repr(crc.camera("PERSP", SIZE))
+
+
+def test_matrices_and_size():
+    camera = fisheye()
+    assert (camera.width, camera.height) == SIZE
+    np.testing.assert_allclose(camera.world_from_camera, POSE, atol=1e-15)
+    axes = np.linalg.inv(camera.world_from_camera) @ np.linalg.inv(camera.opencv_from_world)
+    np.testing.assert_allclose(axes, np.diag((1, -1, -1, 1)), atol=1e-15)
+    assert np.array_equal(camera.world_to_opencv, camera.opencv_from_world)
+
+
+@pytest.mark.parametrize(
+    ("key", "before", "after"),
+    [
+        ("OPENCV_FISHEYE", LENS, {"k1": 0.2, "clip_end": 9.0}),
+        ("PERSP", {"lens": 20.0}, {"lens": 35.0, "use_dof": True, "focus_distance": 3.0}),
+        ("PUSHBROOM", {"slit_1": [(0, 0, 8), (0, 1, 0)]}, {"slit_1": [(0, 1, 8), (0, 1, 0)], "lens": 40.0}),
+        ("PERSP", {}, {"port": "flat", "port_distance": 10.0}),
+        ("PERSP", {"lens": 20.0}, {"time_mode": "rolling_shutter", "name": "b", "frame": 3.0}),
+        ("SCANNER", {"scanner_device": "VLP_16"}, {"scanner_rate": 5.0}),
+    ],
+)
+def test_other_settings_are_those_of_a_new_camera(key, before, after):
+    assert crc.camera(key, (64, 48), POSE, **before).with_settings(**after).rays_at(20, 10).directions == pytest.approx(
+        crc.camera(key, (64, 48), POSE, **(before | after)).rays_at(20, 10).directions, abs=0
+    )
+    assert (
+        crc.camera(key, (64, 48), POSE, **before).with_settings().settings
+        == crc.camera(key, (64, 48), POSE, **before).settings
+    )
+
+
+def test_settings_of_a_file_stay_when_one_is_changed(tmp_path):
+    (path,) = crc.export(fisheye(), tmp_path / "left.yml").paths
+    read = crc.load_calibration(path, pose=POSE, model="OPENCV_FISHEYE")
+    changed = read.with_settings(k1=0.2)
+    assert changed.settings["calibration_file"] == ""
+    np.testing.assert_array_equal(changed.rays_at(20, 10).directions, fisheye(k1=0.2).rays_at(20, 10).directions)
+
+
+def test_what_cannot_be_changed_is_refused_in_one_line():
+    for settings, said in {
+        ("foo", 1): "unknown setting",
+        ("lens", 3.0): "no effect unless",
+        ("fx", -1.0): "fx",
+    }.items():
+        with pytest.raises(crc.InputError, match=said):
+            fisheye().with_settings(**dict([settings]))
+
+
+@pytest.mark.parametrize(("name", "use"), {"near": "clip_start", "unproject": "rays_at", "fov": "settings"}.items())
+def test_names_of_other_libraries_lead_to_the_right_one(name, use):
+    with pytest.raises(AttributeError, match=f"no {name}: use {use}"):
+        getattr(fisheye(), name)
+    assert not hasattr(fisheye(), name)
+
+
+@pytest.mark.parametrize(("name", "use"), {"load_mesh": "mesh", "render": "cast", "undistort": "export"}.items())
+def test_functions_of_other_libraries_lead_to_the_right_one(name, use):
+    with pytest.raises(AttributeError, match=rf"use {use}\("):
+        getattr(crc, name)
+
+
+def test_a_type_checker_sees_what_is_there_and_nothing_else(tmp_path):
+    pytest.importorskip("mypy")
+    lines = [
+        "import camera_ray_caster as crc",
+        "fit: type[crc.Fit]",
+        "rays: type[crc.Rays]",
+        "images: type[crc.Images]",
+    ]
+    lines += ["def seen(scene: crc.Scene) -> float: return float(crc.visible(scene, [(0, 0, 1)])[0])"]
+    (tmp_path / "good.py").write_text("\n".join(lines))
+    (tmp_path / "bad.py").write_text(
+        "import camera_ray_caster as crc\ncrc.load_mesh\ncrc.camera('PERSP', (1, 1)).near\n"
+    )
+    command = [
+        executable,
+        "-m",
+        "mypy",
+        "--strict",
+        "--follow-imports=silent",
+        f"--cache-dir={tmp_path}",
+        "good.py",
+        "bad.py",
+    ]
+    path = str(Path(crc.__file__).parents[1])
+    said = run(
+        command, cwd=tmp_path, env={"MYPYPATH": path, "PATH": ""}, capture_output=True, text=True, check=False
+    ).stdout
+    assert [line.split(":")[0] for line in said.splitlines()[:-1]] == ["bad.py", "bad.py"], said

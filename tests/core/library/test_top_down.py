@@ -1,0 +1,43 @@
+"""Pictures with row 0 at the top against OpenCV's own arithmetic: the pixel of a point by K and the pose."""
+
+import numpy as np
+import pytest
+
+import camera_ray_caster as crc
+
+POSE = crc.look_at((3, -4, 2.5), (0, 0, 0.5))
+BALL = crc.spheres([(0.2, 0.1, 0.6)], 0.5)
+
+
+@pytest.mark.parametrize("border", [{}, {"use_border": True, "border_min_x": 0.25, "border_max_y": 0.75}])
+def test_rows_pixels_k_and_flow_belong_together(border):
+    camera = crc.camera("OPENCV_PINHOLE", (64, 48), POSE, fx=60.0, fy=61.0, cx=30.0, cy=25.0, **border)
+    moved = crc.spheres([(0.3, 0.15, 0.7)], 0.5)
+    scene = crc.Scene(camera, BALL).with_timeline(next=crc.Scene(camera, moved))
+    images = crc.cast(scene, passes=("position", "flow_forward", "shape_index"), dtype=np.float64)
+    turned = crc.top_down(images)
+    assert all(image.flags.c_contiguous for image in turned.values())
+    assert turned["position"].dtype == images["position"].dtype
+    row, column = np.nonzero(turned["shape_index"] == 0)
+    assert len(row) > 100
+    position = turned["position"][row, column]
+
+    def pixels_of(points):
+        seen = points @ camera.opencv_from_world[:3, :3].T + camera.opencv_from_world[:3, 3]
+        return (seen / seen[:, 2:]) @ turned.K[:2].T
+
+    np.testing.assert_allclose(pixels_of(position), np.stack((column, row), axis=1), atol=1e-9)
+    np.testing.assert_allclose(turned.project(position), np.stack((column, row), axis=1), atol=1e-9)
+    then = position + np.array((0.1, 0.05, 0.1))
+    flow = turned["flow_forward"][row, column]
+    np.testing.assert_allclose(pixels_of(then) - pixels_of(position), flow, atol=1e-9)
+    assert (flow[:, 1] < 0).mean() > 0.9, "the ball rises: y, which points down, falls"
+
+
+def test_arrays_without_a_camera_and_models_without_a_matrix():
+    turned = crc.top_down({"depth": np.arange(6.0).reshape(3, 2)})
+    assert turned["depth"].tolist() == [[4, 5], [2, 3], [0, 1]]
+    assert turned.K is None
+    with pytest.raises(TypeError, match="no camera"):
+        turned.project((0, 0, 1))
+    assert crc.top_down(crc.cast(crc.camera("EQUIRECTANGULAR", (8, 4)), BALL)).K is None
