@@ -6,6 +6,7 @@ It holds the programs of all models and the files of ``page_files``.
 from __future__ import annotations
 
 import json
+import re
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -58,6 +59,9 @@ HELD = {
     ),
 }  # fmt: skip
 """Settings that are no knobs: each of their variants holds the table, or the traced lens, again."""
+
+SPACES = re.compile(r"\n +| (?:[=*/+?:<>]|[<>=]=|&&|\|\|) |, ")
+"""What ``dense`` shortens: a seventh of the page."""
 
 FILES = Path(__file__).with_name("page_files")
 SCRIPTS = "formula", "scene", "picture", "space", "state", "own", "glass", "main"
@@ -136,6 +140,11 @@ def example(model: type[Model], **settings: Any) -> Camera:
     return made(FRAME if shape is None else within(*FRAME, shape))
 
 
+def dense(code: str) -> str:
+    """Return JavaScript or GLSL without indentation and without spaces around operators, but for minus: "a - -b"."""
+    return SPACES.sub(lambda space: space[0].strip(" "), code)
+
+
 class _Tables:
     """Lists of functions, each of which is written once."""
 
@@ -143,7 +152,8 @@ class _Tables:
         self.texts: dict[str, list[str]] = {name: [] for name in (*TABLES.values(), "GLSL")}
 
     def place(self, name: str, text: str) -> int:
-        """Return the place of a text in a list, to which it is added if it is new."""
+        """Return the place of a text in a list, to which it is added if it is new, without the spaces of no use."""
+        text = dense(text)
         if text not in self.texts[name]:
             self.texts[name].append(text)
         return self.texts[name].index(text)
