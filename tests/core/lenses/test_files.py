@@ -37,6 +37,26 @@ def zemax(rows=ROWS, unit="MM", size=1.0):
     return "\n".join([*lines, f"SURF {len(rows) + 1}", "  DISZ 0"])
 
 
+def rayoptics(rows=ROWS, profile="Spherical", **more):
+    """As RayOptics saves it, but for what is of no use here."""
+
+    def made(kind, **attributes):
+        return {"__instance_type__": ["rayoptics", kind], "attributes": attributes}
+
+    surfaces = [(0.0, 1e10, 1.0, 0.0), *rows, (0.0, 0.0, 1.0, 40.0)]
+    ifcs, gaps, profiles = [], [], {}
+    for place, (radius, gap, index, diameter) in enumerate(surfaces):
+        asphere = more if place == 1 else {"coefs": []}
+        profiles[str(place)] = made(profile, cv=1 / radius if radius else 0.0, **asphere)
+        ifcs.append(made("Surface", profile_id=place, max_aperture=diameter / 2, clear_apertures=[], decenter=None,
+                         interact_mode="transmit"))  # fmt: skip
+        medium = made("ModelGlass", n=index, v=60.0) if index > 1 else made("Air")
+        gaps.append(made("Gap", thi=gap, medium=medium))
+    sequence = made("SequentialModel", ifcs=ifcs, gaps=gaps[:-1], stop_surface=1 + [row[0] for row in rows].index(0.0))
+    system = made("SystemSpec", title="doublet", _dimensions="mm")
+    return json.dumps({"optical_model": made("", seq_model=sequence, system_spec=system, profile_dict=profiles)})
+
+
 def pbrt(rows=ROWS):
     return "\n".join("  ".join(map(str, row)) for row in rows) + "\n"
 
@@ -55,8 +75,9 @@ def lens_of(folder, text, name="lens.txt"):
 
 @pytest.mark.parametrize(
     "text",
-    [pbrt(), kolb(), optical_bench(), isetcam(), zemax(), zemax(unit="IN", size=25.4), zemax().encode("utf-16")],
-    ids=["pbrt", "kolb", "optical_bench", "isetcam", "zemax", "zemax-inches", "zemax-utf16"],
+    [pbrt(), kolb(), optical_bench(), isetcam(), rayoptics(), zemax(), zemax(unit="IN", size=25.4),
+     zemax().encode("utf-16")],
+    ids=["pbrt", "kolb", "optical_bench", "isetcam", "rayoptics", "zemax", "zemax-inches", "zemax-utf16"],
 )
 def test_a_lens_is_the_same_in_each_format(tmp_path, text):
     lens = lens_of(tmp_path, text)
@@ -84,6 +105,13 @@ def test_coefficients_of_aspheres_have_the_powers_that_the_file_says(tmp_path, c
     lens = lens_of(tmp_path, optical_bench(extra=constants + "[aspherical data]\n1\t60\t-0.5\t1e-5\t2e-8\n"))
     assert lens.rows[0].conic == -0.5
     assert lens.rows[0].asphere == ((powers[0], 1e-5), (powers[1], 2e-8))
+
+
+def test_polynomials_of_rayoptics_are_of_r_or_of_its_square(tmp_path):
+    odd = lens_of(tmp_path, rayoptics(profile="RadialPolynomial", ec=0.5, coefs=[0.0, 0.0, 1e-5, 2e-7])).rows[0]
+    even = lens_of(tmp_path, rayoptics(profile="EvenPolynomial", cc=-0.5, coefs=[0.0, 1e-5]), "even.roa").rows[0]
+    assert (odd.conic, odd.asphere) == (-0.5, ((3, 1e-5), (4, 2e-7)))
+    assert (even.conic, even.asphere) == (-0.5, ((4, 1e-5),))
 
 
 def test_a_placeholder_is_not_the_index_of_a_catalog_glass(tmp_path):
@@ -132,8 +160,12 @@ def test_a_plane_of_a_plate_is_not_the_stop(tmp_path, ior):
         (zemax().replace("___BLANK", "MIRROR", 1), "surface 1 is a MIRROR"),
         (zemax().replace("  STOP\n", ""), "no surface is the stop"),
         (zemax().replace("UNIT MM", "UNIT FEET"), "its unit is 'FEET'"),
+        (rayoptics().replace("transmit", "reflect", 2), "surface 0 is a Spherical, reflect"),
+        (rayoptics().replace('"stop_surface": 4', '"stop_surface": 9'), "its stop_surface is none of its surfaces"),
+        (rayoptics().replace('"n": 1.52', '"gname": "X"'), "txt': surface 1 has the medium X without its index"),
+        (rayoptics().replace("profile_id", "profile"), "its sequential model cannot be read"),
     ],
-    ids=range(16),
+    ids=range(20),
 )
 def test_what_is_no_lens_is_refused_in_one_line_that_names_the_file(tmp_path, text, words):
     with pytest.raises(crc.InputError, match=words) as caught:
@@ -154,7 +186,7 @@ def test_a_file_that_is_missing_is_refused_with_the_lenses_of_the_library():
 
 
 def test_damaged_files_end_in_a_lens_or_in_one_line(tmp_path):
-    for text in (pbrt(), optical_bench(), isetcam(), zemax()):
+    for text in (pbrt(), optical_bench(), isetcam(), rayoptics(), zemax()):
         for end in range(0, len(text), 17):
             for damaged in (text[:end], text[:end] + "x" + text[end:], text[:end] + "-" + text[end + 3 :]):
                 with suppress(crc.InputError):  # any other error is a failure
