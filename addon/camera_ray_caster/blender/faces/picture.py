@@ -22,6 +22,7 @@ from ...core.camera.camera import Camera
 from ...core.camera.stereo import eye_record
 from ...core.casting.needs import image_bytes
 from ...core.faces.faces import Face, faces_of, refusal, turn_of
+from ...core.faces.lens_points import LensPoint, blur_refusal, lens_points
 from ...core.faces.resample import FINER, resampled
 from ...core.memory import of_pixels, require
 from ...core.records import InputError
@@ -45,7 +46,8 @@ IMAGE = {
 """Settings of the files of faces, in the order in which they can be set; Blender before 5.0 has no media_type."""
 FAILED = "{} did not render a face: {}"
 MATCAP = "A MatCap turns with each face of the picture, so that brightness jumps: choose Studio or Flat lighting"
-NO_BLUR = "Depth of field is left out: the picture is rendered from the center of the lens"
+NO_BLUR = "Depth of field is left out: {}"
+ONE_SAMPLE = "with 1 sample every ray passes through the center of the aperture; raise Samples of the Ray Caster"
 
 
 @dataclass(frozen=True)
@@ -79,15 +81,20 @@ def picture_of(scene, engine: str, samples: int = 0) -> FacesPicture:
     eyes = {view: _eye(scene, view, engine) for view in view_names(scene)}
     with _prepared(scene, engine, samples):
         for view, (active, camera) in eyes.items():
-            if camera.aperture is not None:
-                warnings.append(NO_BLUR)
+            points, why = _lens(scene, camera)
+            if why:
+                warnings.append(NO_BLUR.format(why))
             raster = camera.raster
-            faces = faces_of(camera, 1 / FINER, part=(raster.x0, raster.y0, raster.x1, raster.y1))
-            sizes += [face.size for face in faces]
+            part = raster.x0, raster.y0, raster.x1, raster.y1
+            every = [(faces_of(camera, 1 / FINER, part=part, lens=point), point) for point in points]
+            sizes += [face.size for faces, _ in every for face in faces]
             require(image_bytes(raster.shape, ["combined"], np.float32), of_pixels("the picture", raster.shape))
             for layer in [layer for layer in scene.view_layers if layer.use]:
-                rendered = [_rendered(scene, active, camera, face, layer, engine) for face in faces]
-                pixels[layer.name, view] = resampled(camera, faces, rendered)
+                picture = np.zeros((*raster.shape, 4), np.float32)
+                for faces, point in every:
+                    rendered = [_rendered(scene, active, camera, face, point, layer, engine) for face in faces]
+                    picture += resampled(camera, faces, rendered, point) / len(points)
+                pixels[layer.name, view] = picture
     if engine == WORKBENCH and scene.display.shading.light == "MATCAP":
         warnings.append(MATCAP)
     texels = sum(width * height for width, height in sizes)
@@ -138,13 +145,24 @@ def _prepared(scene, engine: str, samples: int) -> Iterator[None]:
         yield
 
 
-def _rendered(scene, active, camera: Camera, face: Face, layer, engine: str) -> np.ndarray:
+def _lens(scene, camera: Camera) -> tuple[tuple[LensPoint | None, ...], str]:
+    """Return the points of the aperture that are rendered from, and why there is only its center; "" if it has no
+    other.
+    """
+    samples = scene.camera_ray_caster.samples
+    if camera.aperture is None:
+        return (None,), ""
+    why = blur_refusal(camera) or ("" if samples > 1 else ONE_SAMPLE)
+    return ((None,), why) if why else (lens_points(camera, samples), "")
+
+
+def _rendered(scene, active, camera: Camera, face: Face, point, layer, engine: str) -> np.ndarray:
     """Return the pixels of a face, (height, width, 4) float32, row 0 at the bottom."""
     raise_if_stopping()
     used = [other for other in scene.view_layers if other.use]
     path = Path(bpy.app.tempdir) / "face.exr"
     with ExitStack() as stack:
-        item = _camera_of(stack, scene, active, camera, face)
+        item = _camera_of(stack, scene, active, camera, face, point)
         for other in used:
             changed(stack, other, use=other == layer)
         (left, right, bottom, top), (width, height) = face.window, face.size
@@ -161,8 +179,10 @@ def _rendered(scene, active, camera: Camera, face: Face, layer, engine: str) -> 
     return _read(path, face, engine)
 
 
-def _camera_of(stack: ExitStack, scene, active, camera: Camera, face: Face):
-    """Return a camera object that sees a face, a child of the scene's camera, until the stack is closed."""
+def _camera_of(stack: ExitStack, scene, active, camera: Camera, face: Face, point: LensPoint | None):
+    """Return a camera object that sees a face from a point of the aperture, a child of the scene's camera, until the
+    stack is closed.
+    """
     data = bpy.data.cameras.new("Face")
     stack.callback(bpy.data.cameras.remove, data)
     item = bpy.data.objects.new("Face", data)
@@ -175,7 +195,10 @@ def _camera_of(stack: ExitStack, scene, active, camera: Camera, face: Face):
     data.shift_x, data.shift_y = (left + right) / 2 / width, (bottom + top) / 2 / width
     data.clip_start, data.clip_end = camera.clip_start / face.reach, camera.clip_end
     world = np.eye(4)
-    world[:3, :3], world[:3, 3] = turn_of(camera) @ face.axes.T, camera.pose.eye
+    turn = turn_of(camera)
+    world[:3, :3], world[:3, 3] = turn @ face.axes.T, camera.pose.eye
+    if point is not None:
+        world[:3, 3] += turn @ np.array(point.place)
     item.parent = active
     item.matrix_basis = Matrix(np.linalg.inv(np.array(active.matrix_world)) @ world)
     return item

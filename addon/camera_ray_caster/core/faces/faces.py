@@ -17,6 +17,7 @@ import numpy as np
 
 from ..camera.camera import Camera
 from ..records import InputError
+from .lens_points import LensPoint
 
 WIDEST = tan(np.radians(50.0))
 """Half the width of the widest face, on the plane one unit ahead."""
@@ -94,11 +95,14 @@ def refusal(camera: Camera) -> str:
     return "" if camera.model.differentiable else f"the pixels of {camera.model.label} are single beams"
 
 
-def faces_of(camera: Camera, pixel: float = 1.0, most: int = 4096, part: Part | None = None) -> tuple[Face, ...]:
+def faces_of(
+    camera: Camera, pixel: float = 1.0, most: int = 4096, part: Part | None = None, lens: LensPoint | None = None
+) -> tuple[Face, ...]:
     """Return the faces that hold a camera's picture; none if no pixel has a ray.
 
     pixel: side of a pixel of the picture that is made of them, in pixels of the camera. most: largest side of a face.
-    part: left, bottom, right and top of the pixels that are needed; default the full frame. The frame of the faces is
+    part: left, bottom, right and top of the pixels that are needed; default the full frame. lens: the point of the
+    aperture from which the faces are seen; default its center. The frame of the faces is
     that of ``turn_of``. Raises InputError for a camera that has a ``refusal``.
     """
     if reason := refusal(camera):
@@ -107,6 +111,8 @@ def faces_of(camera: Camera, pixel: float = 1.0, most: int = 4096, part: Part | 
     directions, by_x, by_y = _seen(camera, np.linspace(left, right, SAMPLES + 1), np.linspace(bottom, top, SAMPLES + 1))
     if not len(directions):
         return ()
+    if lens is not None:
+        directions = lens.directions(directions)
     steps = (right - left) / SAMPLES, (top - bottom) / SAMPLES
     reach = np.hypot(*(np.linalg.norm(by, axis=-1) * step for by, step in zip((by_x, by_y), steps, strict=True)))
     only = _face(AHEAD, directions, by_x, by_y, reach, pixel, most, WIDEST)

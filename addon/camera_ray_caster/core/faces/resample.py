@@ -15,6 +15,7 @@ import numpy as np
 from ..camera.camera import Camera
 from ..camera.pixels import in_blocks
 from .faces import Face, chosen, turn_of
+from .lens_points import LensPoint
 
 SIDE = 2
 """Places across a pixel."""
@@ -27,11 +28,13 @@ BLOCK_PIXELS = 1 << 16
 """Pixels that are made at once."""
 
 
-def resampled(camera: Camera, faces: Sequence[Face], pictures: Sequence[np.ndarray]) -> np.ndarray:
+def resampled(
+    camera: Camera, faces: Sequence[Face], pictures: Sequence[np.ndarray], lens: LensPoint | None = None
+) -> np.ndarray:
     """Return the picture of a camera's render window, (rows, columns, channels) float32, row 0 at the bottom.
 
     pictures: of the faces, (height, width, channels) float32 with premultiplied alpha, row 0 at the bottom, made of the
-    camera as it is at one time.
+    camera as it is at one time. lens: the point of the aperture from which they are seen; default its center.
     """
     still, turn, raster = replace(camera, pixel_time=None), turn_of(camera), camera.raster
     result = np.zeros((*raster.shape, pictures[0].shape[-1] if pictures else 4), np.float32)
@@ -42,7 +45,8 @@ def resampled(camera: Camera, faces: Sequence[Face], pictures: Sequence[np.ndarr
         for up in offsets:
             for right in offsets:
                 rays = still.rays_at(x + right, y[rows] + up)
-                colors = _colors(faces, pictures, rays.directions[rays.valid] @ turn)
+                directions = rays.directions[rays.valid] @ turn
+                colors = _colors(faces, pictures, directions if lens is None else lens.directions(directions))
                 result[rows][rays.valid] += colors / SIDE**2
         result[rows][~still.rays_at(x, y[rows]).valid] = 0.0
 
