@@ -5,6 +5,7 @@
     python scripts/benchmark.py --meshes        triangle meshes, also against Open3D
     python scripts/benchmark.py --models        rays and pictures of every camera model
     python scripts/benchmark.py --redraws       every camera model in scenes of triangles, by processor time
+    python scripts/benchmark.py --rays          rays given as arrays, beside filling these, and beside Open3D
     python scripts/benchmark.py --passes        each pass beside writing its array alone
     python scripts/benchmark.py --casts         whole casts beside writing their arrays; one thread and two
     python scripts/benchmark.py --renders --size 3840x2160    F12 beside the cast alone, and beside Blender's own share

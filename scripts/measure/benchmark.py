@@ -27,6 +27,7 @@ def main(description: str) -> int:
     parser.add_argument(
         "--models", action="store_true", help="measure ray generation and casting for every camera model"
     )
+    parser.add_argument("--rays", action="store_true", help="measure rays given as arrays, by processor time")
     parser.add_argument(
         "--redraws", action="store_true", help="measure the pictures of a viewport, 574x287, of every camera model"
     )
@@ -86,6 +87,10 @@ def main(description: str) -> int:
         from . import by_model
 
         figures = by_model.run(width, height, rounds, options.threads)
+    elif options.rays:
+        from . import given_rays
+
+        figures = given_rays.run(rounds, options.quick)
     elif options.redraws:
         from . import redraws
 

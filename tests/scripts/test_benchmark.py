@@ -126,3 +126,15 @@ def test_sets_are_measured(monkeypatch, capsys):
     assert 50 < few["peak"] < 5000
     assert 5e3 < many["json"] < 20e3  # report and annotations; 63 kB before what is common was in dataset.json
     assert "each further picture" in capsys.readouterr().out
+
+
+@pytest.mark.full
+def test_rays_are_timed_beside_their_arrays(tmp_path):
+    text, rows = figures(tmp_path, "--rays", "--quick", "--rounds", "1")
+    kinds = {"one point", "15 mm apart", "15 mm apart, mixed", "OS1-128", "random"}
+    assert {(row["scene"], row["rays"]) for row in rows} == {
+        (scene, kind) for scene in ("room", "street", "living_room") for kind in kinds
+    }
+    assert all(row["count"] > 1000 and row["cast_ms"] > 0 and ("open3d_ms" in row) == bool(find_spec("open3d"))
+               for row in rows)  # fmt: skip
+    assert all(kind in text for kind in kinds)
