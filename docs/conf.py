@@ -37,8 +37,10 @@ add_module_names = False
 
 html_theme = "furo"
 html_title = f"Camera Ray Caster {version}"
-html_static_path = ["_static"]
+PAGE_FILES = "../addon/camera_ray_caster/core/web/page_files"
+html_static_path = ["_static", f"{PAGE_FILES}/formula.js", f"{PAGE_FILES}/mathml.js"]
 html_css_files = ["site.css"]
+html_js_files = [(name, {"defer": ""}) for name in ("formula.js", "mathml.js", "set_formulas.js")]
 html_copy_source = False
 html_theme_options = {"sidebar_hide_name": False}
 pygments_style, pygments_dark_style = "tango", "github-dark"

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from .chromium import browser
-from .test_page import by_id, fresh, numbers, settled, shown, state
+from .test_page import by_id, fresh, numbers, ray, settled, shown, state
 
 pytestmark = pytest.mark.full
 
@@ -20,7 +20,10 @@ REFUSED = {
     "d = x": "the last line must be the direction",
     "d = (x, y, -": "line 1: the formula ends too early",
     "d = (x, y, -1": 'line 1: ")" is missing at the end',
-    "d = (x, y, alert(1))": "line 1: alert is not known",
+    "d = (x, y, alert(1))": "line 1: alert is not known: the functions are sin, cos, tan",
+    "a = x^3\nd = (a, 2, 3)": 'line 1: "^" is no part of a formula: write a power as a**3',
+    "a = 1,5\nd = (a, 2, 3)": "line 1: write 1.5 in place of 1,5",
+    "d = (x, 0,5 y, -1)": "line 1: write 0.5 in place of 0,5",
     "x = 1\nd = (1, 2, 3)": "line 1: x is taken",
     "d = (x; y; 1)": '";" is no part of a formula',
     "d = (x, y, `1`)": "no part of a formula",
@@ -64,8 +67,7 @@ def test_a_camera_is_cast_mapped_and_written_for_python(page, tmp_path, text):
         by_id(driver, "own-use").click()
         settled(driver, lambda one: by_id(one, "label").text == "My camera")
         assert by_id(driver, "own-error").text == ""
-        at, origin = state(driver), numbers(shown(driver, "origin o"))
-        direction = numbers(shown(driver, "direction r"))
+        at, cast = state(driver), ray(driver)
         assert numbers(shown(driver, "back to the pixel"))[2] < 1e-6
         by_id(driver, "own-map").click()
         told = by_id(driver, "map-text").text
@@ -85,6 +87,32 @@ def test_a_camera_is_cast_mapped_and_written_for_python(page, tmp_path, text):
     )
     run = subprocess.run([sys.executable, "-c", program, str(tmp_path)], capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stderr
-    ray, pixels = (np.array(line.split(), float) for line in run.stdout.splitlines())
-    assert ray == pytest.approx([*origin, *direction], abs=1e-13)
+    again, pixels = (np.array(line.split(), float) for line in run.stdout.splitlines())
+    assert again == pytest.approx(cast, abs=1e-13)
     assert pixels == pytest.approx([100, 80, 500, 300], abs=1e-6)
+
+
+def test_an_own_camera_is_in_the_link_and_survives_a_reload(opened, page):
+    fresh(opened, page, "#v=1&model=FISHEYE_EQUIDISTANT")
+    settled(opened, lambda one: state(one)["model"] == "FISHEYE_EQUIDISTANT" and shown(one, "pixel"))
+    written(opened, MOVED)
+    by_id(opened, "own-use").click()
+    settled(opened, lambda one: "own=" in one.execute_script("return location.hash"))
+    before, link = ray(opened), opened.execute_script("return location.hash")
+    opened.refresh()
+    settled(opened, lambda one: by_id(one, "label").text == "My camera")
+    assert ray(opened) == before
+    assert by_id(opened, "own").get_attribute("value") == MOVED
+    fresh(opened, page, link)
+    settled(opened, lambda one: by_id(one, "label").text == "My camera" and shown(one, "pixel"))
+    assert ray(opened) == before
+    by_id(opened, "reset").click()
+    settled(opened, lambda one: by_id(one, "label").text != "My camera")
+    settled(opened, lambda one: "own=" not in one.execute_script("return location.hash"))
+
+
+def test_a_link_with_a_bad_formula_gets_one_line(opened, page):
+    fresh(opened, page)
+    opened.execute_script("location.hash = 'v=1&model=PERSP&own=d%20%3D%20(alert(1)%2C%20y%2C%201)'")
+    settled(opened, lambda one: "alert is not known" in by_id(one, "message").text)
+    assert by_id(opened, "label").text == "Perspective"

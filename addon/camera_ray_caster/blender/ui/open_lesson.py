@@ -15,8 +15,8 @@ from .needs import OfScene, reporting
 
 
 class OpenLesson(OfScene, bpy.types.Operator):
-    """Open an interactive page in the browser with this camera's formula and the ray of the clicked pixel. The page is
-    written next to the .blend file, or into the home folder, and works offline"""
+    """Open an interactive page in the browser with this scene, its camera's formula and the ray of the clicked pixel.
+    The page is written next to the .blend file, or into the home folder, and works offline"""
 
     bl_idname = "camera_ray_caster.open_lesson"
     bl_label = "Open Lesson"
@@ -25,17 +25,18 @@ class OpenLesson(OfScene, bpy.types.Operator):
     @reporting
     def execute(self, context):
         """Write the page and open it."""
-        camera = cached_scene(context).camera
+        scene = cached_scene(context)
+        camera = scene.camera
         if camera is None:
             raise InputError("the camera cannot be cast: see the reason in the sidebar")
-        path = write_lesson(camera, lesson.pixels[-1] if lesson.pixels else None)
+        path = write_lesson(camera, lesson.pixels[-1] if lesson.pixels else None, scene.shapes)
         bpy.ops.wm.url_open(url=path.as_uri())
         self.report({"INFO"}, f"Wrote {path}")
         return {"FINISHED"}
 
 
-def write_lesson(camera, pixel) -> Path:
-    """Write the page about a camera and a pixel; return its path.
+def write_lesson(camera, pixel, shapes) -> Path:
+    """Write the page about a camera, a pixel and the scene; return its path.
 
     Raises InputError for a folder that cannot be written, and for a registered model whose formula cannot be recorded.
     """
@@ -43,7 +44,7 @@ def write_lesson(camera, pixel) -> Path:
     folder = blend.parent if bpy.data.filepath else Path.home()
     name = file_name(f"{blend.stem or 'untitled'}_{camera.name}_lesson.html")
     try:
-        text = lesson_page(camera, pixel)
+        text = lesson_page(camera, pixel, shapes)
     except NotRecordable as error:
         raise InputError(f"{camera.model.label} has no lesson in a browser: {error}") from error
     (path,) = write([(name, text)], folder)

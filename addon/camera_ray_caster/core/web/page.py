@@ -20,12 +20,13 @@ from ..cameras.model import GROUPS, Model
 from ..cameras.parts.parameters import parameters_of
 from ..cameras.real_lens import RealLens
 from ..library.cameras import camera
-from ..records import InputError
+from ..records import InputError, Shapes
 from ..shaders.glsl import GlslWriter
 from ..shaders.javascript import RUNTIME
 from .figures import FIGURES
 from .program import Program, program_of
 from .room import SCENE
+from .scene import scene_data
 from .split import functions, glsl
 
 FRAME = 640, 360
@@ -64,15 +65,18 @@ SPACES = re.compile(r"\n +| (?:[=*/+?:<>]|[<>=]=|&&|\|\|) |, ")
 """What ``dense`` shortens: a seventh of the page."""
 
 FILES = Path(__file__).with_name("page_files")
-SCRIPTS = "formula", "scene", "picture", "space", "state", "own", "glass", "main"
+SCRIPTS = "formula", "mathml", "scene", "picture", "space", "state", "own", "glass", "main"
 TABLES = {"prepare": "PREPARE", "rays": "RAYS", "values": "VALUES"}
 """Names of the lists of functions, by the functions that ``functions`` gives."""
 
 
-def lesson_page(camera: Camera | None = None, pixel: tuple[int, int] | None = None) -> str:
+def lesson_page(
+    camera: Camera | None = None, pixel: tuple[int, int] | None = None, shapes: Shapes | None = None
+) -> str:
     """Return the text of the page.
 
     camera: a camera with which the page begins, with its own frame, settings and lines; default the page's pinhole.
+    shapes: the scene in which that camera stands: see ``scene``; default the page's room.
     pixel: column and row, from the bottom left, of that camera's pixel; default one of the page's.
 
     Raises NotRecordable for a camera whose model cannot be recorded.
@@ -84,11 +88,12 @@ def lesson_page(camera: Camera | None = None, pixel: tuple[int, int] | None = No
         mine = tables.entry(program_of(camera))
         key = f"THIS_{mine['key']}"
         models.insert(0, mine | {"key": key, "label": f"This camera ({mine['label']})", "group": "In Blender"})
+    scene = SCENE if camera is None or shapes is None else scene_data(camera, shapes)
     place = "" if pixel is None else f", {{x: {pixel[0] + 0.5!r}, y: {pixel[1] + 0.5!r}}}"
     parts = [
         RUNTIME,
         f"const HELPERS = {_data(''.join(GlslWriter.HELPERS.values()))};",
-        f"const SCENE = {_data(SCENE)}, FIGURES = {_data(FIGURES)};",
+        f"const SCENE = {_data(scene)}, FIGURES = {_data(FIGURES)};",
         *("\n".join((f"const {name} = [", ",\n".join(tables.texts[name]), "];")) for name in TABLES.values()),
         f"const GLSL = {_data(tables.texts['GLSL'])};",
         f"const MODELS = {_data(models)};",
@@ -164,8 +169,8 @@ class _Tables:
         variants = []
         for variant in program.variants:
             made = functions(variant.parts)
-            places = {name: self.place(table, made[name]) for name, table in TABLES.items()}
-            places["glsl"] = self.place("GLSL", glsl(variant.parts)[0])
+            places = {name: self.place(table, packed(made[name])) for name, table in TABLES.items()}
+            places["glsl"] = self.place("GLSL", packed(glsl(variant.parts)[0]))
             variants.append({"choices": variant.choices, "names": variant.names, **places})
         return {
             "key": model.key, "label": model.label, "group": model.group, "description": model.description,
@@ -191,6 +196,11 @@ def glass_of(model: RealLens) -> dict[str, Any]:
         "matrix": optics.whole.tolist(), "center": [float(window.center_x), float(window.center_y)],
         "pitch": [float(window.pitch_x), float(window.pitch_y)],
     }  # fmt: skip
+
+
+def packed(text: str) -> str:
+    """Return a function without the spaces and line ends that it does not need: a seventh of the page."""
+    return re.sub(r" - (?!-)", "-", re.sub(r" ?([=*/<>?:,;{}()\[\]+]) ?", r"\1", re.sub(r"\s*\n\s*", "", text)))
 
 
 def _data(value: Any) -> str:

@@ -43,10 +43,13 @@ SCENE: dict[str, Any] = {
         for name, off, u, v, color in WALLS
     ],
     "turn": (0.0, -0.6),
-    "height": EYE, "floor": FLOOR, "back": BACK, "near": NEAR,
+    "height": EYE, "floor": FLOOR, "back": BACK, "near": NEAR, "scale": 1.0,
+    "camera": {"eye": (0.0, EYE, 0.0), "u": (1.0, 0.0, 0.0), "v": (0.0, 1.0, 0.0), "w": (0.0, 0.0, -1.0)},
+    "nodes": 0, "triangles": 0, "names": [], "facets": "",
 }  # fmt: skip
 """What the page's scripts know of the room. ``turn``: x and z of the axis about which the balls turn; ``height``: of
-the eye; ``near``: least distance of a hit.
+the eye; ``near``: least distance of a hit; ``camera``: its place and axes when it is not moved; ``scale``: of what the
+second view draws; the others are those of ``scene``, of which the room has none.
 """
 
 

@@ -16,17 +16,21 @@ class Refusal extends Error {}
 
 function tokens(text) {
   if (text.length > LONGEST) throw new Refusal(`a formula has at most ${LONGEST} letters`);
-  const found = [], end = text.trimEnd().length;
+  const found = [], last = text.trimEnd().length, comma = /\d+,\d+/.exec(text);
+  if (comma) throw new Refusal(`write ${comma[0].replace(",", ".")} in place of ${comma[0]}; between two numbers, put a space after the comma`);
   TOKEN.lastIndex = 0;
-  while (TOKEN.lastIndex < end) {
+  while (TOKEN.lastIndex < last) {
     const at = TOKEN.lastIndex, one = TOKEN.exec(text);
-    if (!one) throw new Refusal(`"${text.slice(at).trim()[0]}" is no part of a formula`);
-    const [, number, name, power, degrees, sign] = one;
-    if (number) found.push({ kind: "number", value: Number(number) });
-    else if (name) found.push({ kind: "name", value: name });
-    else if (power) found.push({ kind: "power", value: Number([...power].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c)).join("")) });
-    else if (degrees) found.push({ kind: "degrees" });
-    else found.push({ kind: sign });
+    if (!one) {
+      const letter = text.slice(at).trim()[0];
+      throw new Refusal(`"${letter}" is no part of a formula${letter === "^" ? ": write a power as a**3" : ""}`);
+    }
+    const [, number, name, power, degrees, sign] = one, end = TOKEN.lastIndex;
+    if (number) found.push({ kind: "number", value: Number(number), end });
+    else if (name) found.push({ kind: "name", value: name, end });
+    else if (power) found.push({ kind: "power", value: Number([...power].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c)).join("")), end });
+    else if (degrees) found.push({ kind: "degrees", end });
+    else found.push({ kind: sign, end });
   }
   return found;
 }
@@ -68,7 +72,7 @@ function parse(text) {
     for (;;) {
       if (kind() === "power") base = { op: "power", of: [base, { op: "number", value: list[at++].value }] };
       else if (kind() === "**") { at++; base = { op: "power", of: [base, factor()] }; }
-      else if (kind() === "degrees") { at++; base = { op: "*", of: [base, { op: "number", value: Math.PI / 180 }] }; }
+      else if (kind() === "degrees") { at++; base = { op: "*", of: [base, { op: "number", value: Math.PI / 180 }], degrees: true }; }
       else return base;
     }
   }
@@ -84,7 +88,7 @@ function parse(text) {
     if (kind() === "number") { at++; return { op: "number", value: one.value }; }
     if (kind() === "name") {
       at++;
-      if (!Object.hasOwn(FUNCTIONS, one.value)) return { op: "name", name: one.value };
+      if (!Object.hasOwn(FUNCTIONS, one.value)) return { op: "name", name: one.value, called: kind() === "(" && list[at].end === one.end + 1 };
       if (kind() !== "(") throw new Refusal(`${one.value} needs parentheses`);
       const of = several();
       if (of.length !== FUNCTIONS[one.value][0]) throw new Refusal(`${one.value} takes ${FUNCTIONS[one.value][0]} number(s), not ${of.length}`);
@@ -121,7 +125,10 @@ function evaluate(tree, known) {
 }
 
 // "a = 1, b = (2, 3)" as pairs of a name and an expression.
-function assignments(symbols) {
+const ASSIGNED = /^([A-Za-z_][A-Za-z_0-9]*'?) = (.*)$/;
+const assignments = (symbols) => splitAssignments(symbols).map((part) => ASSIGNED.exec(part)).filter(Boolean).map((one) => [one[1], one[2]]);
+
+function splitAssignments(symbols) {
   let depth = 0;
   const parts = [""];
   for (const letter of symbols) {
@@ -129,8 +136,11 @@ function assignments(symbols) {
     if ((letter === "," || letter === ";") && depth === 0) parts.push("");
     else parts[parts.length - 1] += letter;
   }
-  return parts.map((part) => /^([A-Za-z_][A-Za-z_0-9]*'?) = (.*)$/.exec(part.trim())).filter(Boolean).map((one) => [one[1], one[2]]);
+  return parts.map((part) => part.trim());
 }
+
+// A number below this is the rounding of 0: lengths, angles and pixels are of the order of 1.
+const ROUNDING = 1e-12;
 
 function shown(value, digits = 6) {
   if (isVector(value)) {
@@ -139,6 +149,7 @@ function shown(value, digits = 6) {
   }
   if (typeof value !== "number" || Number.isNaN(value)) return "none";
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "-∞";
+  if (Math.abs(value) < ROUNDING) return "0";
   return String(Number(value.toPrecision(digits)));
 }
 

@@ -21,10 +21,10 @@ function slider(parent, name, knob, get, set) {
   const angle = knob.unit === "angle", factor = angle ? DEGREES : 1, unit = angle ? "°" : knob.unit ? ` (${knob.unit === "length" ? "m" : knob.unit})` : "";
   const label = make("label", `${knob.label}${angle ? " (°)" : unit}`, { for: `${name}-range`, title: knob.text });
   const range = make("input", undefined, { id: `${name}-range`, type: "range", min: knob.low, max: knob.high, step: knob.whole ? 1 : "any", title: knob.text });
-  const number = make("input", undefined, { type: "number", step: "any", "aria-label": `${knob.label}, as a number${angle ? ", degrees" : ""}`, min: shown(knob.low * factor), max: shown(knob.high * factor) });
+  const number = make("input", undefined, { type: "text", inputmode: "decimal", "aria-label": `${knob.label}, as a number${angle ? ", degrees" : ""}` });
   range.addEventListener("input", () => { set(Number(range.value)); changed(); });
   number.addEventListener("change", () => {
-    const value = Number(number.value) / factor;
+    const value = Number(number.value.replace(/^\s*(-?\d+),(\d+)\s*$/, "$1.$2")) / factor; // a decimal comma, too
     if (number.value.trim() === "" || !Number.isFinite(value) || value < knob.low - 1e-9 || value > knob.high + 1e-9) say(`${knob.label} must be from ${shown(knob.low * factor)} to ${shown(knob.high * factor)}`);
     else { set(value); changed(); }
     refresh();
@@ -61,6 +61,10 @@ function build() {
     if (model.fixed.length) $("knobs").append(make("p", `Fixed at this camera's values: ${model.fixed.join(", ")}.`, { class: "note" }));
   } else $("knobs").append(make("p", "It has no settings: change its lines below.", { class: "note" }));
   for (const name of ["turn", "tilt", "walk"]) refreshers.push(slider($("view"), name, VIEW[name], () => state[name], (value) => { state[name] = value; }));
+  if (SCENE.still) {
+    for (const [what, names] of [["With fewer triangles", SCENE.coarser], ["Left out", SCENE.left_out]]) if (names.length) $("view").append(make("p", `${what} in this page: ${names.join(", ")}.`, { class: "note" }));
+    return;
+  }
   refreshers.push(slider($("view"), "time", VIEW.time, () => state.time, (value) => { state.time = value; }));
   refreshers.push(choice($("view"), "times", "Time of each pixel", TIMES.map((value) => ({ value, label: { none: "All at once", rows: "Row by row (slit scan)", columns: "Column by column (slit scan)", circles: "From the middle out (time displacement)" }[value] })), () => state.times, (value) => { state.times = value; }));
   refreshers.push(slider($("view"), "spread", VIEW.spread, () => state.spread, (value) => { state.spread = value; }));
@@ -79,20 +83,21 @@ function numbers() {
   row("in [-1, 1]²", shown([2 * x / width - 1, 2 * y / height - 1].map((one) => Math.round(one * 1e6) / 1e6)));
   if (Number.isNaN(ray[3])) {
     seen = null;
+    $("tag").textContent = "no ray";
     row("ray", "none: the camera has no ray for this pixel");
     return;
   }
   const time = timeOf(state, model.frame, x, y), at = worldRay(pose(state), ray), hit = cast(at.origin, at.direction, time);
   seen = { ray: at, hit, time };
-  const digits = (vector) => vector.map((one, k) => `${k ? "" : "("}${shown(one, 15)}${k < 2 ? "," : ")"}`);
-  row("origin o", ...digits(ray.slice(0, 3)));
+  row("origin o", shown(ray.slice(0, 3)));
   const length = Math.abs(size(ray.slice(3)) - 1) < 1e-9 ? ["of unit length"] : ray[5] === -1 ? ["at unit depth"] : [];
-  row("direction r", ...digits(ray.slice(3)), ...length);
+  row("direction r", shown(ray.slice(3)), ...length);
   row("from the axis", `${shown(Math.atan2(Math.hypot(ray[3], ray[4]), -ray[5]) * DEGREES)}°`);
-  row("meets", hit.index < 0 ? "nothing" : `${hit.name}, at distance t = ${shown(hit.t)}, at ${shown(hit.point)} in the room`);
-  const back = pixelOf(camera, along(ray.slice(0, 3), Math.min(hit.t, 20) / size(ray.slice(3)), ray.slice(3)));
+  row("meets", hit.index < 0 ? "nothing" : `${hit.name}, at distance t = ${shown(hit.t)}, at ${shown(hit.point)} in the ${SCENE.still ? "scene (x right, y up)" : "room"}`);
+  const back = pixelOf(camera, along(ray.slice(0, 3), Math.min(hit.t, 20 * SCENE.scale) / size(ray.slice(3)), ray.slice(3)));
   row("back to the pixel", back ? `(${shown(back[0])}, ${shown(back[1])}), ${shown(Math.hypot(back[0] - x, back[1] - y), 2)} pixels off, by Gauss and Newton's method from the rays alone` : "not found by Gauss and Newton's method from the rays alone");
-  if (state.times !== "none") row("time of the pixel", shown(time));
+  if (state.times !== "none") row("time of the pixel", `${shown(time)} s`);
+  $("tag").replaceChildren(make("b", `r = ${shown(ray.slice(3), 3)}`), make("span", hit.index < 0 ? "meets nothing" : `meets ${hit.name}`));
 }
 
 function steps() {
@@ -102,7 +107,9 @@ function steps() {
     const known = { x: state.x, y: state.y, W: model.frame[0], H: model.frame[1], pi: Math.PI };
     for (const { name, tree, text } of own.made) {
       const value = evaluate(tree, known), item = make("li");
-      item.append(make("code", `${name} = ${text}`, { class: "symbols" }), result(name, putIn(text, known), value));
+      const set = make("div", undefined, { class: "symbols", title: `${name} = ${text}` });
+      set.append(mathEquation(name, tree, `${name} = ${text}`));
+      item.append(set, result(name, putIn(text, known), value));
       known[name] = value;
       list.append(item);
     }
@@ -111,7 +118,9 @@ function steps() {
   const { known, own: special, given } = knownOf(model, state.values, camera, state.x, state.y), found = workedOut(model.steps, known, special);
   model.steps.forEach((step, k) => {
     const item = make("li", step.words), names = given.filter((name) => named(step.symbols).includes(name));
-    item.append(make("code", step.symbols, { class: "symbols" }));
+    const set = make("div", undefined, { class: "symbols", title: step.symbols });
+    set.append(...mathOf(step.symbols));
+    item.append(set);
     if (names.length) item.append(make("code", `with ${names.map((name) => `${name} = ${shown(known[name])}`).join(", ")}`, { class: "symbols" }));
     item.append(...found[k].map((one) => result(one.name, one.numbers, one.value)));
     list.append(item);
@@ -127,6 +136,9 @@ function result(name, numbers, value) {
 function cross_() {
   $("cross").style.left = `${100 * state.x / model.frame[0]}%`;
   $("cross").style.top = `${100 * (1 - state.y / model.frame[1])}%`;
+  const tag = $("tag"), { width, height } = $("frame").getBoundingClientRect(), x = state.x / model.frame[0] * width, y = (1 - state.y / model.frame[1]) * height;
+  tag.style.left = `${Math.max(4, Math.min(x - tag.offsetWidth / 2, width - tag.offsetWidth - 4))}px`;
+  tag.style.top = `${y > tag.offsetHeight + 40 ? y - tag.offsetHeight - 36 : y + 36}px`; // beside the finger, not below it
 }
 
 // The picture is drawn at a share of its size that holds 30 frames a second while something moves, then once in full.
@@ -164,12 +176,13 @@ function show() {
 function changed() {
   if (!waiting) waiting = requestAnimationFrame(show);
   clearTimeout(changed.link);
-  changed.link = setTimeout(() => { if (!own) history.replaceState(null, "", `#${linkOf(state, model)}`); }, 250);
+  changed.link = setTimeout(() => { history.replaceState(null, "", `#${linkOf(state, model)}`); }, 250);
 }
 
 function choose(next) {
-  own = null;
   model = MODELS.find((one) => one.key === next.model);
+  own = next.own === undefined ? null : readText(next.own);
+  if (own) $("own").value = next.own;
   state = next;
   build();
   changed();
@@ -196,9 +209,9 @@ function pointAt(event) {
 }
 
 function dragging(canvas, begin, move) {
-  canvas.addEventListener("pointerdown", (event) => { canvas.setPointerCapture(event.pointerId); canvas.dataset.down = "1"; begin(event); });
-  canvas.addEventListener("pointermove", (event) => { if (canvas.dataset.down) move(event); });
-  for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => { delete canvas.dataset.down; });
+  canvas.addEventListener("pointerdown", (event) => { canvas.setPointerCapture(event.pointerId); canvas.parentElement.dataset.down = "1"; begin(event); });
+  canvas.addEventListener("pointermove", (event) => { if (canvas.parentElement.dataset.down) move(event); });
+  for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => { delete canvas.parentElement.dataset.down; });
 }
 
 function arrows(canvas, apply) {
@@ -222,15 +235,15 @@ function setTheme(name) {
   if (camera) space.draw(camera, state, seen);
 }
 
-function readText() {
-  const made = readOwn($("own").value), lines = $("own").value.split("\n").map((line) => line.trim()).filter(Boolean);
+function readText(text) {
+  const made = readOwn(text), lines = text.split("\n").map((line) => line.trim()).filter(Boolean);
   made.forEach((one, k) => { one.text = lines[k].slice(lines[k].indexOf("=") + 1).trim(); });
   return { made, camera: ownCamera(made, model.frame) };
 }
 
 function withOwn(then) {
   return () => {
-    try { $("own-error").textContent = ""; then(readText()); } catch (error) {
+    try { $("own-error").textContent = ""; then(readText($("own").value)); } catch (error) {
       if (!(error instanceof Refusal)) throw error;
       $("own-error").textContent = error.message;
     }
@@ -267,7 +280,7 @@ $("model").addEventListener("change", () => {
   const moved = [x, y].map((one, k) => one / model.frame[k] * MODELS.find((m) => m.key === next.model).frame[k]);
   choose({ ...next, x: moved[0], y: moved[1], time, times, spread, turn, tilt, walk });
 });
-for (const figure of FIGURES) {
+for (const figure of SCENE.still ? [] : FIGURES) {
   const button = make("button", figure.label, { type: "button", title: figure.text });
   button.addEventListener("click", () => {
     const fresh = freshState(MODELS.find((one) => one.key === figure.model));
@@ -299,11 +312,13 @@ $("functions").textContent = Object.keys(FUNCTIONS).join(", ");
 $("own-use").addEventListener("click", withOwn((found) => {
   if (picture.gl) picture.program(found.camera.glsl, found.camera.numbers.length);
   own = found;
+  state.own = $("own").value;
   build();
   changed();
 }));
 $("own-map").addEventListener("click", withOwn(drawMap));
 $("own-python").addEventListener("click", withOwn((found) => save(pythonOf(found.made))));
+if (SCENE.still) { $("space-label").textContent = "The ray in the scene"; $("view-title").textContent = "The camera in the scene"; }
 $("blank").hidden = Boolean(picture.gl);
 // The address may have been written anew, by changed(), since the event: what was asked for is in the event.
 window.addEventListener("hashchange", (event) => openLink(new URL(event.newURL).hash));
@@ -317,6 +332,9 @@ window.lesson = {
   state: () => JSON.parse(JSON.stringify(state)),
   labels: () => space.labels,
   glass: () => ({ ...glass.traced(state.x, state.y), fNumber: glass.fNumber, focus: glass.focus, film: glass.film, radius: glass.radius }),
+  ray: () => camera.ray(state.x, state.y),
+  cast: (x, y) => { const at = worldRay(pose(state), camera.ray(x, y)); return cast(at.origin, at.direction, state.time); },
+  place: (point) => space.place(point),
   indices: (key) => { const next = freshState(MODELS.find((one) => one.key === key)); return picture.indices(cameraOf(MODELS.find((one) => one.key === key), next.values), next); },
   speed: (key, width) => { const one = MODELS.find((other) => other.key === key), next = freshState(one), made = cameraOf(one, next.values); picture.indices(made, next); const began = performance.now(); for (let n = 0; n < 5; n++) picture.draw(made, next, width / one.frame[0]); const pixel = new Uint8Array(4); picture.gl.readPixels(0, 0, 1, 1, picture.gl.RGBA, picture.gl.UNSIGNED_BYTE, pixel); return (performance.now() - began) / 5; },
 };

@@ -33,7 +33,8 @@ function readOwn(text) {
 function kindOf(tree, kinds) {
   if (tree.op === "number") return 1;
   if (tree.op === "name") {
-    if (!Object.hasOwn(kinds, tree.name)) throw new Refusal(`${tree.name.slice(0, 20)} is not known: there are ${Object.keys(kinds).join(", ")}`);
+    const known = tree.called ? ["the functions", FUNCTIONS] : ["there", kinds];
+    if (!Object.hasOwn(kinds, tree.name)) throw new Refusal(`${tree.name.slice(0, 20)} is not known: ${known[0]} are ${Object.keys(known[1]).join(", ")}`);
     return kinds[tree.name];
   }
   const given = tree.of.map((part) => kindOf(part, kinds));

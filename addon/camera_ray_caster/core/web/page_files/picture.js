@@ -5,9 +5,13 @@ uniform vec2 resolution, frame;
 uniform vec3 eye, axis_u, axis_v, axis_w;
 uniform float time, spread;
 uniform int times, plain;
-uniform vec4 spheres[SPHERES];
-uniform vec3 colors[SHAPES], centers[FLATS], sides_u[FLATS], sides_v[FLATS];
+uniform vec4 spheres[SPHERES + 1];
+uniform vec3 colors[SHAPES + 1], centers[FLATS + 1], sides_u[FLATS + 1], sides_v[FLATS + 1];
 uniform vec2 turn;
+#if NODES > 0
+uniform highp sampler2D facets;
+vec4 texel(int k) { return texelFetch(facets, ivec2(k % 1024, k / 1024), 0); }
+#endif
 out vec4 color;
 void main() {
   vec2 p = gl_FragCoord.xy * frame / resolution, a = p / frame - 0.5;
@@ -42,13 +46,38 @@ void main() {
     if (abs(dot(q, sides_u[i])) > dot(sides_u[i], sides_u[i]) || abs(dot(q, sides_v[i])) > dot(sides_v[i], sides_v[i])) continue;
     best = at; index = SPHERES + i; point = o + at * d; normal = normalize(n) * (slope > 0.0 ? -1.0 : 1.0);
   }
+#if NODES > 0
+  vec3 facet_color = vec3(0.0), way = mix(d, vec3(1e-12), lessThan(abs(d), vec3(1e-12)));
+  for (int n = 0; n < NODES;) {
+    vec4 low = texel(2 * n), high = texel(2 * n + 1);
+    vec3 a = (low.xyz - o) / way, b = (high.xyz - o) / way, first = min(a, b), last = max(a, b);
+    if (max(max(first.x, first.y), max(first.z, 0.0)) > 1.0001 * min(min(last.x, last.y), min(last.z, best))) { n = int(low.w); continue; }
+    n++;
+    if (high.w < 0.0) continue;
+    int start = int(high.w) / 8, count = int(high.w) % 8;
+    for (int k = start; k < start + count; k++) {
+      vec4 corner = texel(2 * NODES + 3 * k), e = texel(2 * NODES + 3 * k + 1), f = texel(2 * NODES + 3 * k + 2);
+      vec3 p = cross(d, f.xyz), to = o - corner.xyz, q = cross(to, e.xyz);
+      float det = dot(e.xyz, p), u = dot(to, p) / det, v = dot(d, q) / det, at = dot(f.xyz, q) / det;
+      if (det == 0.0 || u < 0.0 || v < 0.0 || u + v > 1.0 || !(at > NEAR && at < best)) continue;
+      int bits = int(e.w);
+      best = at; index = SHAPES; normal = normalize(cross(e.xyz, f.xyz));
+      if (dot(normal, d) > 0.0) normal = -normal;
+      facet_color = pow(vec3(bits & 255, bits >> 8 & 255, bits >> 16) / 255.0, vec3(2.2));
+    }
+  }
+#endif
   if (plain > 0) {
     float far = clamp(best / 64.0, 0.0, 0.999999);
     color = vec4(float(index < 0 ? 254 : index) / 255.0, floor(far * 256.0) / 255.0, floor(fract(far * 256.0) * 256.0) / 255.0, floor(fract(far * 65536.0) * 256.0) / 255.0);
     return;
   }
-  vec3 base = index < 0 ? vec3(0.05, 0.07, 0.1) : colors[index];
-  if (index >= SPHERES) {
+  vec3 base = index < 0 ? vec3(0.05, 0.07, 0.1) :
+#if NODES > 0
+    index == SHAPES ? facet_color :
+#endif
+    colors[index];
+  if (index >= SPHERES && index < SHAPES && GRID > 0) {
     vec3 g = abs(fract(point + 0.5) - 0.5), soft = vec3(0.012 + 0.0025 * best);
     vec3 lines = (1.0 - smoothstep(0.5 * soft, soft, g)) * (1.0 - abs(normal));
     base = mix(base, base * 0.45, max(lines.x, max(lines.y, lines.z)));
@@ -68,14 +97,21 @@ class Picture {
     gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([-1, -1, 3, -1, -1, 3]), gl.STATIC_DRAW);
     gl.enableVertexAttribArray(0);
     gl.vertexAttribPointer(0, 2, gl.FLOAT, false, 0, 0);
+    if (!SCENE.nodes) return;
+    const rows = Math.ceil(FACETS.length / 4096), texels = new Float32Array(4096 * rows);
+    texels.set(FACETS);
+    gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, 1024, rows, 0, gl.RGBA, gl.FLOAT, texels);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
   }
 
   // The program of a formula; a Refusal with the compiler's words if there is none.
   program(source, count) {
     if (this.programs.has(source)) return this.programs.get(source);
     const gl = this.gl, made = gl.createProgram();
-    const sizes = { SPHERES: SPHERES.length, FLATS: RECTANGLES.length, SHAPES: SPHERES.length + RECTANGLES.length, NEAR: SCENE.near.toFixed(6) };
-    const caster = CASTER.replace(/\b(SPHERES|FLATS|SHAPES|NEAR)\b/g, (name) => sizes[name]);
+    const sizes = { SPHERES: SPHERES.length, FLATS: RECTANGLES.length, SHAPES: SPHERES.length + RECTANGLES.length, NEAR: SCENE.near.toExponential(6), NODES: SCENE.nodes, GRID: SCENE.still ? 0 : 1 };
+    const caster = CASTER.replace(/\b(SPHERES|FLATS|SHAPES|NEAR|NODES|GRID)\b/g, (name) => sizes[name]);
     const text = `#version 300 es\nprecision highp float;\nprecision highp int;\nuniform float k[${Math.max(count, 1)}];\n${HELPERS}${source}${caster}`;
     for (const [kind, own] of [[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, text]]) {
       const shader = gl.createShader(kind);
@@ -111,11 +147,11 @@ class Picture {
     gl.uniform1i(place("times"), TIMES.indexOf(state.times));
     gl.uniform1i(place("plain"), plain ? 1 : 0);
     gl.uniform2fv(place("turn"), TURN);
-    gl.uniform4fv(place("spheres"), SPHERES.flatMap((one) => [...one.center, one.radius]));
-    gl.uniform3fv(place("colors"), [...SPHERES, ...RECTANGLES].flatMap((one) => one.color));
-    gl.uniform3fv(place("centers"), RECTANGLES.flatMap((one) => one.center));
-    gl.uniform3fv(place("sides_u"), RECTANGLES.flatMap((one) => one.u));
-    gl.uniform3fv(place("sides_v"), RECTANGLES.flatMap((one) => one.v));
+    gl.uniform4fv(place("spheres"), [...SPHERES.flatMap((one) => [...one.center, one.radius]), 0, 0, 0, 0]);
+    gl.uniform3fv(place("colors"), [...[...SPHERES, ...RECTANGLES].flatMap((one) => one.color), 0, 0, 0]);
+    gl.uniform3fv(place("centers"), [...RECTANGLES.flatMap((one) => one.center), 0, 0, 0]);
+    gl.uniform3fv(place("sides_u"), [...RECTANGLES.flatMap((one) => one.u), 0, 0, 0]);
+    gl.uniform3fv(place("sides_v"), [...RECTANGLES.flatMap((one) => one.v), 0, 0, 0]);
     const within = (value) => Number.isNaN(value) ? 0 : Math.min(Math.max(Number(value), -3e38), 3e38);
     if (camera.numbers.length) gl.uniform1fv(place("k"), camera.numbers.map(within));
     gl.drawArrays(gl.TRIANGLES, 0, 3);

@@ -2,7 +2,11 @@
 // axis through TURN as time goes on.
 const SPHERES = SCENE.spheres, RECTANGLES = SCENE.rectangles, TURN = SCENE.turn;
 
+// The triangles: texels of four numbers, first two for each box of their tree, then three for each triangle.
+const FACETS = new Float32Array(Uint8Array.from(atob(SCENE.facets), (letter) => letter.charCodeAt(0)).buffer);
+
 function turned(point, time) {
+  if (SCENE.still) return point;
   const c = Math.cos(2 * Math.PI * time), s = Math.sin(2 * Math.PI * time), x = point[0] - TURN[0], z = point[2] - TURN[1];
   return [TURN[0] + c * x + s * z, point[1], TURN[1] - s * x + c * z];
 }
@@ -29,14 +33,39 @@ function cast(origin, direction, time) {
     if (!(t > SCENE.near && t < best.t) || Math.abs(dot(q, flat.u)) > dot(flat.u, flat.u) || Math.abs(dot(q, flat.v)) > dot(flat.v, flat.v)) return;
     best = { t, index: SPHERES.length + k, point, normal: scaled(n, (slope > 0 ? -1 : 1) / size(n)), name: flat.name };
   });
+  for (let n = 0; n < SCENE.nodes;) {
+    const at = 8 * n, leaf = FACETS[at + 7];
+    let near = 0, far = best.t;
+    for (let k = 0; k < 3; k++) {
+      const a = (FACETS[at + k] - origin[k]) / d[k], b = (FACETS[at + 4 + k] - origin[k]) / d[k];
+      if (Number.isNaN(a) || Number.isNaN(b)) continue; // parallel to a side, and on it
+      near = Math.max(near, Math.min(a, b));
+      far = Math.min(far, Math.max(a, b));
+    }
+    if (near > far * (1 + 1e-6)) { n = FACETS[at + 3]; continue; }
+    for (let k = 0; leaf >= 0 && k < leaf % 8; k++) {
+      const { corner, first, second, name, color } = facet(Math.floor(leaf / 8) + k), p = cross(d, second), det = dot(first, p), to = minus(origin, corner);
+      const u = dot(to, p) / det, q = cross(to, first), v = dot(d, q) / det, t = dot(second, q) / det;
+      if (det === 0 || u < 0 || v < 0 || u + v > 1 || !(t > SCENE.near && t < best.t)) continue;
+      const normal = cross(first, second);
+      best = { t, index: SPHERES.length + RECTANGLES.length, point: along(origin, t, d), normal: scaled(normal, (dot(normal, d) > 0 ? -1 : 1) / size(normal)), name, color };
+    }
+    n++;
+  }
   return best;
 }
 
-// The camera in the room: its eye, and its axes u right, v up, w ahead.
+function facet(k) {
+  const at = 8 * SCENE.nodes + 12 * k, [corner, first, second] = [0, 4, 8].map((off) => [...FACETS.subarray(at + off, at + off + 3)]), bits = FACETS[at + 7];
+  return { corner, first, second, name: SCENE.names[FACETS[at + 3]], color: [0, 8, 16].map((shift) => ((bits >> shift & 255) / 255) ** 2.2) };
+}
+
+// The camera in the scene: its eye, and its axes u right, v up, w ahead.
 function pose(state) {
-  const c = Math.cos(state.turn), s = Math.sin(state.turn), C = Math.cos(state.tilt), S = Math.sin(state.tilt);
-  const w = [-s * C, S, -c * C], u = [c, 0, -s];
-  return { eye: [0, SCENE.height, state.walk], u, v: cross(u, w), w };
+  const c = Math.cos(state.turn), s = Math.sin(state.turn), C = Math.cos(state.tilt), S = Math.sin(state.tilt), own = SCENE.camera;
+  const mixed = (a, b, e) => [0, 1, 2].map((k) => a * own.u[k] + b * own.v[k] + e * own.w[k]);
+  const w = mixed(-s * C, S, c * C), u = mixed(c, 0, s);
+  return { eye: along(own.eye, -state.walk, own.w), u, v: cross(u, w), w };
 }
 
 function toWorld(at, vector) {

@@ -1,6 +1,8 @@
 // The second view: the room, the camera with its axes and its image, and the ray, seen from outside.
-const VIEWS = { outside: { turn: 0.75, tilt: 0.42, far: 9.5 }, above: { turn: 0, tilt: 1.5607, far: 10 }, side: { turn: Math.PI / 2, tilt: 0.02, far: 10 } };
-const LINES = 9, POINTS = 25, IMAGE = 1.4;
+const VIEWS = { outside: { turn: 0.75, tilt: 0.42, far: 9.5 * SCENE.scale }, above: { turn: 0, tilt: 1.5607, far: 10 * SCENE.scale }, side: { turn: Math.PI / 2, tilt: 0.02, far: 10 * SCENE.scale } };
+const LINES = 9, POINTS = 25, IMAGE = 1.4 * SCENE.scale, WALL = [32, 18];
+// Where a label may stand about its point, in lines of text: the first place that is free.
+const PLACES = [[0, 0], [0, -1.3], [0, 1.3], [1.6, 0], [-1.6, 0], [1.6, -1.3], [-1.6, -1.3], [1.6, 1.3], [-1.6, 1.3], [0, -2.6], [0, 2.6]];
 
 class Space {
   constructor(canvas) {
@@ -9,6 +11,11 @@ class Space {
   }
 
   draw(camera, state, seen) {
+    this.drawAll(camera, state, seen);
+    this.wanted.forEach((one) => this.write(one));
+  }
+
+  drawAll(camera, state, seen) {
     const canvas = this.canvas, ratio = window.devicePixelRatio || 1, box = canvas.getBoundingClientRect();
     canvas.width = Math.max(2, Math.round(box.width * ratio));
     canvas.height = Math.max(2, Math.round(box.height * ratio));
@@ -16,11 +23,20 @@ class Space {
     const ink = (name) => style.getPropertyValue(name).trim();
     this.unit = ratio;
     this.labels = [];
+    this.wanted = [];
+    this.strokes = [];
     g.fillStyle = ink("--space");
     g.fillRect(0, 0, canvas.width, canvas.height);
-    const at = pose(state);
-    this.look = this.looking([0, SCENE.height * 0.6, state.walk - (this.view.ahead ?? 2.6)]);
-    for (let k = -6; k <= 6; k++) {
+    const at = pose(state), isBox = camera.key.endsWith("CAMERA_OBSCURA");
+    const own = SCENE.camera, scale = SCENE.scale;
+    this.look = this.looking(along(along(own.eye, -state.walk + (this.view.ahead ?? 2.6) * scale, own.w), -0.4 * SCENE.height, [0, 1, 0]));
+    for (let k = -6; SCENE.still && k <= 6; k++) {
+      const x = own.eye[0], z = own.eye[2], s = 2 * scale;
+      this.line([[x + k * s, SCENE.floor, z - 6 * s], [x + k * s, SCENE.floor, z + 6 * s]], ink("--faint"), 1);
+      this.line([[x - 6 * s, SCENE.floor, z + k * s], [x + 6 * s, SCENE.floor, z + k * s]], ink("--faint"), 1);
+    }
+    if (SCENE.triangles) this.facets();
+    for (let k = -6; !SCENE.still && k <= 6; k++) {
       this.line([[k, SCENE.floor, SCENE.back], [k, SCENE.floor, 4]], ink("--faint"), 1);
       if (SCENE.back + k + 6 <= 4) this.line([[-6, SCENE.floor, SCENE.back + k + 6], [6, SCENE.floor, SCENE.back + k + 6]], ink("--faint"), 1);
     }
@@ -30,8 +46,9 @@ class Space {
       const ray = camera.ray(x * camera.frame[0], y * camera.frame[1]);
       if (!ray || Number.isNaN(ray[3])) return null;
       const length = camera.planar ? 1 : size(ray.slice(3));
-      return along(at.eye, 1, toWorld(at, [0, 1, 2].map((k) => ray[k] + IMAGE * ray[k + 3] / length)));
+      return along(at.eye, 1, toWorld(at, [0, 1, 2].map((k) => ray[k] + (isBox ? -IMAGE : IMAGE) * ray[k + 3] / length)));
     };
+    if (isBox) this.box(camera, state, at, image, ink);
     for (let k = 0; k < LINES; k++) {
       const edge = k === 0 || k === LINES - 1, share = k / (LINES - 1), steps = Array.from({ length: POINTS }, (_, n) => n / (POINTS - 1));
       for (const points of [steps.map((n) => image(share, n)), steps.map((n) => image(n, share))])
@@ -39,24 +56,49 @@ class Space {
     }
     if (camera.central) for (const [x, y] of [[0, 0], [1, 0], [0, 1], [1, 1]]) this.line([at.eye, image(x, y)], ink("--image-faint"), 0.8);
     [["u", at.u, "--u"], ["v", at.v, "--v"], ["w", at.w, "--w"]].forEach(([name, axis, color]) => {
-      const end = along(at.eye, 0.7, axis);
+      const end = along(at.eye, 0.7 * scale, axis);
       this.line([at.eye, end], ink(color), 2.4);
-      this.label(along(at.eye, 0.8, axis), name, ink(color));
+      this.label(along(at.eye, 0.8 * scale, axis), name, ink(color));
     });
     this.dot(at.eye, 4, ink("--ink"));
-    this.label(along(at.eye, -0.16, at.v), "eye", ink("--ink"));
+    this.label(along(at.eye, -0.16 * scale, at.v), isBox ? "hole" : "eye", ink("--ink"));
     if (!seen) return;
-    const { ray, hit } = seen, end = along(ray.origin, hit.index < 0 ? 20 : hit.t, ray.direction);
+    const { ray, hit } = seen, end = along(ray.origin, hit.index < 0 ? 20 * scale : hit.t, ray.direction);
     this.line([ray.origin, end], ink("--ray"), 2.6);
-    if (size(minus(ray.origin, at.eye)) > 1e-6) { this.line([at.eye, ray.origin], ink("--ray"), 1, [3, 4]); this.dot(ray.origin, 4, ink("--ray")); this.label(along(ray.origin, 0.12, at.v), "o", ink("--ray")); }
+    if (size(minus(ray.origin, at.eye)) > 1e-6 * scale) { this.line([at.eye, ray.origin], ink("--ray"), 1, [3, 4]); this.dot(ray.origin, 4, ink("--ray")); this.label(along(ray.origin, 0.12 * scale, at.v), "o", ink("--ray")); }
     const place = image(state.x / camera.frame[0], state.y / camera.frame[1]);
     if (place) this.dot(place, 4, ink("--image"));
+    if (place && isBox) this.line([place, at.eye], ink("--ray"), 2.6);
     if (hit.index >= 0) {
-      this.line([hit.point, along(hit.point, 0.5, hit.normal)], ink("--v"), 2);
+      this.line([hit.point, along(hit.point, 0.5 * scale, hit.normal)], ink("--v"), 2);
       this.dot(hit.point, 5, ink("--ray"));
-      this.label(along(hit.point, 0.25, [0, 1, 0]), `t = ${shown(hit.t, 4)}`, ink("--ray"));
+      this.label(along(hit.point, 0.25 * scale, [0, 1, 0]), `t = ${shown(hit.t, 4)}`, ink("--ray"));
     }
     if (camera.key === "PERSP") this.distance(at, image, ink);
+  }
+
+  // Of the camera obscura: the box between the hole and the wall behind it, and on the wall what its pixels see.
+  box(camera, state, at, image, ink) {
+    const [columns, rows] = WALL, [width, height] = camera.frame, g = this.g;
+    for (let i = 0; i < columns; i++) for (let j = 0; j < rows; j++) {
+      const x = (i + 0.5) / columns, y = (j + 0.5) / rows, ray = camera.ray(x * width, y * height);
+      const seen = worldRay(at, ray), hit = cast(seen.origin, seen.direction, timeOf(state, camera.frame, x * width, y * height));
+      const corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(([a, b]) => image(a / columns, b / rows)).map((one) => one && this.place(one));
+      if (hit.index < 0 || corners.includes(null)) continue;
+      const light = 0.6 + 0.4 * Math.abs(dot(hit.normal, seen.direction));
+      g.fillStyle = `rgb(${(hit.color ?? [...SPHERES, ...RECTANGLES][hit.index].color).map((one) => Math.round(255 * (one * light) ** (1 / 2.2)))})`;
+      g.beginPath();
+      corners.forEach((one) => g.lineTo(one[0], one[1]));
+      g.closePath();
+      g.fill();
+      g.strokeStyle = g.fillStyle; // closes the seams
+      g.lineWidth = this.unit;
+      g.stroke();
+    }
+    const wall = [[0, 0], [1, 0], [1, 1], [0, 1]].map(([a, b]) => image(a, b)), front = wall.map((one) => one && along(one, IMAGE, at.w));
+    this.line([...front, front[0]], ink("--muted"), 1.4);
+    wall.forEach((one, k) => this.line([one, front[k]], ink("--muted"), 1.4));
+    if (wall[0] && wall[1]) this.label(along(scaled(along(wall[0], 1, wall[1]), 0.5), -0.15 * SCENE.scale, at.v), "wall", ink("--image"));
   }
 
   // Of the pinhole: the distance d of an image over [-1, 1]², and half the angle of view.
@@ -65,15 +107,36 @@ class Space {
     if (!left || !right) return;
     const middle = scaled(along(left, 1, right), 0.5), ahead = minus(middle, at.eye);
     this.line([at.eye, middle], ink("--muted"), 1.4, [5, 4]);
-    this.label(along(along(at.eye, 0.78, ahead), 0.12, minus(left, middle).map((x) => x / size(minus(left, middle)))), "d", ink("--ink"));
+    this.label(along(along(at.eye, 0.78, ahead), 0.12 * SCENE.scale, minus(left, middle).map((x) => x / size(minus(left, middle)))), "d", ink("--ink"));
     const to = minus(right, at.eye), arc = [];
-    for (let k = 0; k <= 12; k++) { const p = [0, 1, 2].map((i) => ahead[i] + k / 12 * (to[i] - ahead[i])); arc.push(along(at.eye, 0.9 / size(p), p)); }
+    for (let k = 0; k <= 12; k++) { const p = [0, 1, 2].map((i) => ahead[i] + k / 12 * (to[i] - ahead[i])); arc.push(along(at.eye, 0.9 * SCENE.scale / size(p), p)); }
     this.line(arc, ink("--ink"), 1.4);
     this.label(along(at.eye, 1.22, arc[6].map((x, i) => (x - at.eye[i]) / 0.9)), "fov/2", ink("--ink"));
   }
 
+  // The triangles, as glass: what stands behind them is seen. They are drawn anew only when the view has changed.
+  facets() {
+    const { canvas, look } = this, key = JSON.stringify([look, canvas.width, canvas.height]);
+    if (this.cached?.key !== key) {
+      const made = document.createElement("canvas"), g = made.getContext("2d");
+      made.width = canvas.width;
+      made.height = canvas.height;
+      g.globalAlpha = 0.3;
+      for (let k = 0; k < SCENE.triangles; k++) {
+        const { corner, first, second, color } = facet(k), corners = [corner, along(corner, 1, first), along(corner, 1, second)].map((one) => this.place(one));
+        if (corners.includes(null)) continue;
+        g.fillStyle = `rgb(${color.map((one) => Math.round(255 * one ** (1 / 2.2)))})`;
+        g.beginPath();
+        corners.forEach((one) => g.lineTo(one[0], one[1]));
+        g.fill();
+      }
+      this.cached = { key, made };
+    }
+    this.g.drawImage(this.cached.made, 0, 0);
+  }
+
   looking(target) {
-    const { turn, tilt, far } = this.view, c = Math.cos(turn), s = Math.sin(turn), C = Math.cos(tilt), S = Math.sin(tilt);
+    const { tilt, far } = this.view, ahead = SCENE.camera.w, turn = this.view.turn + Math.atan2(-ahead[0], -ahead[2]), c = Math.cos(turn), s = Math.sin(turn), C = Math.cos(tilt), S = Math.sin(tilt);
     const back = [s * C, S, c * C], right = [c, 0, -s];
     return { eye: along(target, far, back), back, right, up: cross(back, right) };
   }
@@ -82,7 +145,7 @@ class Space {
 
   place(point) {
     const q = minus(point, this.look.eye), z = -dot(q, this.look.back), scale = 1.35 * Math.min(this.canvas.width / 1.5, this.canvas.height);
-    return z < 0.05 ? null : [this.canvas.width / 2 + scale * dot(q, this.look.right) / z, this.canvas.height / 2 - scale * dot(q, this.look.up) / z, scale / z];
+    return z < 0.05 * SCENE.scale ? null : [this.canvas.width / 2 + scale * dot(q, this.look.right) / z, this.canvas.height / 2 - scale * dot(q, this.look.up) / z, scale / z];
   }
 
   line(points, color, width, dash = []) {
@@ -91,12 +154,12 @@ class Space {
     g.lineWidth = width * this.unit;
     g.setLineDash(dash.map((one) => one * this.unit));
     g.beginPath();
-    let down = false;
+    let last = null;
     for (let n = 0; n < points.length; n++) {
       const to = points[n] && this.place(points[n]);
-      if (!to) { down = false; continue; }
-      if (down) g.lineTo(to[0], to[1]); else g.moveTo(to[0], to[1]);
-      down = true;
+      if (to && last) g.lineTo(to[0], to[1]); else if (to) g.moveTo(to[0], to[1]);
+      if (to && last && width > 1.2) this.strokes.push([last, to]);
+      last = to;
     }
     g.stroke();
     g.setLineDash([]);
@@ -124,8 +187,11 @@ class Space {
     g.fill();
   }
 
-  // A label that would lie on one before it is left out.
-  label(point, text, color) {
+  label(point, text, color) { this.wanted.push({ point, text, color }); }
+
+  // A label stands near its point, where none before it stands and where it covers the fewest lines; without such a
+  // place it is left out.
+  write({ point, text, color }) {
     const to = this.place(point), g = this.g;
     if (!to) return;
     g.font = `600 ${13 * this.unit}px system-ui, sans-serif`;
@@ -134,9 +200,18 @@ class Space {
     g.lineWidth = 3 * this.unit;
     g.strokeStyle = getComputedStyle(document.documentElement).getPropertyValue("--space").trim();
     const half = g.measureText(text).width / 2 + g.lineWidth, high = 13 * this.unit;
-    const [x, y] = [Math.min(Math.max(to[0], half), g.canvas.width - half), Math.min(Math.max(to[1], high), g.canvas.height - high)];
-    if (this.labels.some((one) => Math.abs(one.x - x) < one.half + half && Math.abs(one.y - y) < high)) return;
-    this.labels.push({ x, y, half });
+    const covered = (x, y) => this.strokes.filter(([a, b]) => {
+      for (let k = 0, steps = Math.ceil(Math.hypot(b[0] - a[0], b[1] - a[1]) / (high / 3)); k <= steps; k++) {
+        const share = k / Math.max(steps, 1);
+        if (Math.abs(a[0] + share * (b[0] - a[0]) - x) < half && Math.abs(a[1] + share * (b[1] - a[1]) - y) < 0.6 * high) return true;
+      }
+      return false;
+    }).length;
+    const free = PLACES.map(([a, b]) => [Math.min(Math.max(to[0] + a * half, half), g.canvas.width - half), Math.min(Math.max(to[1] + b * high, high), g.canvas.height - high)])
+      .filter((one) => this.labels.every((other) => Math.abs(other.x - one[0]) >= other.half + half || Math.abs(other.y - one[1]) >= 1.2 * high));
+    if (!free.length) return;
+    const counts = free.map(([x, y]) => covered(x, y)), [x, y] = free[counts.indexOf(Math.min(...counts))];
+    this.labels.push({ text, x, y, half });
     g.strokeText(text, x, y);
     g.fillStyle = color;
     g.fillText(text, x, y);

@@ -1,12 +1,14 @@
 // The state: the model, its settings, the pixel, the time and the camera's place; kept in the link after "#".
-const VERSION = 1, LONGEST_LINK = 4000;
+const VERSION = 1, LONGEST_LINK = 40000;
 const VIEW = {
   turn: { label: "Turn", text: "Turn of the camera about the vertical", low: -Math.PI, high: Math.PI, value: 0, unit: "angle" },
   tilt: { label: "Tilt", text: "Tilt of the camera up or down", low: -1.5, high: 1.5, value: 0, unit: "angle" },
   walk: { label: "Walk", text: "Distance of the camera from the middle of the room", low: -3, high: 3.8, value: 3, unit: "length" },
-  time: { label: "Time", text: "Time of the scene: the balls turn once from 0 to 1", low: 0, high: 1, value: 0, unit: "" },
-  spread: { label: "Time over the picture", text: "Difference of the times of the picture's ends", low: -1, high: 1, value: 0.5, unit: "" },
+  time: { label: "Time", text: "Time of the scene: the balls turn once from 0 to 1 s", low: 0, high: 1, value: 0, unit: "s" },
+  spread: { label: "Time over the picture", text: "Difference of the times of the picture's ends", low: -1, high: 1, value: 0.5, unit: "s" },
 };
+
+if (SCENE.still) Object.assign(VIEW.walk, { text: "Distance of the camera behind its place", low: -4 * SCENE.scale, high: 4 * SCENE.scale, value: 0 });
 
 function freshState(model) {
   const values = Object.fromEntries([...model.knobs.map((knob) => [knob.name, knob.value]), ...Object.entries(model.choices)]);
@@ -19,6 +21,7 @@ function linkOf(state, model) {
   const fresh = freshState(model);
   for (const [name, value] of Object.entries(state.values)) if (value !== fresh.values[name]) words.set(name, String(value));
   for (const name of ["x", "y", "times", ...Object.keys(VIEW)]) if (state[name] !== fresh[name]) words.set(name, typeof state[name] === "number" ? String(Number(state[name].toPrecision(8))) : state[name]);
+  if (state.own !== undefined) words.set("own", state.own);
   return words.toString();
 }
 
@@ -38,6 +41,7 @@ function stateOf(link, models) {
   };
   for (const [name, text] of words) {
     if (name === "v" || name === "model") continue;
+    if (name === "own") { state.own = text; continue; }
     if (Object.hasOwn(knobs, name)) state.values[name] = number(name, text, knobs[name].low, knobs[name].high);
     else if (Object.hasOwn(model.options, name)) {
       const found = model.options[name].find((one) => String(one.value) === text);
