@@ -10,7 +10,6 @@ import pytest
 import camera_ray_caster as crc
 from camera_ray_caster.core.web.figures import FIGURES
 from camera_ray_caster.core.web.page import FRAME, lesson_page
-from camera_ray_caster.core.web.room import EYE
 
 from .chromium import browser
 
@@ -285,73 +284,3 @@ def test_a_camera_of_blender_has_a_page_of_its_own(tmp_path):
         settled(driver, lambda one: shown(one, "pixel") == "x = 70.5, y = 12.5")
         origin, direction = camera.model.rays(70.5, 12.5)
         assert ray(driver) == pytest.approx([float(one) for one in (*origin, *direction)], abs=1e-13)
-
-
-def test_the_ray_stands_beside_the_pixel_while_a_finger_drags_it(page):
-    width, height = SCREENS["phone"]
-    with browser(width, height) as driver:
-        driver.get(page)
-        settled(driver, lambda one: shown(one, "pixel"))
-        tag = by_id(driver, "tag")
-        assert not tag.is_displayed()
-        mouse(driver).move_to_element(by_id(driver, "picture")).click_and_hold().move_by_offset(-90, 30).perform()
-        settled(driver, lambda one: tag.is_displayed() and abs(state(one)["x"] - FRAME[0] / 2) > 90)
-        assert numbers(tag.text)[:3] == pytest.approx(ray(driver)[3:], abs=1e-2)
-        place, cross, frame = (by_id(driver, name).rect for name in ("tag", "cross", "frame"))
-        assert place["x"] >= frame["x"]
-        assert place["x"] + place["width"] <= frame["x"] + frame["width"]
-        middle = cross["x"] + cross["width"] / 2, cross["y"] + cross["height"] / 2
-        assert not (abs(place["x"] + place["width"] / 2 - middle[0]) < place["width"] / 2
-                    and abs(place["y"] + place["height"] / 2 - middle[1]) < place["height"] / 2)  # fmt: skip
-        assert by_id(driver, "space").rect["y"] - (frame["y"] + frame["height"]) < 150, "the second view comes next"
-        mouse(driver).release().perform()
-        settled(driver, lambda _: not tag.is_displayed())
-
-
-def test_the_camera_obscura_shows_its_box_and_the_image_upside_down_behind_the_hole(opened, page):
-    fresh(opened, page, "#v=1&model=CAMERA_OBSCURA&x=320&y=180")
-    settled(opened, lambda one: state(one)["model"] == "CAMERA_OBSCURA" and shown(one, "pixel"))
-    for view in ("outside", "side", "above"):
-        opened.find_element("css selector", f"[data-view={view}]").click()
-        settled(opened, lambda one: {"hole", "wall"} <= {label["text"] for label in label_texts(one)})
-        assert "eye" not in {label["text"] for label in label_texts(opened)}
-    opened.find_element("css selector", "[data-view=outside]").click()
-    slope = 3.0 * FRAME[1] / FRAME[0] / 2.0 / 2  # half of the wall's height over the box's depth
-
-    def color(up):
-        point = [0.13, EYE + 0.875 * up * slope * 1.4, 3.0 + 1.4]  # behind the hole, between the lines of the grid
-        script = ("const [x, y] = window.lesson.place(arguments[0]), g = document.getElementById('space');"
-                  "return [...g.getContext('2d').getImageData(Math.round(x), Math.round(y), 1, 1).data]")  # fmt: skip
-        return opened.execute_script(script, point)
-
-    settled(opened, lambda one: color(1)[0] > color(1)[2] + 4)  # the floor, at the top of the wall
-    assert color(-1)[2] > color(-1)[0] + 10, "the back wall, at its bottom"
-
-
-def label_texts(driver):
-    """The labels of the second view."""
-    return driver.execute_script("return window.lesson.labels()")
-
-
-def test_a_number_is_typed_with_a_point_or_a_comma(opened, page):
-    from selenium.webdriver.common.keys import Keys
-
-    fresh(opened, page)
-    box = opened.find_element("css selector", "#view input[aria-label^=Walk]")
-    for text, value in (("1,5", 1.5), ("2.25", 2.25)):
-        box.send_keys(Keys.CONTROL, "a")
-        box.send_keys(text, Keys.ENTER)
-        settled(opened, lambda one, value=value: state(one)["walk"] == value)
-    box.send_keys(Keys.CONTROL, "a")
-    box.send_keys("1,5,2", Keys.ENTER)
-    assert "must be from" in by_id(opened, "message").text
-    assert state(opened)["walk"] == 2.25
-
-
-def test_times_have_units(opened, page):
-    fresh(opened, page, "#v=1&model=PERSP&times=rows&time=0.25")
-    settled(opened, lambda one: shown(one, "time of the pixel"))
-    assert shown(opened, "time of the pixel").endswith(" s")
-    labels = [one.text for one in opened.find_elements("css selector", "#view label")]
-    assert "Time (s)" in labels
-    assert "Time over the picture (s)" in labels
