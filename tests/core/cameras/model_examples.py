@@ -55,7 +55,7 @@ EXAMPLES = defaultdict(lambda: [{}], {
     "EQUIANGULAR_CUBEMAP_FACE": [{}, SHIFTED, BORDER, PORTRAIT],
     "MIRRORBALL": [{}, SHIFTED, BORDER, PORTRAIT],
     "FISHEYE_EQUIDISTANT": [{}, SHIFTED, BORDER | {"fisheye_fov": 0.3}, PORTRAIT | {"fisheye_fov": 6.2},
-                            IN_TANK | {"matrix_world": TURNED}, IN_DOME | {"fisheye_fov": 4.0}],
+                            IN_TANK | {"fisheye_fov": 2.2, "matrix_world": TURNED}, IN_DOME | {"fisheye_fov": 4.0}],
     "FISHEYE_EQUISOLID": [
         {},
         SHIFTED,
