@@ -18,7 +18,7 @@ from ..records import InputError, Pose
 from ..units import factor, unit_name
 from . import rigid
 from .camera_json import CameraJson
-from .fitted import FIT, can_fit, with_fits, with_heads
+from .fitted import FIT, can_fit, in_comments, with_fits, with_heads
 from .format import Content, Each, Format, Shot
 from .npz import Npz
 from .of_program import ProgramFormat
@@ -56,6 +56,11 @@ def records(key: str, shots: Sequence[Shot]) -> list[CameraRecord]:
     chosen, able, _, _ = _prepared(key, shots, None)
     assert isinstance(chosen, ProgramFormat)
     return chosen.records(able)
+
+
+def remarks(key: str, shots: Sequence[Shot]) -> str:
+    """Return the comments in the head of an export's files. Raises InputError as ``export`` does."""
+    return in_comments(_prepared(key, shots, None)[2])
 
 
 def _prepared(key: str, shots: Sequence[Shot], fit: Any):

@@ -100,9 +100,14 @@ def _remark(shot: Shot, fit: Fit, part: Any) -> str:
     return f"{shot.name}: fitted to its {shot.camera.model.label}{within}: {fit.summary}"
 
 
+def in_comments(remarks: Sequence[str]) -> str:
+    """Return remarks as lines of comments."""
+    return "".join(f"# {line}\n" for line in remarks)
+
+
 def with_heads(files: Iterator[tuple[str, Content]], remarks: Sequence[str]) -> Iterator[tuple[str, Content]]:
     """Yield files with remarks as comments in the head of text; JSON, which has no comments, has them in its frames."""
-    head = "".join(f"# {line}\n" for line in remarks)
+    head = in_comments(remarks)
     for name, content in files:
         if isinstance(content, str) and not name.endswith(".json"):
             start = content.index("---\n") + 4 if content.startswith("%YAML") else 0

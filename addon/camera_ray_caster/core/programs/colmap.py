@@ -200,16 +200,22 @@ def refusal(record: CameraRecord) -> str | None:
 
 def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
     """See FileWriter. One line in cameras.txt for each lens of each camera, one image for each frame."""
+    cameras, images = texts(records)
+    yield "cameras.txt", cameras
+    yield "images.txt", IMAGES + "".join(f"{head} {image}\n\n" for head, image in images)
+    yield "points3D.txt", POINTS
+
+
+def texts(records: Sequence[CameraRecord]) -> tuple[str, list[tuple[str, str]]]:
+    """Return cameras.txt, and for each image its line in images.txt up to the name, and the name."""
     ids: dict[tuple[str, str], int] = {}
     images = []
     for number, record in enumerate(records, 1):
         camera = ids.setdefault((record.name, _line(record.lens)), len(ids) + 1)
         pose = record.world_to_camera
         numbers = " ".join(map(repr, (*quaternion(pose[:3, :3]).tolist(), *pose[:3, 3].tolist())))
-        images.append(f"{number} {numbers} {camera} {record.image}\n\n")
-    yield "cameras.txt", CAMERAS + "".join(f"{number} {line}\n" for (_, line), number in ids.items())
-    yield "images.txt", IMAGES + "".join(images)
-    yield "points3D.txt", POINTS
+        images.append((f"{number} {numbers} {camera}", record.image))
+    return CAMERAS + "".join(f"{number} {line}\n" for (_, line), number in ids.items()), images
 
 
 def _line(lens: Lens) -> str:

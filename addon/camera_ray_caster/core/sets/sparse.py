@@ -13,8 +13,8 @@ from itertools import chain
 
 import numpy as np
 
-from ..exports import export
-from ..programs.colmap import POINTS, write
+from ..exports import remarks
+from ..programs.colmap import IMAGES, POINTS, texts
 from ..records import InputError
 from .png import srgb
 from .reading import VALIDATION, Files, View
@@ -29,20 +29,18 @@ BESIDE = 1.5
 
 def files(views: list[View], count: int = COUNT) -> Files:
     """Yield the files of a model; see the package. Raises InputError for cameras that COLMAP cannot represent."""
-    told, first = dict(write(Records("colmap", views))), export("colmap", [views[0].shot])[0]
-    heads = {name: "".join(f"{line}\n" for line in str(text).splitlines() if line[:1] == "#") for name, text in first}
-    cameras, images = (told[name].splitlines() for name in ("cameras.txt", "images.txt"))
+    cameras, images = texts(Records("colmap", views))
+    head = remarks("colmap", [views[0].shot])
     places, colors = _seeds(views, count)
     tracks, lines = Tracks(len(places)), Waiting()
-    for number, (view, head) in enumerate(zip(views, (line for line in images if line[:1] not in "#"), strict=True), 1):
+    for number, (view, (line, _)) in enumerate(zip(views, images, strict=True), 1):
         rows, pixels = _seen(view, places)
         tracks.add(number, rows)
         both = zip(rows.tolist(), pixels.tolist(), strict=True)
-        lines.add(f"{head.rpartition(' ')[0]} {view.name}.png\n", "")
+        lines.add(f"{line} {view.name}.png\n", "")
         lines.add(" ".join(f"{x!r} {y!r} {row + 1}" for row, (x, y) in both) + "\n", "")
-    listed = "".join(f"{line}\n" for line in cameras if line[:1] != "#")
-    yield "sparse/0/cameras.txt", heads["cameras.txt"] + listed
-    yield "sparse/0/images.txt", chain([heads["images.txt"]], lines)
+    yield "sparse/0/cameras.txt", head + cameras
+    yield "sparse/0/images.txt", chain([head + IMAGES], lines)
     points = enumerate(zip(places.tolist(), colors.tolist(), tracks, strict=True), 1)
     yield "sparse/0/points3D.txt", chain([POINTS], (
         f"{row} {' '.join(map(repr, place))} {' '.join(map(str, color))} 0 {track}\n"
