@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import camera_ray_caster as crc
 from camera_ray_caster.core.programs.parts.document import Document
 from camera_ray_caster.core.programs.reading.folders import pair_of
 from camera_ray_caster.core.programs.reading.lenses import lenses_of
@@ -85,3 +86,13 @@ def test_what_is_not_read_is_refused_in_one_line(name, change, says, tmp_path):
         except InputError as refusal:
             refusals.append(refusal)
     assert any(re.search(says, str(one)) for one in refusals)
+
+
+def test_the_omni_cameras_of_svo():
+    """vikit: a pixel is (x + e y, d x + c y) from the center, and its ray (x, y, -polynomial(r)), z ahead."""
+    camera = crc.load_calibration(str(SAMPLES / "maplab.omni.yaml"), pose=np.eye(4))
+    x, y = 100.0, 60.0
+    r = np.hypot(x, y)
+    z = 110 - 0.002 * r**2 + 8e-6 * r**3 - 2e-8 * r**4
+    column, row = 376.5 + x - 0.03125 * y, 240.5 + 0.0625 * x + 1.125 * y
+    np.testing.assert_allclose(camera.project((x, -y, -z)), (column + 0.5, 479.5 - row), rtol=0, atol=1e-9)

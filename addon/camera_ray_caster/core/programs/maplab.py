@@ -17,6 +17,8 @@ from .parts.lens import Lens, matrix, one_of_several
 from .parts.placed import Placed, pose_in
 from .parts.program import ProgramFiles
 
+OMNI = "omni"
+"""SVO's type of OCam: its intrinsics are the polynomial, 5 terms, the center, c, d, e, the inverse and two radii."""
 KINDS = {"pinhole": "pinhole", "unifiedprojection": "omni"}
 BENDS = {"fisheye": "fov", "rationalradtan": "radialtangential8", "radtan": "radtan", "equidistant": "equidistant"}
 """Kalibr's words for a type of camera and of distortion, by their plain names."""
@@ -63,7 +65,12 @@ def _cameras(rig: Fields) -> list[Fields]:
 
 
 def _lens(camera: Fields) -> Lens:
-    kind = KINDS[camera.document.one_of(spelled(camera.text("type")), camera.said("type"), KINDS)]
+    size = camera.sides("image_width", "image_height")
+    if spelled(camera.text("type")) == OMNI:
+        numbers = camera.matrix("intrinsics", 24)
+        affine = dict(zip(("cx", "cy", "ocam_c", "ocam_d", "ocam_e"), numbers[5:10], strict=True))
+        return Lens(camera.label, "OCAM", size | affine | {"ocam_polynomial": " ".join(map(repr, numbers[:5]))})
+    kind = KINDS[camera.document.one_of(spelled(camera.text("type")), camera.said("type"), (*KINDS, OMNI))]
     model, shape = SHAPES[kind]
     distortion = camera.part("distortion")
     word = spelled(distortion.text("type", "none"))
@@ -75,12 +82,11 @@ def _lens(camera: Fields) -> Lens:
     first = camera.matrix("intrinsics", len(shape) + 4)
     coefficients = distortion.matrix("parameters", len(terms)) if terms else []
     settings = dict(zip((*shape, *terms), (*first[: len(shape)], *coefficients), strict=True))
-    size = camera.sides("image_width", "image_height")
     return Lens(camera.label, model, size | matrix(*first[len(shape) :]) | settings)
 
 
 PROGRAM = ProgramFiles(
     "maplab", "ncamera .yaml of maplab and SVO", looks, marks="cameras camera label image_height type T_B_C",
-    reads="pinhole, unified-projection, with radial-tangential, rational, equidistant or fisheye",
+    reads="pinhole, unified-projection, with radial-tangential, rational, equidistant or fisheye; omni",
     read=read, poses=poses, unit=METERS,
 )  # fmt: skip
