@@ -8,7 +8,7 @@ import pytest
 from camera_ray_caster.blender.output import exports
 from camera_ray_caster.blender.read.frames import go_to
 from camera_ray_caster.blender.read.scene import read_camera
-from camera_ray_caster.blender.rig import add_rig, frames_of
+from camera_ray_caster.blender.rig import add_rig, contents, frames_of
 from camera_ray_caster.blender.terminal import commands
 from camera_ray_caster.blender.ui import chosen_frames, in_steps
 from camera_ray_caster.core.records import InputError
@@ -66,6 +66,16 @@ def test_a_rig_stands_below_an_empty_and_a_trajectory_moves_it(blender, camera_s
     assert found.settings["unified_xi"] == -0.2  # all digits: from the file, not Blender's float32
     with pytest.raises(InputError, match="the files have two movements"):
         add_rig(camera_scene, [transforms(tmp_path), str(tmp_path / "path.txt")])
+
+
+def test_a_file_dialog_lists_the_cameras_before_they_are_added(blender, camera_scene, chain, tmp_path):
+    assert contents(camera_scene, chain) == ["2 cameras", "cam0: OpenCV Fisheye, 1 pose", "cam1: Double Sphere, 1 pose"]
+    (tmp_path / "path.txt").write_text(TUM)
+    assert contents(camera_scene, str(tmp_path / "path.txt")) == ["1 camera", "path: no lens, 2 poses"]
+    (tmp_path / "chain.yaml").write_text("nothing: 1")
+    with pytest.raises(InputError):
+        contents(camera_scene, chain)
+    assert [item.type for item in camera_scene.objects].count("CAMERA") == 1
 
 
 @pytest.mark.parametrize("key", ["tum", "bop"])

@@ -39,21 +39,47 @@ def camera_settings(user, scenes):
     area.ui_type = "VIEW_3D"
 
 
+MODELS = 'bpy.ops.wm.call_menu(name="CAMERA_RAY_CASTER_MT_models")'
+"""What Ctrl+C copies of the menu of models."""
+
+
 def model_gallery(user, scenes):
-    """The gallery shows a picture for each model, and closes when one is chosen."""
+    """A picture of the gallery is a button: a click sets its model, after a direct move, and after the mouse wheel."""
     yield from load(user, scenes, "toys")
-    own = bpy.context.scene.camera.data.camera_ray_caster
-    own.model = "PENCIL"
-    view = user.region("WINDOW")
-    yield from user.point(view.x + view.width // 2, view.y + view.height // 2)
-    with bpy.context.temp_override(window=user.window, area=user.area(), region=view):
-        bpy.ops.wm.call_menu(name="CAMERA_RAY_CASTER_MT_gallery")
-    yield from user.wait(3)
-    opened = user.picture("gallery")
-    yield from user.key("Return")  # the entry under the mouse, at first that of the first model
-    yield from user.wait(1)
-    assert np.abs(user.picture("gallery_closed") - opened).max(axis=2).mean() > 0.05
-    assert own.model != "PENCIL"
+    camera, keys = bpy.context.scene.camera.data, [it.key for it in addon("ui.gallery_panels").pictured()]
+    own = camera.camera_ray_caster
+    yield from user.find(MODELS, share=0.3)
+    button = user.region().x + user.region().width - 75, user.known[MODELS]
+    for key in keys[::7]:
+        if key in addon("ui.gallery_panels").TIMES:
+            own.time_mode = "NONE"
+        for steps in (0, 3):
+            own.model = "PENCIL" if key != "PENCIL" else "OMNIMAX"
+            yield from user.click(*button)
+            yield from user.wait(0.7)
+            cell = marked(user.picture("gallery"), button)
+            place = keys.index(key), keys.index(own.model)
+            (across, up), (left, bottom) = ([n % 8 for n in place], [n // 8 for n in place]), cell[:2]
+            x = left + (across[0] - across[1] + 0.5) * cell[2]
+            for _ in range(steps):
+                user.send("click", 5)
+                yield
+            yield from user.click(x, bottom + (up[1] - up[0] + 0.6) * cell[3])
+            yield from user.wait(0.3)
+            chosen = own.time_mode if key in addon("ui.gallery_panels").TIMES else camera.camera_ray_caster_gallery
+            assert chosen == key, (key, chosen, steps)
+    yield from user.click(user.region().x + 60, button[1])
+    yield from user.wait(0.5)
+    user.picture("menu_of_models")
+    yield from user.key("Escape")
+
+
+def marked(picture, button):
+    """Return left, bottom, width and height of the picture that is chosen in the gallery below a button: it is blue."""
+    below = picture[: round(button[1]) - 20, 100:, :3]
+    is_blue = np.abs(below - (0.28, 0.45, 0.70)).max(axis=2) < 0.03
+    rows, columns = (np.flatnonzero(is_blue.sum(axis=axis) > 25) for axis in (1, 0))
+    return 100 + columns.min(), rows.min(), np.ptp(columns) + 2, np.ptp(rows) + 2
 
 
 def search(user, scenes):

@@ -65,6 +65,7 @@ def set_frame(user, scenes):
     path.write_text("1 PINHOLE 1241 376 700 700 620 188\n")
     yield from user.press(f"{BUTTON}load_calibration(")
     browser = yield from dialog(user)
+    assert browser.spaces.active.params.filename == ""
     browser.spaces.active.params.directory = str(user.folder).encode()
     browser.spaces.active.params.filename = path.name
     yield from user.wait(1)

@@ -33,7 +33,7 @@ TIMES = (
 PLACES = (
     "spheres_and_planes", "toys", "toys_cross_slit", "living_room", "living_room_equirectangular",
     "living_room_omnimax", "rotunda_fisheye", "rotunda_panorama", "street", "street_pushbroom", "sculpture_garden",
-    "unrolled_monkey",
+    "unrolled_monkey", "fish_tank",
 )  # fmt: skip
 """Scenes with all kinds of shapes, mostly meshes."""
 

@@ -72,8 +72,9 @@ CLASSES = (
 
 MODULES = (
     groups, paths, kept, follow, reports, images, gallery, lens_icon, scene_cache, engine, viewport, cast_operator,
-    overlay, points, lesson, live, notice, render_panels, menus, gallery_operators, lesson_operators, presets,
-    export_operators, rig_operators, commands, other_engine, see_through, hide_overlays, select_seen, in_steps,
+    overlay, points, lesson, live, notice, render_panels, menus, gallery_panels, gallery_operators, lesson_operators,
+    presets, export_operators, rig_operators, commands, other_engine, see_through, hide_overlays, select_seen,
+    in_steps,
 )  # fmt: skip
 """Modules that register more than classes. Their ``register(undo)`` gives ``undo`` the callbacks that undo it."""
 

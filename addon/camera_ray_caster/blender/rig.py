@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from contextlib import contextmanager
+from functools import lru_cache
 from pathlib import Path
 
 import bpy
@@ -24,9 +25,13 @@ from ..core.programs.reading.mounted import Mounted, mounted
 from ..core.records import InputError
 from .properties.calibration import READING, set_lens, settings_in
 from .properties.declared import GROUP, MODEL
+from .properties.labels import label_of
 from .read.frames import frame_rate
 from .read.lengths import meters_of
 from .read.size import SIZE, size_of
+
+LISTED = 8
+"""Number of cameras that a file dialog lists."""
 
 
 def add_rig(
@@ -61,6 +66,24 @@ def add_rig(
         scene.camera = objects[0]
     _mark(scene, cameras or trajectories, objects)
     return objects
+
+
+def contents(scene, path: str) -> list[str]:
+    """Return what ``add_rig`` finds in a file, a line for each camera up to LISTED. Raises InputError."""
+    found = _mounted(path, size_of(scene), frame_rate(scene), meters_of(scene), Path(path).stat().st_mtime_ns)
+    lines = [f"{one.name}: {_in_words(one)}" for one in found[:LISTED]]
+    return [f"{len(found)} {'camera' if len(found) == 1 else 'cameras'}", *lines, *["…"] * (len(found) > LISTED)]
+
+
+@lru_cache(maxsize=1)
+def _mounted(path: str, size, rate: float, meters: float, changed: int) -> list[Mounted]:
+    """The cameras of a file, which a file dialog draws again and again."""
+    return mounted(path, "", size, rate, meters)
+
+
+def _in_words(one: Mounted) -> str:
+    model = label_of(one.lens.model) if one.lens else "changing lenses" if one.lenses else "no lens"
+    return f"{model}, {len(one.poses)} {'pose' if len(one.poses) == 1 else 'poses'}"
 
 
 def files_of(path: str) -> list[Path]:

@@ -6,7 +6,7 @@ from mathutils import Vector
 
 from camera_ray_caster.blender import gallery
 from camera_ray_caster.blender.read.scene import read_camera
-from camera_ray_caster.blender.ui.gallery_panels import PICTURES, columns
+from camera_ray_caster.blender.ui.gallery_panels import GALLERY, TIMES, by_group, pictured
 from camera_ray_caster.blender.view3d import lesson
 from camera_ray_caster.core.cameras import MODELS
 
@@ -36,20 +36,27 @@ def test_the_menus_offer_all_that_has_a_picture():
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)
 def test_the_gallery_has_a_button_for_each_model(blender, scene, model):
-    """Blender's own set their types."""
-    assert [model in models for column in columns() for models in column.values()].count(True) == 1
+    """Blender's own set their types. The menu has each once, too."""
+    assert [it.key for _, entries in by_group() for it in entries].count(model.key) == 1
     own = scene.camera.data.camera_ray_caster
     own.model = "CAMERA_OBSCURA"
     assert blender.ops.camera_ray_caster.choose_type(key=model.key) == {"FINISHED"}
+    own.model = "CAMERA_OBSCURA"
+    setattr(scene.camera.data, GALLERY, model.key)
+    assert getattr(scene.camera.data, GALLERY) == model.key
     assert own.model == ("BLENDER" if model.number is None else model.key)
     blender.context.view_layer.update()
     if not any(setting.kind in ("OBJECT", "VECTORS") for setting in model.SETTINGS):  # without slits there is no camera
         assert read_camera(scene).model.key == model.key
 
 
-def test_the_columns_of_the_gallery_have_no_more_models_than_fit():
-    for column in columns():
-        assert 0 < sum(map(len, column.values())) <= PICTURES
+def test_the_gallery_has_the_times_of_the_pixels(blender, scene):
+    own = scene.camera.data.camera_ray_caster
+    own.model = "OMNIMAX"
+    for key in TIMES:
+        setattr(scene.camera.data, GALLERY, key)
+        assert (own.model, own.time_mode) == ("OMNIMAX", key)
+    assert len(pictured()) == len(MODELS) + len(TIMES)
 
 
 @pytest.mark.parametrize("name", [*gallery.TIMES, "unrolled_monkey", "living_room"])
@@ -98,7 +105,7 @@ def test_slit_scan_and_time_displacement_are_called_so_and_a_button_makes_a_grad
         "Slit Scan, Rows", "Slit Scan, Columns", "Time Displacement",
     ]  # fmt: skip
     ops, own = blender.ops.camera_ray_caster, scene.camera.data.camera_ray_caster
-    ops.choose_time(key="IMAGE")
+    ops.choose_type(key="IMAGE")
     own.time_start, own.time_end = 1, 5
     assert ops.add_gradient() == {"FINISHED"}
     blender.context.view_layer.update()

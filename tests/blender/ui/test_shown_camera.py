@@ -2,8 +2,6 @@
 
 import pytest
 
-from camera_ray_caster.blender.ui.gallery_panels import ModelGallery
-
 OPERATORS = ("cast", "verify", "step_through", "add_line", "select_line", "choose_type", "load_calibration",
              "use_in_cycles", "back_to_blender", "pixel_of_point", "copy_facts", "copy_k",
              "export", "fit_lens")  # fmt: skip
@@ -63,26 +61,6 @@ def test_a_scene_whose_camera_is_none_says_so_everywhere_in_one_line(blender, tw
             with pytest.raises(RuntimeError, match=f"is of type {kind}, not a camera: set a camera") as raised:
                 operator()
             assert "Traceback" not in str(raised.value)
-
-
-def test_the_gallery_of_models_says_why_there_is_no_camera_to_change(blender, two):
-    said = []
-
-    class Layout:
-        scale_y = 1.0
-        column = context_pointer_set = lambda self, *_, **__: self
-
-        def label(self, text, icon):
-            said.append(text)
-
-    class Context:
-        scene, object, preferences, region = (getattr(blender.context, name) for name in
-                                              ("scene", "object", "preferences", "region"))  # fmt: skip
-
-    Context.scene.camera = None
-    Context.region = type("Region", (), {"width": 900})
-    ModelGallery.draw(type("Panel", (), {"layout": Layout()}), Context)
-    assert "no active camera" in " ".join(said)
 
 
 def test_a_linked_camera_is_refused_and_its_override_can_be_changed(blender, two, tmp_path):

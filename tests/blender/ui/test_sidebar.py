@@ -114,6 +114,32 @@ def test_select_what_was_left_out_for_one_reason(blender, scene):
         blender.ops.camera_ray_caster.select(reason="another")
 
 
+def test_what_is_only_simplified_is_not_left_out_and_its_users_are_selected(blender, scene):
+    passes.tick(scene, blender.context.view_layer, ["combined"])
+    blender.data.objects["Suzanne"].camera_ray_caster.primitive = "AUTOMATIC"
+    paint, world = blender.data.materials.new("Suzanne"), blender.data.worlds.new("Sky")  # the name of an object, too
+    blender.ops.mesh.primitive_cube_add(location=(0.1, 0, -5))
+    user = blender.context.object
+    user.data.materials.append(paint)
+    for owner, output in ((paint, "BSDF"), (world, "Background")):
+        owner.use_nodes = True
+        light_path = owner.node_tree.nodes.new("ShaderNodeLightPath")
+        color = next(n for n in owner.node_tree.nodes if output in n.name).inputs[0]
+        owner.node_tree.links.new(light_path.outputs["Ray Length"], color)
+    scene.world = world
+    blender.ops.camera_ray_caster.cast()
+    left_out = reports.latest().left_out
+    assert [name for name, _ in left_out] == ["Suzanne", "Sky"]
+    assert reports.left_out_count(left_out) == "Colors simplified"
+    by_reason = reports.by_reason(reports.latest())
+    users = [reports.users_of(blender.context.view_layer, reason, names) for reason, names in by_reason.items()]
+    assert users == [[user], []]
+    assert blender.ops.camera_ray_caster.select(reason=next(iter(by_reason))) == {"FINISHED"}
+    assert blender.context.selected_objects == [user]
+    both = (*left_out, ("Hair", "a reason"))
+    assert reports.left_out_count(both) == "1 object left out, colors simplified"
+
+
 def test_left_out_is_one_line_that_counts():
     assert reports.left_out_count(()) == ""
     assert reports.left_out_line(()) == ""

@@ -24,6 +24,7 @@ from ...core.cast import Images, cast
 from ...core.casting.images import reusable
 from ...core.casting.worker import Worker
 from ...core.records import BlenderCamera, InputError
+from ...core.report.report import uncolored
 from ..output.reports import left_out_count
 from ..properties.declared import SHADING
 from ..read.scene_cache import CachedScene, cached_scene
@@ -99,7 +100,7 @@ class Viewport:
         shown = {"shading": settings.shading or SHADING.default}  # no word for the item of a newer version
         matrices = [tuple(row) for row in (*region_data.view_matrix, *region_data.window_matrix)]
         key = scene, matrices, context.region.width, context.region.height, shown
-        self.update_stats("", left_out_count((*scene.shapes.left_out, *scene.shapes.lights.left_out)))
+        self.update_stats("", left_out_count((*scene.shapes.left_out, *uncolored(scene.shapes, ("combined",)))))
         if self._worker is not None and self._worker.done:
             self._take()
             if self._key == key:

@@ -14,6 +14,7 @@ from ...core.camera.facts import camera_facts
 from ...core.records import InputError
 from ...core.report.report import Report, as_lines
 from ..read.evaluated import camera_at
+from ..read.materials import MAGENTA, VIEWPORT_COLOR
 
 TEXT = "Camera Ray Caster Report"
 NAMES_WIDTH = 60
@@ -90,16 +91,32 @@ def by_reason(report: Report) -> dict[str, list[str]]:
     return names
 
 
+def is_simplified(reason: str) -> bool:
+    """Return whether a reason is that of a material or world which is cast, with a simpler color."""
+    return reason.endswith((VIEWPORT_COLOR, MAGENTA))
+
+
 def left_out_count(left_out) -> str:
-    """Return the number of left-out objects in words, or "" if there are none."""
-    count = len({name for name, _ in left_out})
-    return f"{count} {'object' if count == 1 else 'objects'} left out" if count else ""
+    """Return the number of left-out objects in words, and whether colors are simplified; "" if neither."""
+    count = len({name for name, reason in left_out if not is_simplified(reason)})
+    said = [f"{count} {'object' if count == 1 else 'objects'} left out"] * (count > 0)
+    said += ["colors simplified"] * any(is_simplified(reason) for _, reason in left_out)
+    return ", ".join(said).capitalize()
 
 
 def left_out_line(left_out) -> str:
-    """Return the number of left-out objects in words, with their names, shortened to fit a line."""
+    """Return ``left_out_count`` with the names, shortened to fit a line."""
     names = shorten(", ".join(dict.fromkeys(name for name, _ in left_out)), NAMES_WIDTH, placeholder=" ...")
     return f"{left_out_count(left_out)}: {names}" if names else ""
+
+
+def users_of(view_layer, reason: str, names: list[str]) -> list:
+    """Return the objects in a view layer that were left out for a reason, or that use a material which was."""
+    objects = view_layer.objects
+    if not is_simplified(reason) and any(name in objects for name in names):
+        return [objects[name] for name in names if name in objects]
+    materials = {bpy.data.materials.get(name) for name in names} - {None}
+    return [item for item in objects if materials & {slot.material for slot in item.material_slots}]
 
 
 def write_text(report: Report):

@@ -8,7 +8,7 @@ import numpy as np
 from ...core.materials.directions import over_all_directions
 from ...core.materials.values import Constant, Value, constant
 from ...core.records import AREA, EVERYWHERE
-from .materials import ALWAYS_NODES, as_color, shown
+from .materials import ALWAYS_NODES, VIEWPORT_COLOR, as_color, shown
 from .nodes import Nodes, Unread, output_of
 from .shader_nodes import colors
 from .value_nodes import ENVIRONMENT, READ, READ_OF_WORLDS
@@ -69,7 +69,7 @@ def world_of(depsgraph) -> World:
     try:
         emitted = _emitted(world, READ_OF_WORLDS) if ALWAYS_NODES or world.use_nodes else None
     except Unread as error:
-        emitted, unread = None, ((world.name, f"the world's color is not read: {error}. Its viewport color is shown"),)
+        emitted, unread = None, ((world.name, f"the world's color is not read: {error}. {VIEWPORT_COLOR}"),)
     if emitted is None or isinstance(emitted, Constant):
         red, green, blue = shown(world.color if emitted is None else emitted.values[:, 0].tolist())
         return World((red, green, blue, 1.0), None, unread)

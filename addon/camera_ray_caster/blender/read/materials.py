@@ -32,6 +32,8 @@ NO_MATERIAL = (0.8, 0.8, 0.8, 1.0)
 
 BLACK = (0.0, 0.0, 0.0, 1.0)
 
+VIEWPORT_COLOR, MAGENTA = "Its viewport color is shown", "it is shown in magenta"
+"""Ends of the reasons why a color is not read, of materials and worlds that are cast all the same."""
 VOLUME = "it has a volume and no surface: rays pass through it"
 UNMOVED = "the displacement of its material {!r} is not read: {}. It is cast where the mesh is"
 BUMP = "its normal or bump map is not in the normal pass, which is that of the mesh"
@@ -194,8 +196,8 @@ def _colored(material, output: Output, plain: Look, threshold: float, has_colors
         base, own, glow = (part and as_color(part) for part in parts)
         lit = constant(0, 0, 0) if base is None else function_of(lambda one: np.maximum(one, 0), base)
     except Unread as error:
-        unread.append(f"its color is not read: {error}. Its viewport color is shown")
-    unread += [f"{_image(name)} is missing: it is shown in magenta" for name in sorted(nodes.missing - of_alpha)]
+        unread.append(f"its color is not read: {error}. {VIEWPORT_COLOR}")
+    unread += [f"{_image(name)} is missing: {MAGENTA}" for name in sorted(nodes.missing - of_alpha)]
     is_hole = isinstance(alpha, Constant) and (alpha.values < threshold).all()
     notes = plain.notes if through is None or is_hole else (*plain.notes, OPAQUE.format(threshold))
     if isinstance(alpha, Constant) and not is_hole:

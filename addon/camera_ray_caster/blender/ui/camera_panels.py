@@ -12,6 +12,7 @@ from .gallery_panels import draw_model
 from .model_drawing import PRESETS, draw_cycles, draw_lens, draw_model_settings, draw_port, draw_times
 from .notes import Popover, draw_first, draw_notes, widen
 from .operators import LensOfClip, LoadCalibration
+from .rig_operators import AddCameras
 from .see_through import SeeThrough, is_seen_through
 
 
@@ -40,7 +41,9 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
         row = layout.row(align=True)
         row.menu(ExportMenu.bl_idname, text="Export", icon="EXPORT")
         row.menu(ExamplesMenu.bl_idname, text="Examples", icon="FILE_BLEND")
-        layout.operator(LoadCalibration.bl_idname, icon="FILE_FOLDER")
+        row = layout.row(align=True)
+        row.operator(LoadCalibration.bl_idname, icon="FILE_FOLDER")
+        row.operator(AddCameras.bl_idname, text="Add Cameras", icon="OUTLINER_OB_CAMERA")
         if camera is not None and camera.type == "CAMERA" and clips_of(context.scene, camera):
             layout.operator(LensOfClip.bl_idname, icon="TRACKER")
         if camera is not None and camera.type == "CAMERA":

@@ -1,4 +1,4 @@
-"""The choice of a camera's model: a menu of names, the gallery, a menu of pictures, and the times of the pixels."""
+"""The choice of a camera's model, and of the times of its pixels: a menu of names, and the gallery of pictures."""
 
 from collections.abc import Iterator
 from itertools import groupby
@@ -9,73 +9,80 @@ from bpy.props import EnumProperty, StringProperty
 from ...core.camera import pixel_time
 from ...core.cameras import MODELS
 from ...core.cameras.model import GROUPS
+from ...core.cameras.parts.settings import Item
 from .. import gallery
 from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
 from ..properties.labels import label_of
-from .drawing import draw_message
 from .model_settings import key_of
 from .needs import OfCamera, camera_object_of, objection
 
 LINES = 15
-"""Number of lines in a column of the menu of names."""
-PICTURES = 8
-"""Number of pictures in a column of the gallery."""
-HEIGHT = 2.8
-"""Height of a picture, in interface units."""
+"""Number of lines in a column of the menu."""
+SCALE = 4.5
+"""Size of a picture in the gallery, in interface units: of eight in a row, as Blender draws them, all fit a window."""
+GALLERY = "camera_ray_caster_gallery"
+"""Name of the property of cameras whose items are the pictures: of Blender's layouts, only such a menu draws picture
+and name as one button.
+"""
+TIMES = {
+    pixel_time.ROWS: "slit_scan_rows", pixel_time.COLUMNS: "slit_scan_columns",
+    pixel_time.IMAGE: "time_displacement", pixel_time.ROLLING_SHUTTER: "rolling_shutter",
+    pixel_time.SWEEP: "street_scanner",
+}  # fmt: skip
+"""Scene of each time of the pixels, but for one time."""
+_kept: list[tuple[str, str, str, int, int]] = []
+"""The items: Blender does not keep their texts."""
 
 
 class ChooseModel(OfCamera, bpy.types.Operator):
-    """Use this camera model"""
+    """Use this camera model, or this time of the pixels"""
 
     bl_idname = "camera_ray_caster.choose_type"
     bl_label = "Choose Camera Model"
     bl_options = {"UNDO", "INTERNAL"}
 
-    key: StringProperty(name="Model", description="Key of the model", options={"SKIP_SAVE"})
+    key: StringProperty(name="Model", description="Key of the model, or of the time", options={"SKIP_SAVE"})
 
     @classmethod
     def description(cls, context, properties):
         """Return the tooltip, which is the model's."""
-        return next((it.description for it in MODELS if it.key == properties.key), cls.__doc__)
+        return next((it.text for it in every_item() if it.key == properties.key), cls.__doc__)
 
     def execute(self, context):
-        """Set the model; for one of Blender's own the type, and the type of panorama."""
-        camera = camera_object_of(context).data
-        own, chosen = getattr(camera, GROUP), next((it for it in MODELS if it.key == self.key), None)
-        if chosen is None:
+        """Set the model or the time."""
+        if self.key not in [it.key for it in every_item()]:
             self.report({"ERROR"}, f"There is no camera model {self.key!r}")
             return {"CANCELLED"}
-        if chosen.number is not None:
-            own.model = self.key
-            return {"FINISHED"}
-        own.model = BLENDERS_OWN
-        if self.key in camera.bl_rna.properties["type"].enum_items:
-            camera.type = self.key
-        else:
-            camera.type, camera.panorama_type = "PANO", self.key
+        choose(camera_object_of(context).data, self.key)
         return {"FINISHED"}
 
 
-class ChooseTime(OfCamera, bpy.types.Operator):
-    """Use this time of the pixels"""
+class KeyModel(OfCamera, bpy.types.Operator):
+    """Insert a keyframe of the camera model at the current frame"""
 
-    bl_idname = "camera_ray_caster.choose_time"
-    bl_label = "Choose Time of Pixels"
+    bl_idname = "camera_ray_caster.key_model"
+    bl_label = "Key Camera Model"
     bl_options = {"UNDO", "INTERNAL"}
 
-    key: EnumProperty(
-        name="Time", items=[(it.key, it.label, it.text) for it in pixel_time.MODE.items], options={"SKIP_SAVE"}
-    )
-
-    @classmethod
-    def description(cls, context, properties):
-        """Return the tooltip, which is the item's."""
-        return next(it.text for it in pixel_time.MODE.items if it.key == properties.key)
-
     def execute(self, context):
-        """Set the time of the pixels."""
-        setattr(getattr(camera_object_of(context).data, GROUP), pixel_time.MODE.name, self.key)
+        """Insert the keyframe."""
+        getattr(camera_object_of(context).data, GROUP).keyframe_insert(MODEL.name)
         return {"FINISHED"}
+
+
+def choose(camera, key: str) -> None:
+    """Set a camera's model; for one of Blender's own the type, and the type of panorama. Or set its times of pixels."""
+    own = getattr(camera, GROUP)
+    if key in [it.key for it in pixel_time.MODE.items]:
+        setattr(own, pixel_time.MODE.name, key)
+    elif key in [it.key for it in MODEL.items]:
+        own.model = key
+    else:
+        own.model = BLENDERS_OWN
+        if key in camera.bl_rna.properties["type"].enum_items:
+            camera.type = key
+        else:
+            camera.type, camera.panorama_type = "PANO", key
 
 
 class ModelMenu(bpy.types.Menu):
@@ -86,87 +93,73 @@ class ModelMenu(bpy.types.Menu):
     bl_options = {"SEARCH_ON_KEY_PRESS"}
 
     def draw(self, context):
-        """Draw an entry for each model, in groups; small groups share a column."""
+        """Draw an entry for each model and time, in groups; small groups share a column."""
         item = camera_object_of(context)
-        chosen = "" if objection(context, item) else key_of(item.data)
+        chosen = () if objection(context, item) else (key_of(item.data), getattr(item.data, GROUP).time_mode)
         row, free = self.layout.row(), 0
-        for group, models in by_group():
-            if len(models) >= free:
+        for group, entries in by_group():
+            if len(entries) >= free:
                 column, free = row.column(), LINES
-            free -= len(models) + 1
+            free -= len(entries) + 1
             column.label(text=group)
-            for it in models:
-                icon = "CHECKMARK" if it.key == chosen else "BLANK1"
+            for it in entries:
+                icon = "CHECKMARK" if it.key in chosen else "BLANK1"
                 column.operator(ChooseModel.bl_idname, text=it.label, icon=icon).key = it.key
 
 
-class TimeMenu(bpy.types.Menu):
-    """Choose the time of the pixels: slit scan, time displacement, rolling shutter"""
-
-    bl_idname = "CAMERA_RAY_CASTER_MT_times"
-    bl_label = "Time of Pixels"
-
-    def draw(self, context):
-        """Draw an entry for each."""
-        for it in pixel_time.MODE.items:
-            self.layout.operator(ChooseTime.bl_idname, text=it.label).key = it.key
+def by_group() -> Iterator[tuple[str, list[Item]]]:
+    """Yield each group with its models as items; the last group are the times of the pixels."""
+    models = sorted(MODELS, key=lambda it: GROUPS.index(it.group))
+    for group, members in groupby(models, lambda it: it.group):
+        yield group, [Item(it.key, it.label, it.description, -1, group) for it in members]
+    yield "Time of Pixels", list(pixel_time.MODE.items)
 
 
-class ModelGallery(bpy.types.Menu):
-    """Choose the camera model by an example picture"""
-
-    bl_idname = "CAMERA_RAY_CASTER_MT_gallery"
-    bl_label = "Camera Models"
-
-    def draw(self, context):
-        """Draw each group: a heading, and a picture with a button for each model. Small groups share a column."""
-        item = camera_object_of(context)
-        if reason := objection(context, item, is_changed=True):
-            draw_message(self.layout, context, reason, "ERROR")
-            return
-        self.layout.context_pointer_set("camera", item.data)
-        chosen, row = key_of(item.data), self.layout.row()
-        for groups in columns():  # in a menu, rows below rows are not aligned
-            column = row.column()
-            for group, models in groups.items():
-                column.label(text=group)
-                for it in models:
-                    column.template_icon(gallery.icon(gallery.scene_name(it.key)), scale=HEIGHT)
-                    icon = "CHECKMARK" if it.key == chosen else "BLANK1"
-                    column.operator(ChooseModel.bl_idname, text=it.label, icon=icon).key = it.key
+def every_item() -> list[Item]:
+    """Return all models and times."""
+    return [it for _, entries in by_group() for it in entries]
 
 
-def by_group() -> Iterator[tuple[str, list]]:
-    """Yield each group with its models."""
-    for group, models in groupby(sorted(MODELS, key=lambda it: GROUPS.index(it.group)), lambda it: it.group):
-        yield group, list(models)
+def pictured() -> list[Item]:
+    """Return the models and times that the gallery shows."""
+    return [it for it in every_item() if it.key != pixel_time.NONE]
 
 
-def columns() -> Iterator[dict[str, list]]:
-    """Yield the columns of the gallery: the models of small groups, or a part of those of a large one, by group."""
-    column: dict[str, list] = {}
-    free = PICTURES
-    for group, members in by_group():
-        length = -(-len(members) // -(-len(members) // PICTURES))
-        for first in range(0, len(members), length):
-            models = members[first : first + length]
-            if len(models) > free:
-                yield column
-                column, free = {}, PICTURES
-            column[group] = models
-            free -= len(models)
-    yield column
+def scene_of(key: str) -> str:
+    """Return the name of the gallery's scene of a model, or of a time of the pixels."""
+    return TIMES[key] if key in TIMES else gallery.scene_name(key)
+
+
+def _pictures(camera, context) -> list[tuple[str, str, str, int, int]]:
+    items = pictured()
+    _kept[:] = [(it.key, it.label, it.text, gallery.icon(scene_of(it.key)), i) for i, it in enumerate(items)]
+    return _kept
+
+
+def _place(camera) -> int:
+    return next((i for i, it in enumerate(pictured()) if it.key == key_of(camera)), -1)
 
 
 def draw_model(layout, camera):
-    """Draw the menu of a camera's models with the gallery button next to it, and return their row."""
+    """Draw the menu of a camera's models, with the gallery and a button that keys it next to it; return their row."""
     row = layout.row(align=True)
     row.context_pointer_set("camera", camera)
-    own, key = getattr(camera, GROUP), key_of(camera)
-    row.prop(own, MODEL.name, text="", icon="CAMERA_DATA", icon_only=True)  # to be keyed; a menu cannot be
-    row.menu(ModelMenu.bl_idname, text=label_of(key))
-    row.menu(ModelGallery.bl_idname, text="", icon="IMGDISPLAY")
+    row.menu(ModelMenu.bl_idname, text=label_of(key_of(camera)), icon="CAMERA_DATA")
+    if gallery.folder() is not None:
+        row.template_icon_view(camera, GALLERY, show_labels=True, scale=1, scale_popup=SCALE)
+    row.operator(KeyModel.bl_idname, text="", icon="DECORATE_KEYFRAME")
     return row
 
 
-CLASSES = (ChooseModel, ChooseTime, ModelMenu, TimeMenu, ModelGallery)
+CLASSES = (ChooseModel, KeyModel, ModelMenu)
+
+
+def register(undo) -> None:
+    """Register this module; see ``registration``."""
+    gallery_property = EnumProperty(
+        name="Gallery", description="Choose the camera model, or the time of the pixels, by an example picture",
+        items=_pictures, get=_place, set=lambda camera, i: choose(camera, pictured()[i].key),
+        options={"SKIP_SAVE"}, override={"LIBRARY_OVERRIDABLE"},
+    )  # fmt: skip
+    setattr(bpy.types.Camera, GALLERY, gallery_property)
+    undo.callback(delattr, bpy.types.Camera, GALLERY)

@@ -29,14 +29,15 @@ class LeftOut(Popover, bpy.types.Panel):
         for reason, names in reports.by_reason(reports.latest(context.scene)).items():
             column = self.layout.column(align=True)
             draw_message(column, context, reason, "DOT")
-            count = f"{len(names)} {'Object' if len(names) == 1 else 'Objects'}"
-            select = column.operator("camera_ray_caster.select", text=f"Select {count}", icon="RESTRICT_SELECT_OFF")
-            select.reason = reason
+            users = reports.users_of(context.view_layer, reason, names)
+            if users:  # a world has none
+                count = f"{len(users)} {'Object' if len(users) == 1 else 'Objects'}"
+                select = column.operator("camera_ray_caster.select", text=f"Select {count}", icon="RESTRICT_SELECT_OFF")
+                select.reason = reason
             for name in names[:LISTED]:
-                item = context.view_layer.objects.get(name)
                 row = column.split(factor=0.5, align=True)
                 row.label(text=name, icon="BLANK1")
-                draw_cast_as(row, item, text="")
+                draw_cast_as(row, next((item for item in users if item.name == name), None), text="")
             if len(names) > LISTED:
                 draw_message(column, context, f"and {len(names) - LISTED} more", "BLANK1")
 

@@ -9,7 +9,7 @@ from .export_operators import CopyK, CopyWorldToCamera, ExportMenu
 from .follow_timeline import FollowTimeline
 from .frame import SetFrame
 from .gallery_operators import CamerasMenu, ExamplesMenu
-from .gallery_panels import ModelMenu, TimeMenu
+from .gallery_panels import ModelMenu
 from .lesson_operators import ClearSteps, CopySteps, StepThrough
 from .operators import CopyFacts, LensOfClip, LoadCalibration, Verify, WriteReport
 from .other_engine import UseThisEngine
@@ -24,7 +24,7 @@ LISTED = (
     SetFrame, LoadCalibration, LensOfClip, AddCameras, AddGradient, FollowTimeline, UseThisEngine, UseInCycles, FitLens,
     BackToBlender, AddProjector, CopyFacts, CopyK, CopyWorldToCamera, WriteReport,
 )  # fmt: skip
-MENUS = (ModelMenu, TimeMenu, ResultsMenu, ExportMenu, ExamplesMenu, CamerasMenu)
+MENUS = (ModelMenu, ResultsMenu, ExportMenu, ExamplesMenu, CamerasMenu)
 
 
 class RayCasterMenu(bpy.types.Menu):

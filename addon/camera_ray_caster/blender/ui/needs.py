@@ -1,10 +1,15 @@
 """Shared parts of operators: the camera that they work on, when they are grayed out, and error messages."""
 
+import os
 from functools import wraps
+from pathlib import Path
+
+import bpy
 
 from ...core.records import InputError
 from ..properties.labels import in_labels
 from ..read.camera import check_camera
+from .drawing import draw_message
 
 LINKED = "The camera is linked from another file: first make it local or a library override"
 
@@ -63,6 +68,30 @@ class OfCamera:
     def poll(cls, context):
         """Gray out the operator without a camera in the context, and for one that cannot be changed."""
         return can_use(cls, objection(context, camera_object_of(context), is_changed=True))
+
+
+class OfFile:
+    """Base of the operators that ask for a file."""
+
+    def invoke(self, context, event):
+        """Ask for the file, beside the .blend; without a name, for which Blender would take that of the .blend."""
+        if not self.filepath:
+            self.filepath = os.path.join(Path(bpy.data.filepath).parent if bpy.data.filepath else Path.home(), "")
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def draw_found(self, context, lines) -> None:
+        """Draw what ``lines`` returns of the path that is chosen in the file dialog, or what is wrong with the file."""
+        chosen = context.space_data.params
+        path = Path(bpy.path.abspath(chosen.directory.decode())) / chosen.filename
+        if not path.is_file():
+            return
+        try:
+            found = lines(str(path))
+        except InputError as error:
+            found = [in_labels(str(error))]
+        for line in found:
+            draw_message(self.layout, context, line)
 
 
 def reporting(execute):

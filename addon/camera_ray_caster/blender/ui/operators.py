@@ -1,7 +1,6 @@
 """Operators: verify the camera, copy it, load a calibration, select what was left out, write the report."""
 
 from functools import partial
-from pathlib import Path
 
 import bpy
 from bpy.props import BoolProperty, StringProperty
@@ -15,14 +14,12 @@ from ...core.records import InputError
 from ...core.report.report import Report, as_json
 from ..output import reports
 from ..properties.calibration import cameras_in, lenses_in, set_calibration, set_lens
-from ..properties.labels import in_labels
 from ..read import movie_clips
 from ..read.frames import frame_of
 from ..read.scene import read_camera
 from ..verification.check import verified
-from .drawing import draw_message
 from .frame import SET_FRAME, framed
-from .needs import OfCamera, OfScene, camera_object_of, can_use, reporting, select_alone
+from .needs import OfCamera, OfFile, OfScene, camera_object_of, can_use, reporting, select_alone
 
 NO_REPORT = "Render with the Camera Ray Caster first (F12), or cast from the sidebar"
 
@@ -80,7 +77,7 @@ class CopyFacts(OfScene, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class LoadCalibration(OfCamera, bpy.types.Operator):
+class LoadCalibration(OfFile, OfCamera, bpy.types.Operator):
     """Choose a calibration file, which sets the camera model"""
 
     bl_idname = "camera_ray_caster.load_calibration"
@@ -101,21 +98,13 @@ class LoadCalibration(OfCamera, bpy.types.Operator):
     )
     set_frame: BoolProperty(name=SET_FRAME.label, description=SET_FRAME.text, default=True, options={"SKIP_SAVE"})
 
-    def invoke(self, context, event):
-        """Ask for the file."""
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
-
     def draw(self, context):
         """Draw the options in the file dialog, and the sizes of the file's pictures beside the frame's."""
-        layout, chosen = self.layout, context.space_data.params
+        layout = self.layout
         layout.label(text="Camera in File")
         layout.prop(self, "camera", text="")
         layout.prop(self, "set_frame")
-        path = Path(bpy.path.abspath(chosen.directory.decode())) / chosen.filename
-        if path.is_file():
-            for line in sizes_in_words(context, camera_object_of(context), str(path)):
-                draw_message(layout, context, line)
+        self.draw_found(context, partial(sizes_in_words, context, camera_object_of(context)))
 
     @reporting
     def execute(self, context):
@@ -165,11 +154,8 @@ class LensOfClip(OfCamera, bpy.types.Operator):
 
 
 def sizes_in_words(context, item, path: str) -> list[str]:
-    """Return the sizes of the pictures of a calibration file's cameras and of the frame, as lines; or what is wrong."""
-    try:
-        lenses = lenses_in(item.data, path)
-    except InputError as error:
-        return [in_labels(str(error))]
+    """Return the sizes of the pictures of a calibration file's cameras and of the frame, as lines."""
+    lenses = lenses_in(item.data, path)
     sizes = {f"{lens.name}: ".lstrip(": "): [int(lens.settings.get(one.name, 0)) for one in SIZE] for lens in lenses}
     render = context.scene.render
     return [
@@ -187,7 +173,7 @@ def draw_cameras(path: str, names: list[str], set_frame: bool, menu, context) ->
 
 
 class SelectLeftOut(bpy.types.Operator):
-    """Select the objects that the latest cast left out for this reason, and make the first one active"""
+    """Select the objects that the latest cast left out or simplified for this reason, and make the first one active"""
 
     bl_idname = "camera_ray_caster.select"
     bl_label = "Select"
@@ -206,7 +192,7 @@ class SelectLeftOut(bpy.types.Operator):
     def execute(self, context):
         """Select only these objects, as far as they are in the view layer."""
         names = reports.by_reason(reports.latest(context.scene)).get(self.reason, ())
-        found = [context.view_layer.objects[name] for name in names if name in context.view_layer.objects]
+        found = reports.users_of(context.view_layer, self.reason, names)
         if not found:
             self.report(
                 {"ERROR"}, "None of these objects is in this view layer: they were renamed, removed or excluded"

@@ -1,23 +1,24 @@
 """The operator that adds cameras, with lenses and poses, from files of other programs (File > Import)."""
 
+from functools import partial
 from pathlib import Path
 
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, StringProperty
-from bpy_extras.io_utils import ImportHelper
 
 from ...core.records import InputError
-from ..rig import add_rig, frames_of
-from .needs import reporting, select_alone
+from ..rig import add_rig, contents, frames_of
+from .needs import OfFile, reporting, select_alone
 
 
-class AddCameras(ImportHelper, bpy.types.Operator):
+class AddCameras(OfFile, bpy.types.Operator):
     """Add the cameras of a file, with lenses, poses and keyframes, as children of one empty. A trajectory moves it"""
 
     bl_idname = "camera_ray_caster.add_cameras"
     bl_label = "Add Cameras from File"
     bl_options = {"REGISTER", "UNDO"}
 
+    filepath: StringProperty(name="File", description="Path of the file", subtype="FILE_PATH")
     directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"})
     files: CollectionProperty(type=bpy.types.OperatorFileListElement, options={"HIDDEN", "SKIP_SAVE"})
     filter_glob: StringProperty(
@@ -30,6 +31,11 @@ class AddCameras(ImportHelper, bpy.types.Operator):
         description="Parent the cameras to the active object. If it is a camera, the file's coordinates are those of "
         "its view: x right, y down, z forward",
     )
+
+    def draw(self, context):
+        """Draw the options in the file dialog, and the cameras in the file."""
+        self.layout.prop(self, "below_active")
+        self.draw_found(context, partial(contents, context.scene))
 
     @reporting
     def execute(self, context):
