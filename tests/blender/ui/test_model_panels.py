@@ -80,9 +80,9 @@ class Layout:
     def label(self, text, icon="NONE"):
         self.labels.append(text)
 
-    def prop(self, owner, name, index=0, text=None, icon="NONE", icon_only=False):
+    def prop(self, owner, name, index=0, text=None):
         assert name in owner.bl_rna.properties
-        if index == 0 and not icon_only:  # the model's own icon, beside its menu
+        if index == 0:
             (self.names if self.active else self.grayed).append(name)
 
     def template_ID(self, owner, name, open):
@@ -101,6 +101,10 @@ class Layout:
 
     def menu(self, name, text, icon="NONE"):
         """Menus are drawn in a window."""
+
+    def template_icon_view(self, owner, name, **options):
+        """So is the gallery."""
+        assert name in owner.bl_rna.properties
 
     def operator(self, name, text=None, icon="NONE"):
         self.operators.append(name.partition(".")[2])
@@ -260,11 +264,11 @@ def test_lengths_in_millimeters_are_blender_s_own_and_the_panel_says_so(blender,
 def test_a_camera_of_cycles_shows_the_settings_of_its_own_type_and_the_way_back(osl, blender, camera_scene):
     data = camera_scene.camera.data
     assert drawn(blender, ModelPanel, data)[0] == ()
-    assert drawn.operators == ["load_calibration", "use_in_cycles", "add_projector"]
+    assert drawn.operators == ["key_model", "load_calibration", "use_in_cycles", "add_projector"]
     to_cycles(camera_scene)
     camera_scene.render.engine = "CYCLES"
     assert drawn(blender, ModelPanel, data)[0] == ("lens",)
-    assert drawn.operators == ["load_calibration", "back_to_blender", "use_in_cycles"]
+    assert drawn.operators == ["key_model", "load_calibration", "back_to_blender", "use_in_cycles"]
     data.camera_ray_caster.model = "PUSHBROOM"
     assert drawn(blender, ModelPanel, data)[0] == ("slit_1", "ortho_scale", "lens")
 
