@@ -1,7 +1,7 @@
 // Sets the formulas of a model's page as mathematics, by the scripts of the lesson.
-document.querySelectorAll("#formula ol pre, section[id^='formula'] ol pre").forEach((block) => {
+document.querySelectorAll("#formula ol pre").forEach((block) => {
   const symbols = block.textContent.trim(), set = document.createElement("div");
   set.title = symbols;
   set.append(...mathOf(symbols).flatMap((one) => [one, "\u2003"]));
-  block.closest("div[class^='highlight'], .highlight-default, .literal-block-wrapper")?.replaceWith(set) ?? block.replaceWith(set);
+  (block.closest("div[class^='highlight-']") ?? block).replaceWith(set);
 });
