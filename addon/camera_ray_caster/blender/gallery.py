@@ -31,7 +31,7 @@ TIMES = (
 )  # fmt: skip
 """Scenes in which each pixel has its own time."""
 PLACES = (
-    "spheres_and_planes", "toys", "toys_cross_slit", "living_room", "living_room_equirectangular",
+    "spheres_and_planes", "fish_tank", "toys", "toys_cross_slit", "living_room", "living_room_equirectangular",
     "living_room_omnimax", "rotunda_fisheye", "rotunda_panorama", "street", "street_pushbroom", "sculpture_garden",
     "unrolled_monkey", "fish_tank",
 )  # fmt: skip
