@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.blender.terminal import files
-from camera_ray_caster.blender.ui import in_steps
+from camera_ray_caster.blender.ui import chosen_frames, in_steps
 from camera_ray_caster.core.casting.passes import PASSES
+from camera_ray_caster.core.records import InputError
 
 KEPT = "engine", "use_sequencer", "use_lock_interface", "use_persistent_data", "resolution_x", "resolution_percentage"
 
@@ -97,3 +98,24 @@ def test_stopped_between_two_pictures_it_leaves_whole_ones(blender, scene, tmp_p
     assert state(blender, scene) == before
     assert len(list(tmp_path.iterdir())) == 3
     assert blender.ops.camera_ray_caster.cast_all.poll()
+
+
+def test_a_folder_of_its_own_and_the_number_of_pictures_before(blender, scene, tmp_path):
+    """Never into the folder of the .blend, which the file dialog shows where the own folder is missing."""
+    blender.ops.wm.save_as_mainfile(filepath=str(tmp_path / "ride.blend"))
+    assert run(blender, f"{tmp_path}/", frames="CURRENT") == f"Wrote 2 pictures into {tmp_path / 'ride_pictures'}"
+    assert [path.name for path in tmp_path.iterdir() if path.suffix != ".blend1"] in (
+        ["ride.blend", "ride_pictures"], ["ride_pictures", "ride.blend"],
+    )  # fmt: skip
+    assert chosen_frames.in_words(scene, "CURRENT") == "2 cameras × 1 frame = 2 pictures"
+    scene.frame_end = 252
+    assert chosen_frames.in_words(scene, "RANGE", 1.44) == "2 cameras × 250 frames = 500 pictures, about 12 minutes"
+    with pytest.raises(InputError, match="no camera has poses"):
+        chosen_frames.in_words(scene, "POSES")
+
+
+def test_a_percentage_that_would_not_be_used_is_refused(blender, scene, tmp_path):
+    scene.render.resolution_percentage = 50
+    with pytest.raises(RuntimeError, match="Resolution % does not change pictures of cameras that have their own size"):
+        run(blender, tmp_path / "all")
+    assert not (tmp_path / "all").exists()

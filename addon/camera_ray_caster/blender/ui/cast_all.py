@@ -17,8 +17,11 @@ from ...core.file_set import clear_up
 from ...core.records import InputError
 from ..cycles.renderer import changed
 from ..faces.picture import EEVEE, WORKBENCH
+from ..output import reports
 from ..properties.declared import ENGINE
+from ..properties.labels import in_labels
 from ..read.camera import ALL, find_cameras
+from ..read.size import SIZE
 from ..terminal import files
 from ..terminal.cast import options_of
 from ..terminal.pictures import Pictures
@@ -122,8 +125,7 @@ class CastAll(bpy.types.Operator):
         if not self.properties.is_property_set("frames"):
             self.frames = chosen_frames.usual(context.scene)
         if not self.directory:
-            beside = Path(bpy.data.filepath or Path.home() / "untitled.blend")
-            self.directory = str(beside.with_name(f"{beside.stem}_pictures"))
+            self.directory = str(_own_folder())
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
@@ -132,6 +134,12 @@ class CastAll(bpy.types.Operator):
         self.layout.use_property_split = True
         for name in ("frames", "format", "engine", "skip_existing"):
             self.layout.prop(self, name)
+        report = reports.latest(context.scene) if self.engine == ENGINE else None
+        try:
+            said = chosen_frames.in_words(context.scene, self.frames, sum(report.seconds.values()) if report else 0.0)
+        except InputError as error:
+            said = in_labels(str(error))
+        draw_message(self.layout, context, said, "INFO")
 
     @reporting
     def execute(self, context):
@@ -139,13 +147,24 @@ class CastAll(bpy.types.Operator):
         if self.skip_existing and bpy.data.is_dirty:
             raise InputError("the file has unsaved changes: save it, or disable Skip Existing")
         scene = context.scene
-        words = ["--cameras", ALL, "--output", bpy.path.abspath(self.directory), "--format", self.format]
+        cameras, folder = find_cameras(scene, [ALL]), Path(bpy.path.abspath(self.directory))
+        if scene.render.resolution_percentage != 100 and any(SIZE in item for item in cameras):
+            raise InputError("Resolution % does not change pictures of cameras that have their own size: set it to 100")
+        if folder == _own_folder().parent:  # never into a project's folder
+            folder = _own_folder()
+        words = ["--cameras", ALL, "--output", str(folder), "--format", self.format]
         words += ["--engine", self.engine, "--enable-autoexec", *["--skip-existing"] * self.skip_existing]
         options = options_of(words, self.bl_label)
-        options.frames, _ = chosen_frames.chosen(scene, self.frames, find_cameras(scene, [ALL]))
+        options.frames, _ = chosen_frames.chosen(scene, self.frames, cameras)
         options.own_frames = self.frames == chosen_frames.POSES[0]
         in_steps.begin(Casting(options, scene, context.window))
         return {"FINISHED"}
+
+
+def _own_folder() -> Path:
+    """Return the folder beside the .blend that is for its pictures alone."""
+    beside = Path(bpy.data.filepath or Path.home() / "untitled.blend")
+    return beside.with_name(f"{beside.stem}_pictures")
 
 
 def draw_all(layout) -> None:

@@ -35,5 +35,25 @@ def chosen(scene, which: str, cameras: Sequence) -> tuple[Sequence[float], Calla
     return frames, shows
 
 
+def in_words(scene, which: str, seconds: float = 0.0) -> str:
+    """Return how many pictures of all cameras a choice of frames makes, and about how long they take if one takes
+    ``seconds``. Raises InputError if there are none.
+    """
+    cameras = find_cameras(scene, [ALL])
+    frames, is_shown = chosen(scene, which, cameras)
+    count = sum(is_shown(camera, frame) for camera in cameras for frame in frames)
+    said = f"{_counted(count, 'picture')}"
+    if count == len(cameras) * len(frames):
+        said = f"{_counted(len(cameras), 'camera')} × {_counted(len(frames), 'frame')} = {said}"
+    if seconds:
+        minutes = round(count * seconds / 60)
+        said += f", about {_counted(minutes, 'minute')}" if minutes else ", less than a minute"
+    return said
+
+
+def _counted(count: int, what: str) -> str:
+    return f"{count:,} {what}{'' if count == 1 else 's'}"
+
+
 def _always(camera, frame: float) -> bool:
     return True
