@@ -14,16 +14,22 @@ from arguments import Parser
 from door import through
 from ends import listen
 
+from .lens_sheet import make_sheet
 from .scenes import BY_CYCLES, PICTURES
 
 FOLDER = Path(__file__).resolve().parents[2] / "blend_scenes"
 
 CYCLES = "_by_cycles"
-NAMES = [*PICTURES, *(name + CYCLES for name in BY_CYCLES)]
+SHEET = "lenses"
+NAMES = [*PICTURES, *(name + CYCLES for name in BY_CYCLES), SHEET]
 
 
 def make_picture(name: str) -> int:
-    """Cast a scene of blend_scenes, put its picture into blend_scenes/pictures, and return the exit status."""
+    """Cast a scene of blend_scenes, put its picture into blend_scenes/pictures, and return the exit status. SHEET is a
+    picture of its own.
+    """
+    if name == SHEET:
+        return make_sheet()
     scene = name.removesuffix(CYCLES)
     by_cycles = ["--engine", "CYCLES", "--samples", "12"] if name != scene else []
     with tempfile.TemporaryDirectory(dir=FOLDER) as folder:
