@@ -103,6 +103,7 @@ def test_the_angle_in_a_fisheye_s_formula_is_its_own():
     [
         ("STRIP", {"x_A", "x_B", "A", "B", "n_A", "n_B"}), ("FTHETA", {"x_0", "s_y", "k1", "theta"}),
         ("RAY_TABLE", {"a", "g", "i", "j", "m", "n"}),
+        ("REAL_LENS", {"h", "z", "q", "unit", "pitch"}),
     ],
 )  # fmt: skip
 def test_what_a_table_or_an_iteration_gives_to_a_formula_is_that_of_the_camera(key, names):

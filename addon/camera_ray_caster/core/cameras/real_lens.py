@@ -269,9 +269,10 @@ class RealLens(WindowModel):
     def formula_values(self, x, y):
         """See Model."""
         a, b = self.window.plane_from_pixels(x, y)
-        height, place, tangent = (float(part) for part in self.chief.at(np.float64(a * a + b * b)))
-        return {"h": height, "z": place - self.pupil, "q": tangent, "unit": float(self.unit),
-                "pitch": float(self.window.pitch_x)}  # fmt: skip
+        rim = self.chief.rim * (1 + RIM_SLACK)
+        height, place, tangent = self.chief.at(np.minimum(a * a + b * b, rim * rim))
+        pitch = self.window.pitch_x
+        return {"h": height, "z": place - self.pupil, "q": tangent, "unit": self.unit, "pitch": pitch}
 
     @lazy
     def _wander(self) -> float:
