@@ -27,7 +27,7 @@ LINEARITY = {"1": 1.0, "2": 0.0}
 
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
-    return _entries(document).has("C", "A", "H", "V") and "{" not in document.text
+    return "=" in document.text and "{" not in document.text and _entries(document).has("C", "A", "H", "V")
 
 
 def _entries(document: Document) -> Fields:

@@ -21,7 +21,7 @@ RADIAL = "k1", "k2", "k3"
 
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
-    return bool(_cameras(document))
+    return "camera." in document.text and bool(_cameras(document))
 
 
 def _cameras(document: Document) -> list[Fields]:

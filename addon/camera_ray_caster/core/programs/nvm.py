@@ -1,9 +1,9 @@
 """VisualSFM's .nvm: for each picture the focal length, the rotation, the center and a radial coefficient.
 
 The middle of the picture, whose size is that of the frame, is the center unless FixedK tells another camera matrix. The
-radial coefficient leads from the picture to the undistorted one: r (1 + k r^2), in focal lengths, which is OCam's model
-with a power series. The quaternion w, x, y, z leads from the world to the camera, x right, y down, z ahead. The first
-model of a file is read.
+radial coefficient leads from the picture to the undistorted one: r (1 + k r^2), which is OCam's model with a power
+series; r is in focal lengths, as other readers take it. The quaternion w, x, y, z leads from the world to the camera,
+x right, y down, z ahead. The first model of a file is read.
 Reference: VisualSFM documentation, NVM file format.
 """
 

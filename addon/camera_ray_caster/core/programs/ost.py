@@ -17,7 +17,7 @@ NAMES = "width", "height", "camera matrix", "distortion", "rectification", "proj
 
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
-    return set(NAMES) <= set(document.lines()) and "[image]" in document.text
+    return "[image]" in document.text and set(NAMES) <= set(document.lines())
 
 
 def read(document: Document) -> list[Lens]:
