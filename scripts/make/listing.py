@@ -30,7 +30,10 @@ SIZE, GROUND = (1920, 1080), (29, 29, 29)
 SAMPLES = 6
 """Rays per pixel."""
 
-SCREENSHOTS = {"overlay": "sidebar_and_overlay", "step_through": "lesson_03", "gallery": "gallery", "live": "live_look"}
+SCREENSHOTS = {
+    "overlay": "sidebar_and_overlay", "step_through": "lesson_03", "gallery": "gallery", "live": "live_look",
+    "lens": "lens_in_view",
+}  # fmt: skip
 """Names in the folder of screenshots, by name in listing/."""
 STILLS, STILL, TURN = 4, 1600, 250
 """Number of frames before the view turns; milliseconds of these frames and the last, and of the other frames."""
