@@ -33,8 +33,11 @@ CONTENTS = {
         "/addon/camera_ray_caster/core/programs/README", "/addon/camera_ray_caster/blender/read/README",
         "/blend_scenes/README",
     ),
-    "Measured": ("accuracy", "scale", "/scripts/README"),
-    "How it is built": ("/addon/README", "/CONTRIBUTING", "/CHANGELOG", "README <../README>"),
+    "Measured": (
+        "accuracy", "limits", "scale", "/scripts/README", "measurements/tracers", "measurements/window",
+        "measurements/precision",
+    ),
+    "How it is built": ("promises", "/addon/README", "/CONTRIBUTING", "/CHANGELOG", "README <../README>"),
 }  # fmt: skip
 """The pages in the sidebar, by caption, as the start page names them."""
 TABLE = re.compile(r"\(((?:\.\./)*)addon/camera_ray_caster/core/cameras/README\.md\)")

@@ -41,9 +41,9 @@ def add_rig(
 
     A trajectory moves the empty, and so all cameras of the other files; without any, it moves a camera like a new one.
     ``parent``: an object below which the empty is put; below a camera, the file's frame is the camera's with y down
-    and z ahead, as in OpenCV. Where each frame has one of several cameras, markers bind it. ``model`` is the key of
-    the model for files that do not name theirs; ``say`` takes notes on what was left out. Nothing is added if a file
-    cannot be read: InputError.
+    and z ahead, as in OpenCV. If each frame uses one camera, timeline markers switch between them. ``model`` is the
+    key of the model for files that do not name theirs; ``say`` takes notes on what was left out. Nothing is added if a
+    file cannot be read: InputError.
     """
     paths, rate = list(paths), frame_rate(scene)
     found = [one for path in paths for one in mounted(path, model, size_of(scene), rate, meters_of(scene))]

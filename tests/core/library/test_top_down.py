@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import camera_ray_caster as crc
+from camera_ray_caster.core.sets import set_reader
 
 POSE = crc.look_at((3, -4, 2.5), (0, 0, 0.5))
 BALL = crc.spheres([(0.2, 0.1, 0.6)], 0.5)
@@ -32,6 +33,17 @@ def test_rows_pixels_k_and_flow_belong_together(border):
     flow = turned["flow_forward"][row, column]
     np.testing.assert_allclose(pixels_of(then) - pixels_of(position), flow, atol=1e-9)
     assert (flow[:, 1] < 0).mean() > 0.9, "the ball rises: y, which points down, falls"
+
+
+def test_the_reader_of_data_sets_turns_arrays_and_channels_alike():
+    flow = np.arange(24.0).reshape(4, 3, 2)
+    depth = np.arange(12.0).reshape(4, 3)
+    ours = crc.top_down({"flow_forward": flow, "depth": depth})
+    array = set_reader.top_down({"flow_forward": flow, "depth": depth})
+    channels = set_reader.top_down({f"ViewLayer.flow_forward.{'XY'[k]}": flow[..., k] for k in range(2)})
+    for name, image in ours.items():
+        np.testing.assert_array_equal(array[name], image)
+    np.testing.assert_array_equal(np.stack([*channels.values()], axis=-1), ours["flow_forward"])
 
 
 def test_arrays_without_a_camera_and_models_without_a_matrix():

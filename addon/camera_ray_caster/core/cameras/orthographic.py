@@ -21,7 +21,7 @@ from .parts.silhouette import pixel_bounds
 PLANE = (
     Step("Pixel on the camera's plane", "X = (x - W/2 + shift_x V) q, Y = ((y - H/2) p + shift_y V) q"),
     Step(
-        "Width of a pixel on the plane, V pixels on the fitted side, each p times as high as wide",
+        "Pixel width on the plane (V: pixels along the fitted side; p: pixel height / width)",
         "q = ortho_scale / V",
     ),
 )

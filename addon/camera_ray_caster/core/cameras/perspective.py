@@ -25,7 +25,7 @@ from .parts.silhouette import pinhole_interval, pixel_bounds
 PLANE = (
     Step("Pixel on the plane at unit depth", "X = (x - W/2 + shift_x V) q, Y = ((y - H/2) p + shift_y V) q"),
     Step(
-        "Width of a pixel on the plane, V pixels on the fitted side, each p times as high as wide",
+        "Pixel width on the plane (V: pixels along the fitted side; p: pixel height / width)",
         "q = sensor / (lens V)",
     ),
 )

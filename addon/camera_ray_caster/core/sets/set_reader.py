@@ -1,6 +1,7 @@
 """Reads the data set in whose folder this file lies: python reader.py, or ``views()``. Needs numpy; EXR: OpenImageIO.
 
-Row 0 of the arrays is the bottom row. camera_ray_caster's ``camera_from_json`` makes the rays from a report.
+Row 0 of the arrays is the bottom row; ``top_down(passes)`` has the top row first, as most programs.
+camera_ray_caster's ``camera_from_json`` makes the rays from a report.
 """
 
 import json
@@ -18,6 +19,15 @@ def passes_in(path):
     image = OpenImageIO.ImageBuf(str(path))
     pixels = np.asarray(image.get_pixels("float"))[::-1]
     return {name: pixels[..., k] for k, name in enumerate(image.spec().channelnames)}
+
+
+def top_down(passes):
+    """Return passes as OpenCV and most programs have them: row 0 at the top, y of flow down, C-contiguous."""
+    turned = {name: np.ascontiguousarray(passes[name][::-1]) for name in passes}
+    for name, image in turned.items():
+        if "flow_forward" in name or "flow_backward" in name:  # an array of an NPZ; of an EXR a channel, .X or .Y
+            image *= (1, -1) if image.ndim == 3 else -1 if name.endswith(".Y") else 1
+    return turned
 
 
 def views(folder=Path(__file__).parent):
