@@ -40,3 +40,11 @@ def test_every_pass_of_any_value_is_a_picture(key, value):
     assert colors.shape == (3, 2, 3)
     assert ((colors >= 0) & (colors <= 1)).all()
     assert said
+
+
+def test_distances_of_a_wide_range_are_even_in_their_inverse():
+    colors, said = displayed("depth", np.array([[2.0, 4.0], [20.0, np.inf]]))
+    assert said == "white to dark: 2 to 20, even in 1/distance"
+    assert colors[..., 0] == pytest.approx(np.array([[1.0, 1 - 0.9 * 5 / 9], [0.1, 0.0]]))
+    _, said = displayed("distance", np.array([[2.0, 7.9]]))
+    assert said == "white to dark: 2 to 7.9"
