@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.cameras import MODELS
-from camera_ray_caster.core.lesson.formula import assignments, shown, value, with_numbers, worked_out
+from camera_ray_caster.core.lesson.formula import assignments, digits, shown, value, with_numbers, worked_out
 from camera_ray_caster.core.lesson.lesson import lesson
 from camera_ray_caster.core.records import no_shapes
 
@@ -75,6 +75,8 @@ def test_what_is_zero_to_the_digits_of_a_vector_is_shown_as_zero():
     assert shown(np.array([1e-8, 2e-8, 0.0])) == "(1e-08, 2e-08, 0)"
     assert shown(np.array([1e6, 0.2, np.inf])) == "(1e+06, 0.2, inf)"
     assert shown(-4e-8) == "-4e-08", "a number of its own keeps its digits"
+    assert (shown(np.cos(np.pi / 2)), shown(8.63851e-17)) == ("0", "0"), "what rounding leaves of numbers around 1"
+    assert (digits(-1e-16, "+"), digits(2.5, "+"), digits(-1e-13)) == ("+0", "+2.5", "-1e-13")
 
 
 @pytest.mark.parametrize("size", [(480, 300), (300, 480), (200, 200)])

@@ -44,6 +44,9 @@ PRODUCT = re.compile(r"(?<=[\w)⁰¹²³⁴⁵⁶⁷⁸⁹°'])\s+(?=[\w(])")
 """The space between two factors."""
 ASSIGNMENT = re.compile(r"([A-Za-z_][A-Za-z_0-9]*'?) = (.*)")
 
+NOISE = 2e-15
+"""What rounding leaves of sums and angles of numbers around 1, as of the cosine of 90°: 9 units in the last place."""
+
 
 def assignments(symbols: str) -> Iterator[tuple[str, str]]:
     """Yield the names that a formula assigns, each with its expression.
@@ -115,12 +118,17 @@ def worked_out(formulas: Sequence[tuple[str, Mapping[str, Any]]], known: Mapping
     return [[lines[at] for at in sorted(lines) if parts[at][0] == k] for k in range(len(formulas))]
 
 
+def digits(number: float, sign: str = "-") -> str:
+    """Return a number with six digits, and with ``sign`` "+" a sign in any case; 0 for one below NOISE."""
+    return f"{0.0 if abs(number) < NOISE else number:{sign}.6g}"
+
+
 def shown(number: Any) -> str:
     """Return a number, or a vector, with six digits; a component is 0 that is less than half a millionth, or than that
     of the longest component if this is below 1.
     """
     if np.ndim(number) == 0:
-        return f"{number + 0.0:.6g}"
+        return digits(number)
     parts = np.asarray(number, np.float64)
     with np.errstate(invalid="ignore"):
         least = 5e-7 * np.minimum(np.abs(parts).max(initial=0.0), 1.0)

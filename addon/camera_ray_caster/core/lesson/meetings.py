@@ -17,7 +17,7 @@ from ..shapes.in_camera import in_camera
 from ..shapes.kinds import by_kind
 from ..shapes.mesh.surface import TRIANGLES, HitTriangles
 from ..tuning import MESH_BLOCK
-from .formula import shown
+from .formula import digits, shown
 
 MOST = 12
 """Maximum number of intersections listed per mesh."""
@@ -111,7 +111,7 @@ def _sphere(shapes, k, at, along):
     under = b * b - 4 * a * c
     lines = (
         f"own frame, where it is the unit sphere: |p + t d|² = 1, p = {words(at)}, d = {words(along)}",
-        f"{a:.6g} t² {b:+.6g} t {c:+.6g} = 0, discriminant {under:.6g}",
+        f"{digits(a)} t² {digits(b, '+')} t {digits(c, '+')} = 0, discriminant {digits(under)}",
     )
     if under < 0:
         return lines, []
@@ -125,7 +125,8 @@ def _plane(shapes, k, at, along):
         return (), []
     t = float(-at[2] / along[2])
     x, y = (at + t * along)[:2]
-    line = f"own frame, where it is z = 0: {at[2]:.6g} {along[2]:+.6g} t = 0 at x = {x:.6g}, y = {y:.6g}"
+    place = f"x = {digits(x)}, y = {digits(y)}"
+    line = f"own frame, where it is z = 0: {digits(at[2])} {digits(along[2], '+')} t = 0 at {place}"
     return (line,), [(t, "", -1)] if endless or max(abs(x), abs(y)) <= 1 else []
 
 
