@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import camera_ray_caster as crc
-from camera_ray_caster.core.clouds.formats import FORMATS as CLOUDS
+from camera_ray_caster.core.clouds.formats import POINT_FORMATS as CLOUDS
 from camera_ray_caster.core.clouds.formats import files_of
 from camera_ray_caster.core.clouds.sequences import sequence
 from camera_ray_caster.core.exports import FORMATS, export

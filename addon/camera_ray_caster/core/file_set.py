@@ -36,7 +36,7 @@ else:
 PREFIX = ".writing_"
 NEW, OLD, JOURNAL, LOCK = "new", "old", "journal.json", "lock"
 DRAFT = JOURNAL + ".draft"
-KINDS = {NEW: S_IFDIR, OLD: S_IFDIR, JOURNAL: S_IFREG, DRAFT: S_IFREG, LOCK: S_IFREG}
+FILE_TYPES = {NEW: S_IFDIR, OLD: S_IFDIR, JOURNAL: S_IFREG, DRAFT: S_IFREG, LOCK: S_IFREG}
 """What may stand in a workplace, none of it a link."""
 WORKPLACE = re.compile(re.escape(PREFIX) + "[0-9a-f]{16}")
 NO_LINK = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
@@ -154,7 +154,7 @@ def _made_here(work: Path, locked: str) -> bool:
     kinds = {entry.name: S_IFMT(entry.stat(follow_symlinks=False).st_mode) for entry in os.scandir(work)}
     if not locked:
         return kinds == {LOCK: S_IFREG}  # killed as it began
-    known = locked == _token(work) and kinds.items() <= KINDS.items()
+    known = locked == _token(work) and kinds.items() <= FILE_TYPES.items()
     return known and (JOURNAL not in kinds or _journal(work) is not None)
 
 

@@ -138,7 +138,7 @@ def test_a_search_that_ends_before_all_rays_count_has_not_converged(monkeypatch)
     """
     cam = crc.camera("UCM", (64, 48), fx=20.0, unified_xi=1.5)
     assert crc.fit(cam, "DIVISION").converged
-    monkeypatch.setattr("camera_ray_caster.core.camera.fit_search.ROUNDS", 1)
+    monkeypatch.setattr("camera_ray_caster.core.camera.fit_search.MOST_ROUNDS", 1)
     assert not crc.fit(cam, "DIVISION").converged
 
 

@@ -10,7 +10,7 @@ import pytest
 import camera_ray_caster as crc
 from camera_ray_caster.core.clouds.beams import FROM_CAMERA
 from camera_ray_caster.core.clouds.cloud import WORLD
-from camera_ray_caster.core.clouds.formats import FORMATS, files_of
+from camera_ray_caster.core.clouds.formats import POINT_FORMATS, files_of
 from camera_ray_caster.core.clouds.sequences import sequence
 from camera_ray_caster.core.motion.apart import rows_of
 from camera_ray_caster.core.motion.evaluations import resolve
@@ -185,7 +185,7 @@ def test_numbers_that_a_format_cannot_store_are_refused():
         written("pdc")
 
 
-@pytest.mark.parametrize("key", FORMATS)
+@pytest.mark.parametrize("key", POINT_FORMATS)
 def test_a_cloud_without_points_has_its_files(key):
     empty = crc.scan(scanner(), crc.spheres([(0.0, 0.0, 500.0)], 1.0))
     assert len(empty) == 0

@@ -57,7 +57,7 @@ def test_memory_is_given_once_though_other_memory_comes_back_meanwhile():
 
 def test_no_more_is_kept_than_the_limit(monkeypatch):
     size = np.empty(SHAPE, np.float32).nbytes
-    monkeypatch.setattr(kept, "MOST", 3 * size)
+    monkeypatch.setattr(kept, "MOST_BYTES", 3 * size)
     arrays = [kept.empty(SHAPE, np.float32) for _ in range(2)]
     arrays += [kept.empty((2, *SHAPE), np.float32)]
     del arrays

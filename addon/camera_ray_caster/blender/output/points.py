@@ -15,7 +15,7 @@ import bpy
 
 from ...core.cast import Images
 from ...core.clouds.cloud import AXES, OF_DEVICE, SENSOR, scan
-from ...core.clouds.formats import FORMATS, files_of
+from ...core.clouds.formats import POINT_FORMATS, files_of
 from ...core.clouds.sequences import sequence
 from ...core.exports.camera_json import camera_from_json
 from ...core.file_set import atomic_folder
@@ -31,7 +31,7 @@ SEQUENCES = "sequences"
 
 def add_points(parser) -> None:
     """Add the options for points."""
-    parser.add_argument("--points", type=str.lower, choices=FORMATS, help=
+    parser.add_argument("--points", type=str.lower, choices=POINT_FORMATS, help=
         "also write the hit points as a point cloud: PLY, PCD, KITTI with SemanticKITTI's labels, nuScenes, LAS or "
         "NPZ")  # fmt: skip
     parser.add_argument("--points-axes", type=str.lower, choices=AXES, default=SENSOR, help=

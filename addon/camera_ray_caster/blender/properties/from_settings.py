@@ -18,7 +18,7 @@ UNITS = {"angle": {"subtype": "ANGLE", "step": 100}, "length": {"unit": "LENGTH"
 def property_of(setting: Setting):
     """Return the Blender property of a setting, for a class's annotations."""
     named = {"name": setting.label, "description": setting.text, "update": _tag, "override": {"LIBRARY_OVERRIDABLE"}}
-    return KINDS[setting.kind](setting, named)
+    return PROPERTY_MAKERS[setting.kind](setting, named)
 
 
 def _tag(self, context):
@@ -74,7 +74,7 @@ def _image(setting, named):
     return props.PointerProperty(**named, type=bpy.types.Image)
 
 
-KINDS = {
+PROPERTY_MAKERS = {
     "FLOAT": _float, "INT": _int, "BOOLEAN": _boolean, "ENUM": _enum, "VECTOR": _vector, "TEXT": _text,
     "FILE": _file, "OBJECT": _object, "IMAGE": _image,
 }  # fmt: skip

@@ -104,10 +104,10 @@ def _value(setting: Setting, data, depsgraph):
     else:
         owner = owner_of(setting, data, depsgraph.scene_eval)
         value = setting.default if owner is None else getattr(owner, setting.name)
-    return KINDS[setting.kind](setting, value, data, depsgraph) if setting.kind in KINDS else value
+    return READERS[setting.kind](setting, value, data, depsgraph) if setting.kind in READERS else value
 
 
-KINDS = {
+READERS = {
     "VECTOR": lambda setting, value, data, depsgraph: tuple(value),
     "FILE": lambda setting, value, data, depsgraph: bpy.path.abspath(value, library=data.library),
     "OBJECT": lambda setting, value, data, depsgraph: line_record(setting, value, depsgraph),

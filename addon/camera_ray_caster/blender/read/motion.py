@@ -20,7 +20,7 @@ from .physics import prepare
 CHECKS = 4
 """Number of frames at which the interpolation is compared with the scene, in addition to those that resolved it."""
 
-STEPS = {NEXT: 1.0, PREVIOUS: -1.0}
+NEIGHBOR_STEPS = {NEXT: 1.0, PREVIOUS: -1.0}
 """Steps from the frame that is read to its neighbors, in frames."""
 
 
@@ -38,7 +38,7 @@ def with_other_frames(
     The motion is None unless pixels have their own times. All frames are of the same camera object. See ``motion_of``
     for ``visit`` and ``read``.
     """
-    neighbors = {name: frame + STEPS[name] for name in frames_of(passes)}
+    neighbors = {name: frame + NEIGHBOR_STEPS[name] for name in frames_of(passes)}
     if neighbors:
         prepare(depsgraph, neighbors.values())
     motion = motion_of(found.camera, depsgraph, camera_object, visit, read)

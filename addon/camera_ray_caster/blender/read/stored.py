@@ -53,7 +53,7 @@ def _raw(owner, setting: Setting):
 
 def _stored(owner, setting: Setting):
     value = _raw(owner, setting)
-    return KINDS.get(setting.kind, _same)(setting, setting.default if value is None else value)
+    return CONVERSIONS.get(setting.kind, _same)(setting, setting.default if value is None else value)
 
 
 def _same(setting, value):
@@ -64,7 +64,7 @@ def _word(setting, value) -> str:
     return {item.number: item.key for item in setting.items}.get(value, str(value))
 
 
-KINDS = {
+CONVERSIONS = {
     "FLOAT": lambda setting, value: float(np.float32(value)),
     "VECTOR": lambda setting, value: tuple(np.array(value, np.float32).tolist()),
     "BOOLEAN": lambda setting, value: bool(value),

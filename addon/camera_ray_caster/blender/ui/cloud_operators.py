@@ -8,7 +8,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ...core.clouds.cloud import AXES, OF_DEVICE, PointCloud, scan
-from ...core.clouds.formats import FORMATS
+from ...core.clouds.formats import POINT_FORMATS
 from ...core.library.clouds import save_points
 from ..output.points import categories_of
 from ..read.scene import read_scene
@@ -84,7 +84,7 @@ class SavePoints(OfPoints, ExportHelper, bpy.types.Operator):
     bl_label = "Save Points"
     bl_options = {"REGISTER"}
 
-    format: EnumProperty(name="Format", items=[(key, key.upper(), f"Files of {key.upper()}") for key in FORMATS])
+    format: EnumProperty(name="Format", items=[(key, key.upper(), f"Files of {key.upper()}") for key in POINT_FORMATS])
     axes: EnumProperty(
         name="Axes", items=[(key, key.title(), f"Points in the axes of the {key}") for key in AXES]
     )  # fmt: skip

@@ -57,7 +57,7 @@ def _read_and_verified(scene, camera_object=None, frame=None, view="") -> tuple[
     return camera, findings
 
 
-MOST = 64
+MOST_KEPT = 64
 """Number of cameras whose findings are kept."""
 _kept: dict[tuple[str, str], tuple[Any, list[Finding]]] = {}
 """The findings on the cameras and views of pictures, the latest last, and what they depend on."""
@@ -76,7 +76,7 @@ def findings_of_picture(camera: Camera, camera_object, depsgraph, view="") -> li
     if not same(of, others):
         findings = verify(camera, answers)
     _kept[camera.name, view] = of, findings
-    if len(_kept) > MOST:
+    if len(_kept) > MOST_KEPT:
         del _kept[next(iter(_kept))]
     return findings
 

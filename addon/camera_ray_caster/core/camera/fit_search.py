@@ -22,7 +22,7 @@ from ..cameras.parts.parameters import parameters_of, varied, with_parameters
 from ..records import BlenderCamera, InputError, Pose, Raster
 from .jacobian import of_settings
 
-STEPS, ROUNDS = 500, 10
+MOST_STEPS, MOST_ROUNDS = 500, 10
 """Largest numbers of steps, and of searches with more of the rays: those that come into view."""
 
 DAMPED, LEAST, MOST = 1e-3, 1e-15, 1e15
@@ -132,7 +132,7 @@ class Search:
         """
         values, converged, seen = self.values, False, self.near()
         seen = seen if seen.mean() >= LEFT else self.seen(values)
-        for _ in range(ROUNDS):
+        for _ in range(MOST_ROUNDS):
             values, converged, counted = self._descended(values, seen)
             if counted.mean() < LEFT:
                 return values, False, counted.mean()
@@ -164,7 +164,7 @@ class Search:
         damping, largest = DAMPED, np.zeros(len(values))
         off = self.residual(values)[seen].ravel()
         exact = EXACT * max(self.raster.size) * np.sqrt(len(off))
-        for _ in range(STEPS):
+        for _ in range(MOST_STEPS):
             if seen.mean() < LEFT:
                 break
             slopes = self.derivatives(values, seen)

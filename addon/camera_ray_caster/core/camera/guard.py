@@ -25,10 +25,10 @@ MOVES = 16
 coordinate; a ray by as many times ``Model.formula_rounding``.
 """
 
-MOST = 2.0**-20
+LARGEST_ANGLE = 2.0**-20
 """Angle that both may make up for at most: with more, rounding leaves the pixel no place."""
 
-STEPS = 8
+NEWTON_STEPS = 8
 """Number of Newton's steps: from a pixel that is almost right each step squares the error."""
 
 
@@ -77,7 +77,7 @@ def _is_within_rounding(model: Model, points, x, y):
     turned = np.fmax.reduce([np.abs(other - np.sqrt(off)) for other in beside])
     moved, bent = model.formula_rounding(x, y)
     turned = 2 * turned + MOVES * (moved + bent * distance)
-    return np.sqrt(off) <= SLACK * (distance + norm(origin)) + np.fmin(turned, MOST * distance)
+    return np.sqrt(off) <= SLACK * (distance + norm(origin)) + np.fmin(turned, LARGEST_ANGLE * distance)
 
 
 def _nearer(model: Model, points, pixels):
@@ -85,7 +85,7 @@ def _nearer(model: Model, points, pixels):
     x, y = pixels.T
     point, itself = components(points), Pose(np.zeros(3), np.eye(3))
     with np.errstate(all="ignore"):  # NaN: the rays of a line of pixels meet the point
-        for _ in range(STEPS):
+        for _ in range(NEWTON_STEPS):
             rays = RayDerivatives(model, itself, x, y)
             beside = difference(point, rays.origin)
             off = along(beside, rays.direction, -dot(beside, rays.direction) / dot(rays.direction, rays.direction))

@@ -128,7 +128,7 @@ def _npz_bytes(**arrays: Any) -> bytes:
     return content.getvalue()
 
 
-FORMATS: dict[str, tuple[Callable[[PointCloud, str], Files], Unit]] = {
+POINT_FORMATS: dict[str, tuple[Callable[[PointCloud, str], Files], Unit]] = {
     "ply": (_ply, BLENDER_UNITS), "pcd": (_pcd, BLENDER_UNITS), "kitti": (_kitti, METERS),
     "nuscenes": (_nuscenes, METERS), "las": (_las, METERS), "npz": (_npz, BLENDER_UNITS),
 }  # fmt: skip
@@ -155,5 +155,5 @@ def files_of(cloud: PointCloud, key: str, axes: str = SENSOR) -> Files:
     """Return the endings and contents of a cloud's files in a format. Raises InputError for an unknown format, and for
     numbers that it cannot store.
     """
-    files, unit = FORMATS[chosen(key, "format of points", FORMATS)]
+    files, unit = POINT_FORMATS[chosen(key, "format of points", POINT_FORMATS)]
     return files(_in_unit(cloud, unit), axes)

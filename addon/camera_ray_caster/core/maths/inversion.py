@@ -25,7 +25,7 @@ its end entries may be far apart.
 NEAR = 1e-8
 """Square root of rounding: after a step below this fraction of x, the error is less than the function's rounding."""
 
-STEPS = 400
+MOST_STEPS = 400
 """Largest number of steps, enough for bisection alone to reach the last of a hundred digits."""
 
 
@@ -96,4 +96,4 @@ class Inverse:
             goes_on = (np.abs(guess - x) > close * np.abs(guess)) & (right - left > close * right)
             return (target, guess, left, right), ~goes_on
 
-        return loop(step, (target, x, left, right), STEPS)[1]
+        return loop(step, (target, x, left, right), MOST_STEPS)[1]

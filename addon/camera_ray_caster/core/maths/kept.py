@@ -11,7 +11,7 @@ import numpy as np
 LEAST = 1 << 17
 """Minimum number of bytes of a block that is kept."""
 
-MOST = 1 << 26
+MOST_BYTES = 1 << 26
 """Maximum number of bytes that are kept while no array uses them: four passes of 1920 x 1080. Nothing kept, neither
 these nor working arrays: 1.25 times the processor time of 10 spheres and four passes, and of 1,000 and 10,000 spheres
 and two.
@@ -35,7 +35,7 @@ class _Block:
         blocks = _unused.pop(size, [])
         blocks.append(self._bytes)
         _unused[size] = blocks
-        excess = sum(one * len(blocks) for one, blocks in list(_unused.items())) - MOST
+        excess = sum(one * len(blocks) for one, blocks in list(_unused.items())) - MOST_BYTES
         for one in list(_unused):
             if excess > 0:
                 excess -= one * len(_unused.pop(one, ()))
@@ -60,6 +60,6 @@ def empty(shape: tuple[int, ...], dtype) -> np.ndarray:
     """
     dtype = np.dtype(dtype)
     size = prod(shape) * dtype.itemsize
-    if not LEAST <= size <= MOST:
+    if not LEAST <= size <= MOST_BYTES:
         return np.empty(shape, dtype)
     return np.asarray(_Block(_memory(size))).view(dtype).reshape(shape)

@@ -120,7 +120,7 @@ _unused: list[Scratch] = []
 @contextmanager
 def lending() -> Iterator[Callable[[], Scratch]]:
     """Give a function that lends working arrays: those of earlier work, or new ones. At the end they are kept for later
-    work, up to ``kept.MOST`` bytes.
+    work, up to ``kept.MOST_BYTES`` bytes.
     """
     lent: list[Scratch] = []
 
@@ -135,7 +135,7 @@ def lending() -> Iterator[Callable[[], Scratch]]:
         yield lend
     finally:
         for scratch in lent:
-            if scratch.size + sum(one.size for one in _unused) <= kept.MOST:
+            if scratch.size + sum(one.size for one in _unused) <= kept.MOST_BYTES:
                 _unused.append(scratch)
 
 

@@ -28,7 +28,7 @@ WIDTH = 100
 """Maximum width of the table in columns."""
 MOST_NUMBERS = 3 * 25_000
 """Numbers of the largest table of rays in the record of a report: as text, of which each picture has one, some 4 MB."""
-MARGIN = 23
+VALUE_COLUMN = 23
 """Column in which the values of a camera's facts begin."""
 SIZES = [f"{size}_{unit}" for unit in ("pixels", "radians") for size in ("worst", "median", "bound")]
 CAST_STEPS = ("plan", *STEPS)
@@ -218,9 +218,9 @@ def _camera_lines(report: Report) -> list[str]:
     settings = ", ".join(f"{name} {_numbers(value)}" for name, value in facts.pop("settings").items())
     for name in ("key", "plane_from_pixels", "world_to_opencv"):  # derived from other facts in the table
         facts.pop(name, None)
-    if settings and len(settings) <= WIDTH - MARGIN:  # if they are few
+    if settings and len(settings) <= WIDTH - VALUE_COLUMN:  # if they are few
         facts["settings"] = settings
-    lines = [f"  {name.replace('_', ' '):{MARGIN - 3}} {_numbers(value)}" for name, value in facts.items()]
+    lines = [f"  {name.replace('_', ' '):{VALUE_COLUMN - 3}} {_numbers(value)}" for name, value in facts.items()]
     return [title, *lines, *_listed("Formula", formula)]
 
 

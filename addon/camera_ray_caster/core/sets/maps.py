@@ -13,7 +13,7 @@ from ..units import MILLIMETERS, factor
 from .png import png, srgb
 from .reading import View
 
-MOST = 65535
+MOST_16_BITS = 65535
 SHOWN = "combined", "depth", "distance", "shape_index", "object_index", "normal"
 """Passes of which a preview shows those that there are."""
 
@@ -23,7 +23,7 @@ def depth16(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
     depths are along the viewing direction ("planar") or from the eye ("distance"), as Blender's Depth is.
     """
     farthest = max(float(_millimeters(view).max(initial=0)) for view in views)
-    step = 1.0 if farthest <= MOST else farthest / MOST
+    step = 1.0 if farthest <= MOST_16_BITS else farthest / MOST_16_BITS
     kinds = {}
     for view in views:
         yield f"{view.name}_depth.png", png(np.round(_millimeters(view) / step).astype(np.uint16)[::-1])
@@ -44,7 +44,7 @@ def normals(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
     for view in views:
         opencv_from_world = FROM_BLENDER[:3, :3] @ view.camera.pose.basis.T
         turned = view.framed(view.pixels("normal").astype(np.float64) @ opencv_from_world.T)
-        yield f"{view.name}_normal.png", png(np.round((turned + 1) / 2 * MOST).astype(np.uint16)[::-1])
+        yield f"{view.name}_normal.png", png(np.round((turned + 1) / 2 * MOST_16_BITS).astype(np.uint16)[::-1])
 
 
 def preview(views: list[View]) -> Iterator[tuple[str, str | bytes]]:

@@ -20,7 +20,7 @@ from .png import png
 from .reading import TRAIN, VALIDATION, Files, View
 from .streams import Records, Waiting
 
-MOST = 65535
+MOST_16_BITS = 65535
 
 
 def files(views: list[View]) -> Files:
@@ -31,7 +31,7 @@ def files(views: list[View]) -> Files:
     transforms: dict[str, Any] = {"camera_model": camera_model(each), "frames": [""]}
     for frame, view in zip(map(frame_of, each), views, strict=True):
         depth = np.round(view.planar_depth() * 1000)
-        if depth.max(initial=0) > MOST:
+        if depth.max(initial=0) > MOST_16_BITS:
             raise InputError(f"depths of {view.name} are up to {depth.max() / 1000:.0f}: 16 bits hold 65 units")
         valid = view.framed(view.camera.rays().valid)
         for key, folder, pixels in (

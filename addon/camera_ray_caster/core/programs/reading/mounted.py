@@ -20,7 +20,7 @@ from .poses import object_and_frame, placed_in
 UNNAMED = "", "camera"
 """Names of lenses in files that do not name them; nerfstudio's is the latter."""
 
-MOST = 100_000
+MOST_POSES = 100_000
 """Poses that are read from a file."""
 
 
@@ -70,8 +70,8 @@ def mounted(path: str, key: str, frame: tuple[int, int] | None, rate: float, met
     lens_file, pose_file = pair
     document = Document(pose_file, frame, key)
     placed = placed_in(document, meters)
-    if len(placed) > MOST:
-        raise document.refusal(f"it has {len(placed):,} poses: {MOST:,} are read")
+    if len(placed) > MOST_POSES:
+        raise document.refusal(f"it has {len(placed):,} poses: {MOST_POSES:,} are read")
     if placed[0].moves or placed[0].time is not None:
         placed, note = _once_each(placed)
         frames, poses = _frames(document, placed, rate), [one.pose for one in placed]
