@@ -37,10 +37,10 @@ def explain(camera, shapes=None, pixel=None, *, shading: str = MATERIAL, samples
     """
     scene, pixel = Scene.given_with(camera, shapes, pixel, "explain")
     camera, shapes = scene.camera, scene.shapes
-    place = numbers(pixel, "pixel")
-    if place.shape != (2,) or not (np.isfinite(place) & (place == np.floor(place))).all():
+    position = numbers(pixel, "pixel")
+    if position.shape != (2,) or not (np.isfinite(position) & (position == np.floor(position))).all():
         raise InputError(f"pixel is {shown(pixel)}: it must be (column, row), two whole numbers")
-    column, row = place.astype(int).tolist()
+    column, row = position.astype(int).tolist()
     time = camera.pixel_time
     frame = None if time is None else float(np.asarray(time.frame_at(column + 0.5, row + 0.5)).ravel()[0])
     shading = word(shading, "shading", SHADINGS)

@@ -103,11 +103,11 @@ def export(
     cannot represent (it names the formats that can), two cameras of one name and frame, a unit without length, and a
     folder that cannot be written.
     """
-    given = [data] if isinstance(data, Camera) or not isinstance(data, Iterable) else list(data)
-    for one in (*given, *([] if target is None else [target])):
-        if not isinstance(one, Camera):
-            raise TypeError(f"export takes cameras, not {type(one)}")
-    if not given:
+    cameras = [data] if isinstance(data, Camera) or not isinstance(data, Iterable) else list(data)
+    for camera in (*cameras, *([] if target is None else [target])):
+        if not isinstance(camera, Camera):
+            raise TypeError(f"export takes cameras, not {type(camera)}")
+    if not cameras:
         raise InputError("there is no camera to export: give one or more")
     folder, name, key = destination(path, format, ENDINGS)
     chosen = find_format(key)
@@ -116,18 +116,18 @@ def export(
     unit = number(meters, "meters", 1e12)
     if unit <= 0:
         raise InputError(f"meters is {shown(meters)}: it must be above 0, the length of a unit")
-    part = (pi if fit else None) if isinstance(fit, bool) else fit
-    if part is not None:
-        region_of(given[0], part, "fit")
-    names = file_names(one.name for one in given)
-    shots = [Shot(names[one.name], _frame(one), one, unit, target) for one in given]
+    region = (pi if fit else None) if isinstance(fit, bool) else fit
+    if region is not None:
+        region_of(cameras[0], region, "fit")
+    names = file_names(camera.name for camera in cameras)
+    shots = [Shot(names[camera.name], _frame(camera), camera, unit, target) for camera in cameras]
     if len({shot.stem for shot in shots}) < len(shots):
         raise InputError("two cameras have one name and one frame: give them names (name=) or frames (frame=)")
-    files, remarks = files_of(chosen.key, sorted(shots, key=lambda shot: shot.frame), part)
+    files, remarks = files_of(chosen.key, sorted(shots, key=lambda shot: shot.frame), region)
     return Exported(write(_named(files, name) if name else files, folder), remarks)
 
 
-_KEYS = in_words([f'"{one.key}"' for one in FORMATS])
+_KEYS = in_words([f'"{export_format.key}"' for export_format in FORMATS])
 export.__doc__ = (export.__doc__ or "").replace("KEYS", _KEYS)
 
 
@@ -135,9 +135,9 @@ def _named(files: Iterator[tuple[str, Content]], name: str) -> Iterator[tuple[st
     """Yield the files of an export, a single one under another name. Raises InputError if none of several has it."""
     names = []
     first = next(files)
-    for own, content in chain([first, second] if (second := next(files, None)) else [(name, first[1])], files):
-        names.append(own)
-        yield own, content
+    for file_name, content in chain([first, second] if (second := next(files, None)) else [(name, first[1])], files):
+        names.append(file_name)
+        yield file_name, content
     if name not in names:
         raise InputError(f"the export has {len(names)} files: give a folder in place of {name!r}, and format=")
 

@@ -29,7 +29,7 @@ def fit(
 
     The result has the fitted ``camera``, at the same place, its fitted ``parameters`` with their ``covariance``, the
     ``worst`` and ``mean`` distance of pixels, the ``residual`` of each, and ``summary``, one line. A map between the
-    two pictures shows the rest: ``export("stmap", camera, folder, target=fit.camera)``.
+    two pictures shows the rest: ``export(camera, folder, "stmap", target=fit.camera)``.
 
     Raises InputError, in one line, for a model or a setting that does not exist, for cameras whose rays do not leave
     one eye, for pixels with times of their own, and if the model sees too few of the region's rays.
@@ -44,13 +44,13 @@ def fit(
         return fit(camera, model, **{"within": within, "free": free, **settings, **old})
     known = models()
     model = chosen(model, "model", known)
-    declared = {one.name: one for one in known[model].SETTINGS}
+    declared = {setting.name: setting for setting in known[model].SETTINGS}
     for name in settings:
         if name not in declared:
             raise unknown(f"setting of {model}", name, declared)
-    given = {name: plain(declared[name], value) for name, value in settings.items()}
+    values = {name: plain(declared[name], value) for name, value in settings.items()}
     try:
         names = {free} if isinstance(free, str) else None if free is None else set(free)
     except TypeError as error:
         raise InputError(f"free is {shown(free)}: it must be names of parameters of {model}") from error
-    return fit_model(camera, known[model], None if within is None else region_of(camera, within), names, given)
+    return fit_model(camera, known[model], None if within is None else region_of(camera, within), names, values)

@@ -27,33 +27,33 @@ def join(*shapes: Shapes) -> Shapes:
 
     Raises InputError for shapes that move, and TypeError for anything but shapes.
     """
-    for one in shapes:
-        if not isinstance(one, Shapes):
-            raise TypeError(f"join takes shapes, not {type(one)}")
-        if any(one.timeline):
+    for record in shapes:
+        if not isinstance(record, Shapes):
+            raise TypeError(f"join takes shapes, not {type(record)}")
+        if any(record.timeline):
             raise InputError("shapes that move cannot be joined: join those of one frame")
     if len(shapes) < 2:
         return shapes[0] if shapes else no_shapes()
-    tables: dict[str, Any] = {name: _chained(getattr(one, name) for one in shapes) for name in TABLES}
-    rows: dict[str, Any] = {name: np.concatenate([getattr(one, name) for one in shapes]) for name in ROWS}
+    tables: dict[str, Any] = {name: _chained(getattr(record, name) for record in shapes) for name in TABLES}
+    rows: dict[str, Any] = {name: np.concatenate([getattr(record, name) for record in shapes]) for name in ROWS}
     for name, table in INDICES.items():
-        columns = [_column(getattr(one, name), len(one)) for one in shapes]
-        moved = _moved(columns, [getattr(one, table) for one in shapes])
+        columns = [_column(getattr(record, name), len(record)) for record in shapes]
+        moved = _moved(columns, [getattr(record, table) for record in shapes])
         rows[name] = moved if tables[table] else np.zeros(0, np.int32)
-    shared = [one.shared if len(one.shared) else np.zeros(len(one), bool) for one in shapes]
-    maps = [np.tile(SAME, (len(one.names), 1, 1)) if one.uv is None else one.uv for one in shapes]
+    shared = [record.shared if len(record.shared) else np.zeros(len(record), bool) for record in shapes]
+    maps = [np.tile(SAME, (len(record.names), 1, 1)) if record.uv is None else record.uv for record in shapes]
     return Shapes(
         **rows,
         **tables,
-        instanced=_chained(one.instanced or (False,) * len(one.names) for one in shapes),
-        materials=tuple(dict.fromkeys(_chained(one.materials for one in shapes))),
-        lights=_lights([one.lights for one in shapes]),
+        instanced=_chained(record.instanced or (False,) * len(record.names) for record in shapes),
+        materials=tuple(dict.fromkeys(_chained(record.materials for record in shapes))),
+        lights=_lights([record.lights for record in shapes]),
         world_color=shapes[0].world_color,
         background=shapes[0].background,
         identity=_identity(shapes),
         shared=np.concatenate(shared) if tables["meshes"] else np.zeros(0, bool),
         slots=_slots(shapes, bool(tables["surfaces"])),
-        uv=None if all(one.uv is None for one in shapes) else np.concatenate(maps),
+        uv=None if all(record.uv is None for record in shapes) else np.concatenate(maps),
     )
 
 

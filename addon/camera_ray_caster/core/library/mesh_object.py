@@ -33,8 +33,8 @@ def with_colors(shapes: Shapes, mesh: Any) -> Shapes:
     """Return the shapes of a mesh with the colors of its vertices or faces: sRGB, with 8 bits or from 0 to 1."""
     visual = getattr(mesh, "visual", None)
     names = {"vertex": ("vertex_colors",), "face": ("face_colors",), "any": ("vertex_colors", "face_colors")}
-    found = ((name, getattr(visual, name, None)) for name in names.get(getattr(visual, "kind", "any"), ()))
-    name, colors = next(((name, colors) for name, colors in found if colors is not None), ("", None))
+    candidates = ((name, getattr(visual, name, None)) for name in names.get(getattr(visual, "kind", "any"), ()))
+    name, colors = next(((name, colors) for name, colors in candidates if colors is not None), ("", None))
     if colors is None or not len(shapes):
         return shapes
     of_faces = name == "face_colors"

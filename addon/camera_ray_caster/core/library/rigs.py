@@ -28,7 +28,7 @@ class RigCamera(Camera):
     @property
     def frames(self) -> tuple[float, ...]:
         """Return the frames at which the file has a pose; () of a camera that stands still."""
-        return tuple(float(one.record.settings["frame"]) for one in self.others) if self.others else ()
+        return tuple(float(camera.record.settings["frame"]) for camera in self.others) if self.others else ()
 
     def __len__(self) -> int:
         return max(1, len(self.others))
@@ -43,11 +43,11 @@ class RigCamera(Camera):
         """Return the camera at one of its frames. Raises InputError for a frame at which the file has no pose."""
         if not self.others:
             return super().at(frame)
-        found = next((one for one, own in zip(self.others, self.frames, strict=True) if own == frame), None)
-        if found is None:
-            nearest = min(self.frames, key=lambda own: abs(own - frame))
+        camera = next((other for other, time in zip(self.others, self.frames, strict=True) if time == frame), None)
+        if camera is None:
+            nearest = min(self.frames, key=lambda time: abs(time - frame))
             raise InputError(f"camera {self.name!r} has no pose at frame {frame:g}: the nearest is {nearest:g}")
-        return found
+        return camera
 
 
 def load_rig(
@@ -72,28 +72,28 @@ def load_rig(
     rate = number(frame_rate, "frame_rate", 1e6)
     if rate <= 0:
         raise InputError(f"frame_rate is {shown(frame_rate)}: it must be above 0")
-    found = mounted(file, model, frame, rate)
-    for note in filter(None, (one.note for one in found)):
+    mounted_cameras = mounted(file, model, frame, rate)
+    for note in filter(None, (mounted_camera.note for mounted_camera in mounted_cameras)):
         warnings.warn(note, stacklevel=2)
-    if not all(one.lenses for one in found):
+    if not all(mounted_camera.lenses for mounted_camera in mounted_cameras):
         raise InputError(f"file {file!r} is a trajectory, which has no lens: give a file with lenses and poses")
-    return {one.name: _of(one, frame) for one in found}
+    return {mounted_camera.name: _of(mounted_camera, frame) for mounted_camera in mounted_cameras}
 
 
-def _of(one: Mounted, frame: tuple[int, int] | None) -> RigCamera:
+def _of(mounted_camera: Mounted, frame: tuple[int, int] | None) -> RigCamera:
     by_lens: dict[int, Camera] = {}
     cameras = []
-    for lens, time, pose in zip(one.lenses, one.frames, one.poses, strict=True):
+    for lens, time, pose in zip(mounted_camera.lenses, mounted_camera.frames, mounted_camera.poses, strict=True):
         if id(lens) not in by_lens:
-            size, chosen = frame or size_of(one.file, lens), "" if one.alone else lens.name
-            by_lens[id(lens)] = of_lens(one.file, lens, chosen, size, None, one.name)
+            size, chosen = frame or size_of(mounted_camera.file, lens), "" if mounted_camera.alone else lens.name
+            by_lens[id(lens)] = of_lens(mounted_camera.file, lens, chosen, size, None, mounted_camera.name)
         camera = by_lens[id(lens)].with_pose(rigid(pose))
         if time is not None:
             settings = {**camera.record.settings, "frame": float(time)}
             camera = replace(camera, record=replace(camera.record, settings=settings))
         cameras.append(camera)
     first = {field.name: getattr(cameras[0], field.name) for field in fields(Camera)}
-    return RigCamera(**first, others=() if one.frames == [None] else tuple(cameras))
+    return RigCamera(**first, others=() if mounted_camera.frames == [None] else tuple(cameras))
 
 
 def rigid(pose: np.ndarray) -> np.ndarray:

@@ -102,8 +102,8 @@ def mesh(
     if faces is None:
         looks = {"object_index": object_index, "material_index": material_index, "color": color, "name": name}
         arrays = arrays_of(vertices)
-        given = {key: value for key, value in (("normals", normals), ("uv", uv)) if value is not None}
-        shapes = mesh(**(arrays | given), pose=pose, **looks)
+        overrides = {key: value for key, value in (("normals", normals), ("uv", uv)) if value is not None}
+        shapes = mesh(**(arrays | overrides), pose=pose, **looks)
         return with_colors(shapes, vertices) if color is GRAY else shapes
     points = numbers(vertices, "vertices")
     if points.ndim != 2 or points.shape[1] != 3 or not np.isfinite(points).all():
@@ -116,7 +116,7 @@ def mesh(
     polygon = np.repeat(np.arange(len(starts), dtype=np.int32), counts - 2)
     step = np.arange(len(polygon)) - np.repeat(np.cumsum(counts - 2) - (counts - 2), counts - 2)
     loops = (starts[polygon] + np.stack((np.zeros_like(step), step + 1, step + 2))).astype(np.int32)
-    found = Mesh(
+    triangles = Mesh(
         vertices=np.array(points.T, kept, order="C"),
         triangles=np.ascontiguousarray(corners[loops]),
         polygon=polygon,
@@ -131,9 +131,9 @@ def mesh(
     flaw = next(filter(None, map(flaw_of_last_row, placed)), None)
     if flaw:
         raise InputError(f"pose {flaw}")
-    shapes = _placed(mesh_primitive(found), placed[:, :3], object_index, material_index, color, name)
+    shapes = _placed(mesh_primitive(triangles), placed[:, :3], object_index, material_index, color, name)
     n = len(shapes)
-    return replace(shapes, meshes=(found,), mesh=np.zeros(n, np.int32), shared=np.full(n, n > 1))
+    return replace(shapes, meshes=(triangles,), mesh=np.zeros(n, np.int32), shared=np.full(n, n > 1))
 
 
 def _exact(kind: int, centers: np.ndarray, axes: np.ndarray, *looks) -> Shapes:
@@ -183,17 +183,17 @@ def _per_row(values: np.ndarray, name: str, n: int, width: tuple[int, ...]) -> n
 
 
 def _index(values, name: str, n: int) -> np.ndarray:
-    found = _per_row(numbers(values, name), name, n, ())
-    if not ((found == np.rint(found)) & (np.abs(found) <= LARGEST_INDEX)).all():
+    indices = _per_row(numbers(values, name), name, n, ())
+    if not ((indices == np.rint(indices)) & (np.abs(indices) <= LARGEST_INDEX)).all():
         raise InputError(f"{name} is {shown(values)}: it must be whole numbers of 32 bits")
-    return found.astype(np.int32)
+    return indices.astype(np.int32)
 
 
 def _matrices(axes, n: int, may_be_two: bool = False) -> np.ndarray:
     """Return axes as (n, 3, 3), the third of two columns perpendicular to them."""
-    given = np.eye(3) if axes is None else numbers(axes, "axes")
-    width = 2 if may_be_two and given.shape[-1:] == (2,) else 3
-    columns = _per_row(given, "axes", n, (3, width))
+    matrices = np.eye(3) if axes is None else numbers(axes, "axes")
+    width = 2 if may_be_two and matrices.shape[-1:] == (2,) else 3
+    columns = _per_row(matrices, "axes", n, (3, width))
     if width == 3:
         return columns
     third = np.cross(columns[:, :, 0], columns[:, :, 1])
@@ -219,11 +219,11 @@ def _faces(faces, count: int) -> tuple[np.ndarray, np.ndarray]:
 
 def _at_corners(values, name: str, width: int, count: int, corners: np.ndarray) -> np.ndarray:
     """Return float32 values at the corners, of values at the vertices or at the corners."""
-    found = numbers(values, name)
-    if found.shape not in ((count, width), (len(corners), width)) or not np.isfinite(found).all():
-        said = f"({count}, {width}), one per vertex, or ({len(corners)}, {width}), one per corner"
-        raise InputError(f"{name} are {shape_of(found)}: they must be {said}, finite numbers")
-    return (found[corners] if len(found) == count else found).astype(np.float32)
+    array = numbers(values, name)
+    if array.shape not in ((count, width), (len(corners), width)) or not np.isfinite(array).all():
+        allowed = f"({count}, {width}), one per vertex, or ({len(corners)}, {width}), one per corner"
+        raise InputError(f"{name} are {shape_of(array)}: they must be {allowed}, finite numbers")
+    return (array[corners] if len(array) == count else array).astype(np.float32)
 
 
 def _unit(normals: np.ndarray) -> np.ndarray:
