@@ -58,8 +58,19 @@ def test_what_is_a_number_is_keyed_and_follows_the_frame_and_nothing_else_can_be
         for name, values in wanted.items():
             for group in (own, evaluated):
                 assert value_of(group, name) == values[frame - 1], name
-    assert "model" in drawn(blender, camera_panels.SidebarCamera).split(), "beside its menu, which cannot be keyed"
     assert len(wanted) == sum(setting.kind in NUMBERS for setting in settings)
+
+
+def test_a_button_beside_the_menu_which_cannot_be_keyed_keys_the_model(blender, scene):
+    assert "camera_ray_caster.key_model" in drawn(blender, camera_panels.SidebarCamera).split()
+    own = scene.camera.data.camera_ray_caster
+    for frame, model in ((1, "OMNIMAX"), (5, "PENCIL")):
+        scene.frame_set(frame)
+        own.model = model
+        blender.ops.camera_ray_caster.key_model()
+    for frame, model in ((1, "OMNIMAX"), (5, "PENCIL")):
+        scene.frame_set(frame)
+        assert own.model == model
 
 
 @pytest.mark.parametrize("name", ["model", "time_mode", "shading", "primitive", "fov"])
