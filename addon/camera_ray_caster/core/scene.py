@@ -31,8 +31,9 @@ class Scene:
 
     @classmethod
     def given_with(cls, camera: Camera | Scene, shapes: Any, value: Any, to: str) -> tuple[Scene, Any]:
-        """Return the scene and the value of a function that is called as ``to(scene, value)`` or ``to(camera, shapes,
-        value)``. Raises TypeError as ``given`` does.
+        """Return the scene and the value of a function that takes both, or a camera, shapes and the value.
+
+        Raises TypeError as ``given`` does.
         """
         if isinstance(camera, Scene) and value is None:
             shapes, value = None, shapes
