@@ -90,7 +90,7 @@ def test_the_installed_extension_leaves_the_allocator_of_its_host_alone(installe
 def test_ten_times_disabled_and_enabled_leaves_what_once_does(installed):
     seen, _ = installed
     assert seen["enabled"] != seen["before"]
-    assert seen["enabled"]["counted"] == {"draw callbacks": 8, "commands": 1}
+    assert seen["enabled"]["counted"] == {"draw callbacks": 9, "commands": 1}
     assert seen["enabled again"] == seen["enabled"]
 
 
