@@ -130,6 +130,7 @@ def state():
         group, moves = data.camera_ray_caster, data.animation_data
         lenses[data.name] = {one.name: getattr(group, one.name) for one in CAMERA if one.kind in PLAIN}
         lenses[data.name] |= {"drivers": len(moves.drivers) if moves else 0, "lens": data.lens}
+        lenses[data.name] |= {"keyed": moves is not None and moves.action is not None}
         lenses[data.name] |= {"type": (data.type, data.panorama_type), "slit": group.slit_1 and group.slit_1.name}
     render = scene.render
     frame = render.engine, render.resolution_x, render.resolution_y, scene.camera.name

@@ -27,6 +27,11 @@ def area_pass(cam, name, things=BALL):
     return cast(cam, things, passes=name, dtype=np.float64)[name]
 
 
+def of_one_eye(key):
+    """Examples without glass before the camera, which bends the rays of the formulas below."""
+    return [settings for settings in EXAMPLES[key] if "port" not in settings]
+
+
 def solid_angles(key, settings=(), things=BALL):
     """The pass, and the image-plane place of each pixel."""
     cam = camera(key, settings)
@@ -34,7 +39,7 @@ def solid_angles(key, settings=(), things=BALL):
     return cam, area_pass(cam, "solid_angle", things), place
 
 
-@pytest.mark.parametrize("settings", EXAMPLES["PERSP"])
+@pytest.mark.parametrize("settings", of_one_eye("PERSP"))
 def test_a_pinhole_s_fall_off_with_the_cube_of_the_cosine(settings):
     cam, found, (x, y) = solid_angles("PERSP", settings)
     expected = cam.model.window.pitch_x * cam.model.window.pitch_y / (1 + x * x + y * y) ** 1.5
@@ -48,7 +53,7 @@ def test_a_panorama_s_fall_off_with_the_cosine_of_the_latitude(settings):
     np.testing.assert_allclose(found, expected, rtol=0, atol=ROUNDED * expected.max())
 
 
-@pytest.mark.parametrize("settings", EXAMPLES["FISHEYE_EQUIDISTANT"])
+@pytest.mark.parametrize("settings", of_one_eye("FISHEYE_EQUIDISTANT"))
 def test_an_equidistant_fisheye_s_are_as_sine_over_angle(settings):
     cam, found, (a, b) = solid_angles("FISHEYE_EQUIDISTANT", settings)
     theta = cam.model.half_fov * np.hypot(a, b)

@@ -207,7 +207,7 @@ GOOD = camchain("pinhole", NUMBERS, "radtan", FOUR)
         (GOOD.replace("320.5", ".nan"), "intrinsics of cam0 .* finite numbers"),
         (GOOD.replace("300.0", "-300.0"), "fx of camera .* is -300: .*; calibration file .*lens"),
         (mrcal("OPENCV4", NUMBERS), "intrinsics .* 8 finite numbers"),
-        (mrcal("CAHVOR", NUMBERS), "lensmodel is 'LENSMODEL_CAHVOR'"),
+        (mrcal("SPLINED", NUMBERS), "lensmodel is 'LENSMODEL_SPLINED'"),
         (mrcal("OPENCV4", NUMBERS)[:-3], "is not a cameramodel file of mrcal"),
         ("1 PINHOLE 640 480 500 500 320\n", "camera 1 .* 6 finite numbers"),
         ("1 PERISCOPE 640 480 500 500 320 240\n", "'PERISCOPE': it must be one of SIMPLE_PINHOLE"),

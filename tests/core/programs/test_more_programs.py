@@ -246,7 +246,7 @@ REFUSED = {
     "HOT3D, terms": (hot3d(projection_params=[1.0, 2.0]), "projection_params is .*16 finite numbers"),
     "camodocal, gap": (OCAM.replace("p3:", "p7:", 1), "without a gap"),
     "camodocal, ac": (OCAM.replace("ac: 1.02", "ac: -1.02"), "ac is -1.02: it must be above 0"),
-    "mrcal, old": (old_mrcal("'DISTORTION_CAHVOR'", ""), "lensmodel is 'LENSMODEL_CAHVOR': it must be one of"),
+    "mrcal, old": (old_mrcal("'DISTORTION_SPLINED'", ""), "lensmodel is 'LENSMODEL_SPLINED': it must be one of"),
 }
 
 

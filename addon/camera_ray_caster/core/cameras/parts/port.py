@@ -98,7 +98,8 @@ class FlatPort:
         layers = (self.distance, 1.0), (self.thickness, self.glass), (behind, self.medium)
         q = np.zeros(np.shape(across))
         for _ in range(STEPS):
-            square, rho, slope = q * q, 0.0, 0.0
+            square = q * q
+            rho, slope = np.zeros_like(q), np.zeros_like(q)
             for depth, index in layers:
                 root = index * index + (index * index - 1) * square
                 part = depth / np.sqrt(root)

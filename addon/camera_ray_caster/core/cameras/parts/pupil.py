@@ -176,8 +176,8 @@ def measured(
         off = tuple(o - way * d for o, d in zip(off, direction, strict=True))
         sharp = np.maximum(depth + place - optics.entrance_pupil[0], LEVEL * depth) / np.maximum(turn - 1, LEVEL)
         there = tuple(o / sharp + d - u for o, d, u in zip(off, direction, ahead, strict=True))
-        apart, spread = (MARGIN * np.where(passes & within, norm(part), 0.0).max(axis=(1, 2)) for part in (off, there))
-        apart, spread = float(apart.max()), np.maximum.accumulate(spread)
+        lines, spread = (MARGIN * np.where(passes & within, norm(part), 0.0).max(axis=(1, 2)) for part in (off, there))
+        apart, spread = float(lines.max()), np.maximum.accumulate(spread)
         angles = np.arccos(np.clip(turn - 1, -1.0, 1.0)).ravel()
         reach = float(np.hypot(r * height, place - optics.entrance_pupil[0]).max()) + apart
     return replace(
