@@ -118,6 +118,7 @@ def test_a_checkout_is_timed_against_a_commit_and_a_wrong_one_is_refused(tmp_pat
     assert "there is no commit 'nothing'" in refused.stderr
 
 
+@pytest.mark.full
 def test_sets_are_measured(monkeypatch, capsys):
     from measure import sets
 

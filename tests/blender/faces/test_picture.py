@@ -168,6 +168,7 @@ def test_without_a_driver_it_says_so_in_a_line():
     assert made.stderr.splitlines()[-1].startswith("cast.py: WORKBENCH renders on a GPU, and this machine")
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("model", [pytest.param("BLENDER", marks=pytest.mark.full), "DOME_MASTER"])
 def test_depth_of_field_is_that_of_rays_through_the_aperture(cubes, model):
     own, dof = cubes.camera.data.camera_ray_caster, cubes.camera.data.dof

@@ -102,6 +102,7 @@ def test_functions_of_other_libraries_lead_to_the_right_one(name, use):
         getattr(crc, name)
 
 
+@pytest.mark.full
 def test_a_type_checker_sees_what_is_there_and_nothing_else(tmp_path):
     pytest.importorskip("mypy")
     lines = [

@@ -185,6 +185,7 @@ def test_a_file_that_is_missing_is_refused_with_the_lenses_of_the_library():
         crc.camera("REAL_LENS", (32, 24), lens_file="tessar")
 
 
+@pytest.mark.full
 def test_damaged_files_end_in_a_lens_or_in_one_line(tmp_path):
     for text in (pbrt(), optical_bench(), isetcam(), rayoptics(), zemax()):
         for end in range(0, len(text), 17):
