@@ -158,6 +158,7 @@ def notes_stay(user, scenes):
     scene, button, region = bpy.context.scene, f"{BUTTON}cast(", user.region()
     camera = scene.camera.data
     scene.render.engine = "CAMERA_RAY_CASTER"
+    user.area().spaces.active.overlay.show_overlays = False  # the camera's lines show between the panels
     yield from user.wait(0.7)
     yield from user.find(button)
     top = user.known[button] - region.y
