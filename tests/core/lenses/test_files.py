@@ -192,3 +192,9 @@ def test_damaged_files_end_in_a_lens_or_in_one_line(tmp_path):
             for damaged in (text[:end], text[:end] + "x" + text[end:], text[:end] + "-" + text[end + 3 :]):
                 with suppress(crc.InputError):  # any other error is a failure
                     crc.camera("REAL_LENS", (32, 24), lens_file=str(_written(tmp_path, damaged)))
+
+
+@pytest.mark.parametrize(("path", "kind"), [("/dev/zero", "device"), (".", "directory")])
+def test_what_is_no_file_is_refused_unread(path, kind):
+    with pytest.raises(crc.InputError, match=f"it is a {kind}, not a file"):
+        read_lens(path)

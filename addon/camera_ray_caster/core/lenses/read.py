@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import stat
 from functools import lru_cache
 from pathlib import Path
 
@@ -40,6 +41,9 @@ def read_lens(file: str) -> Prescription:
         raise InputError(f"lens file {file!r} cannot be read ({error.strerror}){names}") from error
     except ValueError as error:
         raise InputError(f"lens file {file!r} has no name of a file") from error
+    if not stat.S_ISREG(state.st_mode):
+        kind = "directory" if stat.S_ISDIR(state.st_mode) else "device"
+        raise InputError(f"lens file {file!r} cannot be read: it is a {kind}, not a file")
     return _read(str(path), state.st_mtime_ns, state.st_size)
 
 
