@@ -121,7 +121,7 @@ def test_poses_of_a_sequence_are_in_meters():
 UNITS = {
     "COLMAP": "", "nerfstudio": "", "Kalibr": "m", "EuRoC": "m", "OKVIS": "m", "Basalt": "m", "BOP": "mm",
     "Project Aria": "m", "maplab": "m", "HOT3D": "m", "Metashape": "", "Meshroom": "", "Polycam": "m",
-    "NVIDIA NCore": "m", "CAHVOR": "m", "DepthAI": "m", "Anipose": "", "EasyMocap": "m", "CMU Panoptic": "m",
+    "NVIDIA NCore": "m", "CAHVOR": "m", "DepthAI": "cm", "Anipose": "", "EasyMocap": "m", "CMU Panoptic": "cm",
     "nuScenes": "m",
     "ARKitScenes": "m", "OpenCV": "", "mrcal": "", "OpenSfM": "m", "RealityCapture": "", "openMVG": "",
     "Bundler": "", "NVM": "", "Gaussian splatting": "", "nerfstudio camera paths": "", "LLFF": "",
@@ -134,7 +134,7 @@ UNITS = {
 @pytest.mark.parametrize("meters", SCALES)
 def test_every_reader_of_poses_has_the_unit_of_its_format(tmp_path, monkeypatch, meters):
     (tmp_path / "file").write_text("any")
-    place, sizes = np.eye(4), {"": 1.0, "m": 1.0 / meters, "mm": 1e-3 / meters}
+    place, sizes = np.eye(4), {"": 1.0, "m": 1.0 / meters, "cm": 1e-2 / meters, "mm": 1e-3 / meters}
     place[:3, 3] = 1, 2, 3
     for program in (one for one in PROGRAMS if one.poses is not None):
         of_any = replace(program, poses=lambda document: [Placed("", "", None, place)])

@@ -1,12 +1,12 @@
 """Lengths in files: the one place where they are converted from Blender units and back.
 
-A format that writes or reads lengths states its unit as a length in meters, METERS or MILLIMETERS, or BLENDER_UNITS for
-lengths that it leaves as they are. A scene's Unit Scale is the length of its Blender unit in meters.
+A format that writes or reads lengths states its unit as a length in meters, METERS, CENTIMETERS or MILLIMETERS, or
+BLENDER_UNITS for lengths that it leaves as they are. A scene's Unit Scale is the length of its Blender unit in meters.
 """
 
 from __future__ import annotations
 
-METERS, MILLIMETERS = 1.0, 1e-3
+METERS, CENTIMETERS, MILLIMETERS = 1.0, 1e-2, 1e-3
 BLENDER_UNITS = None
 
 UNIT_SCALE = "unit_scale"
@@ -25,4 +25,4 @@ def factor(unit: Unit, meters: float) -> float:
 
 def unit_name(unit: Unit) -> str:
     """Return a unit in words."""
-    return {None: "Blender units", METERS: "meters", MILLIMETERS: "millimeters"}[unit]
+    return {None: "Blender units", METERS: "meters", CENTIMETERS: "centimeters", MILLIMETERS: "millimeters"}[unit]

@@ -31,7 +31,7 @@ Places = tuple[np.ndarray, np.ndarray]
 
 @dataclass(frozen=True, eq=False)
 class CloudBeams(ABC):
-    """CloudBeams in rows and columns."""
+    """Beams in rows and columns, and what they hit."""
 
     name: str
     pose: np.ndarray

@@ -9,11 +9,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..maths.rotations import rotation
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens, one_of_several
-from .parts.placed import Placed, inverted
+from .parts.placed import Placed, inverted, of_rotation
 from .parts.plain import of_matrix
 from .parts.program import ProgramFiles
 
@@ -45,10 +44,8 @@ def poses(document: Document) -> list[Placed]:
 
 
 def _pose(camera: Fields) -> np.ndarray:
-    to_camera = np.eye(4)
-    to_camera[:3, :3] = rotation(np.array([camera.numbers("rotation", 3)]))[0]
-    to_camera[:3, 3] = camera.numbers("translation", 3)
-    return inverted(to_camera)
+    turn, place = camera.numbers("rotation", 3), camera.numbers("translation", 3)
+    return inverted(of_rotation(camera.document, turn, place, camera.said("rotation")))
 
 
 PROGRAM = ProgramFiles(

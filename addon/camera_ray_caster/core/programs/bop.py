@@ -9,13 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-import numpy as np
-
 from ..text_forms.json_text import as_text
 from ..units import MILLIMETERS, factor
 from .parts.document import Document
 from .parts.lens import Lens, matrix_of
-from .parts.placed import Placed, checked, inverted
+from .parts.placed import Placed, inverted, of_rotation
 from .parts.plain import has_plain, plain_lenses
 from .parts.program import CameraRecord, FileWriter, ProgramFiles
 
@@ -41,10 +39,9 @@ def poses(document: Document) -> list[Placed]:
     placed = []
     for number, image in document.entries.named().items():
         document.check()
-        pose = np.eye(4)
-        pose[:3, :3] = np.reshape(image.numbers("cam_R_w2c", 9), (3, 3))
-        pose[:3, 3] = image.numbers("cam_t_w2c", 3)
-        placed.append(Placed(number, "", float(number), inverted(checked(document, pose, f"the pose of {number}"))))
+        turn, place = image.numbers("cam_R_w2c", 9), image.numbers("cam_t_w2c", 3)
+        pose = of_rotation(document, turn, place, f"the pose of {number}")
+        placed.append(Placed(number, "", float(number), inverted(pose)))
     return placed
 
 

@@ -10,15 +10,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..units import METERS
+from ..units import CENTIMETERS
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens, one_of_several
-from .parts.placed import Placed, checked
+from .parts.placed import Placed, of_rotation
 from .parts.plain import of_matrix
 from .parts.program import ProgramFiles
 
-CENTIMETER = 0.01
 TYPES = {"0": "plumb_bob", "1": "fisheye"}
 FIRST = ord("A")
 
@@ -74,14 +73,13 @@ def poses(document: Document) -> list[Placed]:
 
 
 def _pose(extrinsics: Fields) -> np.ndarray:
-    pose, place = np.eye(4), extrinsics.part("translation")
-    pose[:3, :3] = np.reshape(extrinsics.matrix("rotationMatrix", 9), (3, 3))
-    pose[:3, 3] = [CENTIMETER * place.number(axis) for axis in "xyz"]
-    return checked(extrinsics.document, pose, extrinsics.said("rotationMatrix"))
+    turn, translation = extrinsics.matrix("rotationMatrix", 9), extrinsics.part("translation")
+    place = [translation.number(axis) for axis in "xyz"]
+    return of_rotation(extrinsics.document, turn, place, extrinsics.said("rotationMatrix"))
 
 
 PROGRAM = ProgramFiles(
     "DepthAI", "calibration of a device as .json", looks,
     marks="cameraData cameraType distortionCoeff extrinsics intrinsicMatrix specTranslation toCameraSocket boardName",
-    reads="perspective, fisheye", lost="other types are refused", read=read, poses=poses, unit=METERS,
+    reads="perspective, fisheye", lost="other types are refused", read=read, poses=poses, unit=CENTIMETERS,
 )  # fmt: skip

@@ -11,12 +11,11 @@ from pathlib import Path
 
 import numpy as np
 
-from ..maths.rotations import rotation
 from ..units import METERS
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens, one_of_several
-from .parts.placed import Placed, checked, inverted
+from .parts.placed import Placed, inverted, of_rotation
 from .parts.plain import of_matrix
 from .parts.program import ProgramFiles
 
@@ -58,13 +57,9 @@ def poses(document: Document) -> list[Placed]:
 
 
 def _pose(entries: Fields, name: str) -> np.ndarray:
-    to_camera = np.eye(4)
-    if entries.has(f"Rot_{name}"):
-        to_camera[:3, :3] = np.reshape(entries.matrix(f"Rot_{name}", 9), (3, 3))
-    else:
-        to_camera[:3, :3] = rotation(np.array([entries.matrix(f"R_{name}", 3)]))[0]
-    to_camera[:3, 3] = entries.matrix(f"T_{name}", 3)
-    return inverted(checked(entries.document, to_camera, f"Rot_{name}"))
+    by_rows, vector = f"Rot_{name}", f"R_{name}"
+    turn = entries.matrix(by_rows, 9) if entries.has(by_rows) else entries.matrix(vector, 3)
+    return inverted(of_rotation(entries.document, turn, entries.matrix(f"T_{name}", 3), by_rows))
 
 
 PROGRAM = ProgramFiles(

@@ -6,12 +6,10 @@ Reference: 3D Gaussian Splatting for Real-Time Radiance Field Rendering, its cod
 
 from __future__ import annotations
 
-import numpy as np
-
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens, different, matrix, once_each
-from .parts.placed import Placed, checked
+from .parts.placed import Placed, of_rotation
 from .parts.program import ProgramFiles
 
 
@@ -45,10 +43,8 @@ def poses(document: Document) -> list[Placed]:
     lenses = once_each(map(_lens, pictures))
     placed = []
     for picture, lens in zip(pictures, lenses, strict=True):
-        pose = np.eye(4)
-        pose[:3, :3] = np.reshape(picture.matrix("rotation", 9), (3, 3))
-        pose[:3, 3] = picture.numbers("position", 3)
-        pose = checked(document, pose, picture.said("rotation"))
+        turn, place = picture.matrix("rotation", 9), picture.numbers("position", 3)
+        pose = of_rotation(document, turn, place, picture.said("rotation"))
         placed.append(Placed(lens.name, picture.label, None, pose))
     return placed
 

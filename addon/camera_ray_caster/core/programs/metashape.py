@@ -23,7 +23,7 @@ from .parts.document import Document
 from .parts.earth import AXIS, axes_at
 from .parts.fields import Fields
 from .parts.lens import Lens, one_of_several
-from .parts.placed import Placed, checked, pose_of
+from .parts.placed import Placed, of_rotation, pose_of
 from .parts.program import ProgramFiles
 
 MODELS = {"frame": "OPENCV_PINHOLE", "fisheye": "THIN_PRISM_FISHEYE", "equidistant_fisheye": "THIN_PRISM_FISHEYE"}
@@ -153,11 +153,9 @@ def _master(document: Document, camera: Element, cameras: dict[str, Element]) ->
 def _rigid(document: Document, element: Element, place: str, name: str) -> np.ndarray:
     """Return the pose (4, 4) of an element's rotation and its ``place``; without them, the identity."""
     given = {name: text.split() for name, text in element.texts().items()}
-    pose = np.eye(4)
     turn = document.numbers(given.get("rotation", np.eye(3).ravel().tolist()), f"rotation of {name}", 9)
-    pose[:3, :3] = np.reshape(turn, (3, 3))
-    pose[:3, 3] = document.numbers(given.get(place, [0.0] * 3), f"{place} of {name}", 3)
-    return checked(document, pose, f"rotation of {name}")
+    translation = document.numbers(given.get(place, [0.0] * 3), f"{place} of {name}", 3)
+    return of_rotation(document, turn, translation, f"rotation of {name}")
 
 
 def _moved(document: Document, transform: Element, pose: np.ndarray) -> np.ndarray:

@@ -20,13 +20,13 @@ from warnings import catch_warnings
 import numpy as np
 
 from ..cameras.parts.settings import LIMIT_ROUNDING
-from ..maths.rotations import half_turn_vector, rotation
+from ..maths.rotations import half_turn_vector
 from ..records import InputError
 from .parts.cahvor import lens_of
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import ANGLES, Lens, matrix, matrix_of, word_of
-from .parts.placed import Placed, inverted
+from .parts.placed import Placed, inverted, of_rotation
 from .parts.program import CameraRecord, FileWriter, ProgramFiles
 
 TERMS = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4")
@@ -78,9 +78,7 @@ def poses(document: Document) -> list[Placed]:
     if not entries.has("extrinsics"):
         return []
     numbers = entries.numbers("extrinsics", 6)
-    to_camera = np.eye(4)
-    to_camera[:3, :3], to_camera[:3, 3] = rotation(np.array([numbers[:3]]))[0], numbers[3:]
-    pose = inverted(to_camera)
+    pose = inverted(of_rotation(document, numbers[:3], numbers[3:], "extrinsics"))
     if (cahvor := _cahvor(document, entries)) is not None:
         pose[:3, :3] @= cahvor[1]
     return [Placed("", "", None, pose)]

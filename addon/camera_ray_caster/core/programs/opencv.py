@@ -14,10 +14,10 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ..maths.rotations import half_turn_vector, rotation
+from ..maths.rotations import half_turn_vector
 from .parts.document import Document
 from .parts.lens import Lens, matrix_of, word_of
-from .parts.placed import Placed, checked, inverted
+from .parts.placed import Placed, inverted, of_rotation
 from .parts.plain import TERMS, has_plain, plain_lenses
 from .parts.program import CameraRecord, FileWriter, ProgramFiles, by_lens
 from .parts.spelled import Spelled
@@ -48,7 +48,7 @@ def poses(document: Document) -> list[Placed]:
         turn, place = entries.numbers(ROTATION), entries.numbers(TRANSLATION)
         if len(turn) not in (3, 9) or len(place) != 3:
             raise document.refusal(f"R and T have {len(turn)} and {len(place)} numbers: they must have 9 and 3")
-        other = inverted(_pose(document, turn, place))
+        other = inverted(of_rotation(document, turn, place, "R"))
         return [Placed(cameras[0], "", None, np.eye(4)), Placed(cameras[1], "", None, other)]
     if len(cameras) != 1 or not document.entries.has(EXTRINSICS):
         return []
@@ -57,16 +57,8 @@ def poses(document: Document) -> list[Placed]:
     frames = document.entries.numbers("frames", len(rows), default=[*range(1, len(rows) + 1)])
     if len(numbers) % 6:
         raise document.refusal(f"{EXTRINSICS} has {len(numbers)} numbers: a picture has 6")
-    return [Placed("", "", frame, inverted(_pose(document, row[:3], row[3:])))
+    return [Placed("", "", frame, inverted(of_rotation(document, row[:3], row[3:], EXTRINSICS)))
             for frame, row in zip(frames, rows, strict=True)]  # fmt: skip
-
-
-def _pose(document: Document, turn: list[float], place: list[float]) -> np.ndarray:
-    """Return the matrix (4, 4) of a rotation, as a vector or by rows, and a translation."""
-    pose = np.eye(4)
-    pose[:3, :3] = rotation(np.array([turn]))[0] if len(turn) == 3 else np.reshape(turn, (3, 3))
-    pose[:3, 3] = place
-    return checked(document, pose, "R")
 
 
 def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:

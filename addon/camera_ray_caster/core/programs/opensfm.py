@@ -8,14 +8,11 @@ Reference: OpenSfM documentation, Geometric Models; Reconstruction file format.
 
 from __future__ import annotations
 
-import numpy as np
-
-from ..maths.rotations import rotation
 from ..units import METERS
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens, one_of_several
-from .parts.placed import Placed, inverted
+from .parts.placed import Placed, inverted, of_rotation
 from .parts.program import ProgramFiles
 
 RADIAL, EQUIDISTANT = ("k1", "k2"), ("k1", "k2", "k3", "k4")
@@ -60,9 +57,8 @@ def poses(document: Document) -> list[Placed]:
     placed = []
     for name, shot in largest.part("shots").named().items() if largest else ():
         document.check()
-        to_camera = np.eye(4)
-        to_camera[:3, :3] = rotation(np.array([shot.numbers("rotation", 3)]))[0]
-        to_camera[:3, 3] = shot.numbers("translation", 3)
+        turn, place = shot.numbers("rotation", 3), shot.numbers("translation", 3)
+        to_camera = of_rotation(document, turn, place, shot.said("rotation"))
         placed.append(Placed(shot.text("camera"), name, None, inverted(to_camera)))
     return placed
 

@@ -9,15 +9,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..units import METERS
+from ..units import CENTIMETERS
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens, one_of_several
-from .parts.placed import Placed, checked, inverted
+from .parts.placed import Placed, inverted, of_rotation
 from .parts.plain import of_matrix
 from .parts.program import ProgramFiles
-
-CENTIMETER = 0.01
 
 
 def looks(document: Document) -> bool:
@@ -45,13 +43,11 @@ def poses(document: Document) -> list[Placed]:
 
 
 def _pose(camera: Fields) -> np.ndarray:
-    to_camera = np.eye(4)
-    to_camera[:3, :3] = np.reshape(camera.matrix("R", 9), (3, 3))
-    to_camera[:3, 3] = np.multiply(CENTIMETER, camera.matrix("t", 3))
-    return inverted(checked(camera.document, to_camera, camera.said("R")))
+    turn, place = camera.matrix("R", 9), camera.matrix("t", 3)
+    return inverted(of_rotation(camera.document, turn, place, camera.said("R")))
 
 
 PROGRAM = ProgramFiles(
     "CMU Panoptic", "calibration_*.json", looks, marks="calibDataSource cameras panel node K distCoef R t resolution",
-    reads="pinhole", read=read, poses=poses, unit=METERS,
+    reads="pinhole", read=read, poses=poses, unit=CENTIMETERS,
 )  # fmt: skip

@@ -6,12 +6,13 @@ world of a reconstruction, or the body of a rig. Lengths are in the file's unit.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from ...conventions import FROM_BLENDER as FROM_BLENDER  # programs take it from here
-from ...maths.rotations import from_quaternion
+from ...maths.rotations import from_quaternion, rotation
 from ...text_forms.content import flat
 from .fields import Fields
 from .lens import numbers_of
@@ -72,12 +73,22 @@ def of_quaternion(document: FileSource, quaternion, translation, name: str) -> n
     return pose
 
 
-def of_camera(document: FileSource, rotation, center, name: str) -> np.ndarray:
+def of_rotation(document: FileSource, turn: Sequence[float], translation, name: str) -> np.ndarray:
+    """Return the pose of a rotation, as a vector or as 9 numbers by rows, and a translation. Raises InputError, with a
+    name, for what is no rotation.
+    """
+    pose = np.eye(4)
+    pose[:3, :3] = rotation(np.array([turn]))[0] if len(turn) == 3 else np.reshape(turn, (3, 3))
+    pose[:3, 3] = translation
+    return checked(document, pose, name)
+
+
+def of_camera(document: FileSource, turn, center, name: str) -> np.ndarray:
     """Return the pose of a rotation by rows, 9 numbers, from the world to the camera, and the camera's place. Raises
     InputError, with a name.
     """
     pose = np.eye(4)
-    pose[:3, :3] = np.reshape(document.numbers(rotation, f"rotation of {name}", 9), (3, 3)).T
+    pose[:3, :3] = np.reshape(document.numbers(turn, f"rotation of {name}", 9), (3, 3)).T
     pose[:3, 3] = document.numbers(center, f"center of {name}", 3)
     return checked(document, pose, f"rotation of {name}")
 
