@@ -86,15 +86,15 @@ def fan_of(model: RealLens, x: float, y: float) -> list[GlassPath]:
 def refraction_lines(model: RealLens, x: float, y: float) -> Iterator[str]:
     """Yield a line for each surface that the chief ray of a pixel passes, with the sine law in numbers."""
     path, lens = chief_path(model, x, y), model.prescription
-    for one in path.refractions:
-        surface = model.optics.surfaces[one.surface]
-        name = lens.in_words(one.surface) if lens else f"surface {one.surface + 1}"
+    for refraction in path.refractions:
+        surface = model.optics.surfaces[refraction.surface]
+        name = lens.in_words(refraction.surface) if lens else f"surface {refraction.surface + 1}"
         shape = f"radius {1 / surface.curvature:.6g} mm" if surface.curvature else "plane"
         sines = " = ".join(
             f"{index:.6g} sin {np.degrees(angle):.5g}°"
-            for index, angle in ((one.before, one.in_front), (one.behind, one.at_back))
+            for index, angle in ((refraction.before, refraction.in_front), (refraction.behind, refraction.at_back))
         )
-        yield f"{name}, {shape}: {sines} = {one.before * np.sin(one.in_front):.6g}"
+        yield f"{name}, {shape}: {sines} = {refraction.before * np.sin(refraction.in_front):.6g}"
     if path.direction is None:
         yield "the ray is stopped by a rim: the pixel has no chief ray"
 

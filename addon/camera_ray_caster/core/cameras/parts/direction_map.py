@@ -63,26 +63,26 @@ class DirectionMap:
         """Return x0, x1, y0, y1 (n, 4) of balls, with centers (n, 3) relative to the eye: parts of the picture outside
         of which no ray meets them; NaN where none does, -inf and inf for balls that hold the eye.
         """
-        found = np.full((len(radii), 4), np.inf)
+        bounds = np.full((len(radii), 4), np.inf)
         size = np.abs(centers)
         axis = size.argmax(axis=1)
         depth = size[np.arange(len(axis)), axis]
         is_small = radii < SMALL * depth
-        for (own, sign), face in self._faces.items():
-            here = np.flatnonzero(is_small & (axis == own) & ((centers[:, own] > 0) == (sign > 0)))
-            low, high = _slopes(taken(centers.T, here), taken(radii, here), face)
-            _look_up(face, here, low, high, found)
-        others = np.flatnonzero(~is_small)
-        for face in self._faces.values() if others.size else ():
-            beside, radius = centers[others], radii[others]
+        for (face_axis, sign), face in self._faces.items():
+            balls = np.flatnonzero(is_small & (axis == face_axis) & ((centers[:, face_axis] > 0) == (sign > 0)))
+            low, high = _slopes(taken(centers.T, balls), taken(radii, balls), face)
+            _look_up(face, balls, low, high, bounds)
+        large = np.flatnonzero(~is_small)
+        for face in self._faces.values() if large.size else ():
+            beside, radius = centers[large], radii[large]
             depth = face.sign * beside[:, face.axis]
             first, second = (pinhole_interval(beside[:, place], depth, radius) for place in _across(face.axis))
-            _look_up(face, others, np.array((first[0], second[0])), np.array((first[1], second[1])), found)
-        found[:, 1::2] *= -1
-        found[np.isinf(found).any(axis=1)] = np.nan
+            _look_up(face, large, np.array((first[0], second[0])), np.array((first[1], second[1])), bounds)
+        bounds[:, 1::2] *= -1
+        bounds[np.isinf(bounds).any(axis=1)] = np.nan
         holds = (centers * centers).sum(axis=1) <= radii * radii * (1 + MARGIN)
-        found[holds] = everywhere(int(holds.sum()))
-        return found
+        bounds[holds] = everywhere(int(holds.sum()))
+        return bounds
 
 
 def _across(axis: int) -> tuple[int, int]:
@@ -143,14 +143,14 @@ def _slopes(centers: np.ndarray, radii: np.ndarray, face: CubeFace) -> tuple[np.
     return middle - half, middle + half
 
 
-def _look_up(face: CubeFace, some: np.ndarray, low: np.ndarray, high: np.ndarray, found: np.ndarray) -> None:
+def _look_up(face: CubeFace, balls: np.ndarray, low: np.ndarray, high: np.ndarray, bounds: np.ndarray) -> None:
     """Lower the bounds of balls, by index, to those of a face, given the ends of their slopes, (2, n) each."""
-    here, cells = _cells(face, low, high)
+    meeting, cells = _cells(face, low, high)
     parts = face.parts.take(cells[0], axis=0)
     for cell in cells[1:]:
         np.minimum(parts, face.parts.take(cell, axis=0), out=parts)
-    some = some[here]
-    found[some] = np.minimum(found[some], parts)
+    balls = balls[meeting]
+    bounds[balls] = np.minimum(bounds[balls], parts)
 
 
 LEVEL_OF = np.ceil(np.log2(np.maximum(np.arange(CELLS), 1))).astype(np.intp)
