@@ -142,6 +142,7 @@ def test_a_full_disk_leaves_the_set_as_it_was(command, whole, monkeypatch):
     assert {path.name: path.read_bytes() for path in whole.iterdir()} == expected
 
 
+@pytest.mark.full
 def test_shares_of_a_scanner_are_one_sequence_of_kitti(command, tmp_path):
     words = (ROOT / "blend_scenes" / "street_scanner.blend", "--resolution", "64x16", "--passes", "distance",
              "--points", "kitti", "--frames", "1:2")  # fmt: skip
