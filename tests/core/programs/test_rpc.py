@@ -10,7 +10,8 @@ import camera_ray_caster as crc
 from camera_ray_caster.core.programs.reading.lenses import lenses_of
 from camera_ray_caster.core.records import InputError
 
-SAMPLE = Path(__file__).parent / "samples" / "rpc.txt"
+SAMPLES = Path(__file__).parent / "samples"
+SAMPLE = SAMPLES / "rpc.txt"
 LATITUDE, LONGITUDE, HEIGHT = -33.5, 151.0, 100.0
 BENT = 1e-3
 """Pixels between a straight ray and the polynomials; measured is up to 3.9e-4."""
@@ -25,8 +26,13 @@ def place(longitude, latitude, height):
                      (across * (1 - squared) + height) * sin(y)))  # fmt: skip
 
 
+FILES = {"rpc.txt": (1200, 1000), "rpc.rpb": (1200, 1000), "rpc.maxar.xml": (1190, 1010), "rpc.dimap.xml": (1190, 1010)}
+"""Files of the same polynomials, and the sizes of their pictures."""
+
+
+@pytest.mark.parametrize("file", FILES)
 @pytest.mark.parametrize("scaled", [(0.5, 0.4, 0.5), (-0.9, 0.8, -0.9), (0.9, -0.9, 0.0), (0, 0, 1)])
-def test_a_place_is_seen_where_the_polynomials_say(scaled):
+def test_a_place_is_seen_where_the_polynomials_say(file, scaled):
     L, P, H = scaled
     line = (0.001 - P + 0.02 * H + 0.0005 * L * P) / (1 + 0.0004 * L)
     sample = (-0.002 + L - 0.015 * H + 0.0003 * L**3) / (1 - 0.0002 * P)
@@ -35,9 +41,15 @@ def test_a_place_is_seen_where_the_polynomials_say(scaled):
                      (cos(y) * cos(x), cos(y) * sin(x), sin(y))))  # fmt: skip
     middle = place(LONGITUDE, LATITUDE, HEIGHT)
     local = axes @ (place(LONGITUDE + 0.012 * L, LATITUDE + 0.01 * P, HEIGHT + 200 * H) - middle)
-    pixel = crc.load_calibration(str(SAMPLE)).project(local)
+    pixel = crc.load_calibration(str(SAMPLES / file)).project(local)
     expected = (600 + 600 * sample, 500 + 500 * line)
-    np.testing.assert_allclose((pixel[0] - 0.5, 999.5 - pixel[1]), expected, rtol=0, atol=BENT)
+    np.testing.assert_allclose((pixel[0] - 0.5, FILES[file][1] - 0.5 - pixel[1]), expected, rtol=0, atol=BENT)
+
+
+@pytest.mark.parametrize("file", FILES)
+def test_a_picture_has_the_size_of_its_file(file):
+    camera = crc.load_calibration(str(SAMPLES / file))
+    assert (camera.width, camera.height) == FILES[file]
 
 
 @pytest.mark.parametrize(

@@ -1,16 +1,20 @@
-"""Rational polynomials of satellites, RPC00B: _RPC.TXT and _rpc.txt, lines NAME: number.
+"""Rational polynomials of satellites, RPC00B: as text, as .RPB, and in the XML of Maxar and of DIMAP.
 
 Line and sample are quotients of cubic polynomials of latitude, longitude and height (WGS 84), each less its offset and
-over its scale; the center of the first pixel is (0, 0). A picture is as large as offset and scale together. It becomes
+over its scale; the center of the first pixel is (0, 0), in DIMAP (1, 1). A picture without a size, which XML has, is as
+large as offset and scale together. It becomes
 a table of rays in local axes, x east, y north, z up, in meters from the offsets of longitude, latitude and height. A
 ray leads straight through its places at the file's largest and least height: a file whose rays leave their pixels by
 more than STRAIGHT half way is refused. The table's own error is among the facts of the camera.
-References: NIMA, The Compendium of Controlled Extensions for NITF: RPC00B; GDAL documentation, RPCs in GeoTIFF.
+References: NIMA, The Compendium of Controlled Extensions for NITF: RPC00B; GDAL documentation, RPCs in GeoTIFF;
+DigitalGlobe, Imagery Support Data Documentation; Airbus, Pleiades Imagery User Guide.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,8 +24,12 @@ from .parts.lens import Lens
 from .parts.program import ProgramFiles
 from .parts.ray_arrays import sampled
 
-LINE = re.compile(r"([A-Z_]+[A-Z](?:_\d+)?)\s*[:=]\s*(\S+)")
+ENTRY = re.compile(r"^[ \t]*([A-Za-z_]+(?:_\d+)?)[ \t]*[:=][ \t]*(\([^()]*\)|[^\s;]+)", re.MULTILINE)
 GROUND, PICTURE = ("LONG", "LAT", "HEIGHT"), ("SAMP", "LINE")
+MARK = re.compile("samp_?off", re.IGNORECASE)
+MAXAR, DIMAP = ("IMD", "IMAGE"), ("Direct_Model_Validity_Domain", "Inverse_Model", "RFM_Validity")
+SIDES = ("NUMROWS", "NUMCOLUMNS"), ("LASTROW", "LASTCOL")
+"""Elements with entries, and the entries that are the picture's size: of Maxar and of DIMAP."""
 TERMS = 20
 STRAIGHT = 0.05
 """Largest distance in pixels between a ray and the polynomials half way."""
@@ -29,22 +37,60 @@ STEP, STEPS = 1e-5, 8
 """Of Newton's method with differences, in scaled longitude and latitude: each step gains five digits."""
 
 
+
+class Rational(NamedTuple):
+    """The entries of a file: their texts by their names in capitals without _, and what its kind of file has."""
+
+    texts: dict[str, str]
+    sides: tuple[str | None, str | None] = (None, None)
+    """Samples and lines of the picture."""
+    first: float = 0.0
+    """Number of the first line and sample."""
+
+
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
-    return "SAMP_OFF" in document.text and document.text.count("_NUM_COEFF_") >= TERMS
+    return bool(MARK.search(document.text)) and f"LINENUMCOEFF{TERMS}" in _rational(document).texts
+
+
+def _rational(document: Document) -> Rational:
+    """Return the entries of a file of any kind. Lists of coefficients are entries with numbers."""
+    if not document.text.lstrip().startswith("<"):
+        return Rational(_by_name(ENTRY.findall(document.text)))
+    top = document.xml
+    is_dimap = top.name == "Dimap_Document"
+    parts = [one for name in (DIMAP if is_dimap else MAXAR) for one in top.all(name)]
+    texts = _by_name((one.name, one.text) for part in parts for group in (part, *part.children)
+                     for one in group.children)  # fmt: skip
+    rows, columns = SIDES[is_dimap]
+    return Rational(texts, (texts.get(columns), texts.get(rows)), float(is_dimap))
+
+
+def _by_name(entries: Iterable[tuple[str, str]]) -> dict[str, str]:
+    texts: dict[str, str] = {}
+    for name, text in entries:
+        name = name.upper().replace("_", "").replace("OFFSET", "OFF")
+        if name.endswith("COEF"):
+            terms = text.strip("()").replace(",", " ").split()
+            texts |= {f"{name}F{i}": term for i, term in enumerate(terms, 1)}
+        texts[name] = text
+    return texts
 
 
 def read(document: Document) -> list[Lens]:
     """See ProgramFiles."""
-    texts = {found[1]: [found[2]] for line in document.lines() if (found := LINE.match(line))}
+    rational = _rational(document)
 
     def number(name: str) -> float:
-        return document.numbers(texts.get(name), name, 1)[0]
+        text = rational.texts.get(name.replace("_", ""))
+        return document.numbers(text if text is None else [text], name, 1)[0]
 
     offset, scale = (np.array([number(f"{name}_{kind}") for name in (*GROUND, *PICTURE)]) for kind in ("OFF", "SCALE"))
+    offset[3:] -= rational.first
     terms = np.array([[[number(f"{name}_{kind}_COEFF_{i}") for i in range(1, TERMS + 1)] for kind in ("NUM", "DEN")]
                       for name in PICTURE])  # fmt: skip
-    sides = [round(side) for side in (offset + scale)[3:]]
+    sides = [round(side) if text is None else round(document.numbers([text], "size of the picture", 1)[0])
+             for side, text in zip((offset + scale)[3:], rational.sides, strict=True)]  # fmt: skip
     if min(scale) <= 0 or min(sides) < 1:
         raise document.refusal("its scales must be above 0, and so must offset and scale of the picture together")
     middle = place_of(np.radians(offset[0]), np.radians(offset[1]), offset[2])
@@ -99,7 +145,7 @@ def _terms(x, y, z) -> list[np.ndarray]:
 
 
 PROGRAM = ProgramFiles(
-    "RPC", "rational polynomials of satellites as text, _RPC.TXT, _rpc.txt", looks,
+    "RPC", "rational polynomials of satellites: _RPC.TXT, .RPB, XML of Maxar and DIMAP", looks,
     marks="LINE_OFF SAMP_OFF LAT_OFF LONG_OFF HEIGHT_OFF LINE_NUM_COEFF_1 SAMP_DEN_COEFF_20", reads="RPC00B",
-    lost="the size of the picture: it is taken as offset and scale together", read=read,
+    lost="the size of the picture, except in XML: it is taken as offset and scale together", read=read,
 )  # fmt: skip
