@@ -21,3 +21,6 @@ def test_the_nearest_lens_of_blender_takes_the_place_of_the_model(blender, camer
     own.model = "CYLINDRICAL"
     with pytest.raises(RuntimeError, match="No lens of Blender is like that"):
         ops.fit_lens()
+    own.model, data.type, data.panorama_type = "BLENDER", "PANO", "EQUIRECTANGULAR"
+    with pytest.raises(RuntimeError, match="Cycles renders it as it is"):
+        ops.fit_lens()

@@ -74,6 +74,30 @@ def test_parallel_rays_are_blenders_orthographic(fit):
 
 
 @pytest.mark.parametrize(
+    ("key", "settings", "angle"),
+    [
+        ("DOME_MASTER", {"fov": 3.6, "tilt": 0.3, "shift_x": 0.05}, np.pi / 2 - 0.3),
+        ("DOME_MASTER", {"pixel_aspect_y": 1.3, "resolution_x": 60, "resolution_y": 90}, np.pi / 2),
+        ("STEREOGRAPHIC_PANORAMA", {"fov": 1.0, "elevation": 0.4}, 0.4),
+        ("OMNIMAX", {"tilt": 0.5}, 0.5),
+    ],
+)
+def test_the_lens_of_a_dome_is_blenders_turned_up(key, settings, angle):
+    """A dome master is an equidistant fisheye: k1 alone, in float32, to the last pixel of its rim."""
+    cam = camera(key, settings)
+    found = blender_lens(cam)
+    assert found.elevation == pytest.approx(angle, abs=1e-12)
+    rays, lens = cam.rays(), found.camera.rays()
+    assert lens.valid[rays.valid].all()
+    pixel = 2 * np.pi / min(cam.raster.size)  # radians, at most
+    apart = np.linalg.norm(lens.directions - rays.directions, axis=-1)[rays.valid].max()
+    assert apart <= found.worst * pixel + 1e-6
+    assert found.beyond == pytest.approx((lens.valid & ~rays.valid).mean(), abs=1e-12)
+    if key == "DOME_MASTER":
+        assert (found.worst < 1e-4, found.beyond, apart < 1e-6) == (True, 0, True)
+
+
+@pytest.mark.parametrize(
     ("key", "says"),
     [("PUSHBROOM", "whose rays have no eye: use Use in Cycles"), ("EQUIRECTANGULAR", "no lens of Blender is like")],
 )

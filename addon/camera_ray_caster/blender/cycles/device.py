@@ -48,5 +48,5 @@ def device_notes(scene) -> list[str]:
         return []
     return [
         f"Cycles renders on {device}, which does not support camera shaders, so the picture will be black: set Device "
-        "to CPU (Render properties), or choose OptiX (Preferences, System)"
+        "to CPU (Render properties), choose OptiX (Preferences, System), or use Fit Blender's Lens instead"
     ]

@@ -37,7 +37,9 @@ def check_cycles() -> None:
     import _cycles
 
     if not _cycles.with_osl:
-        raise InputError("this Blender was built without the Open Shading Language: use an official build")
+        raise InputError(
+            "this Blender was built without the Open Shading Language: use Fit Blender's Lens, or an official build"
+        )
 
 
 def set_shader(camera, shader: CameraShader) -> None:

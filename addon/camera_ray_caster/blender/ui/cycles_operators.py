@@ -4,6 +4,7 @@ give it a lamp that projects a picture.
 
 import bpy
 from bpy.props import BoolProperty
+from mathutils import Matrix
 
 from ...core.camera.blender_lens import blender_lens
 from ..cycles import add_projector, from_cycles, to_cycles
@@ -60,7 +61,8 @@ class BackToBlender(OfCamera, bpy.types.Operator):
 
 class FitLens(OfCamera, bpy.types.Operator):
     """Replace the camera model with the nearest of Blender's own lenses, and report the error in pixels. The lens is
-    perspective or orthographic, for any engine, or a polynomial fisheye, for Cycles on any device"""
+    perspective or orthographic, for any engine, or a polynomial fisheye, for Cycles on any device. The lens of a dome
+    looks up: it gets a camera of its own, which follows this one"""
 
     bl_idname = "camera_ray_caster.fit_lens"
     bl_label = "Fit Blender's Lens"
@@ -71,6 +73,8 @@ class FitLens(OfCamera, bpy.types.Operator):
         """Fit the lens, set it in place of the model, and report its errors and what renders it."""
         item, scene = camera_object_of(context), context.scene
         lens = blender_lens(read_camera(scene, item))
+        if lens.elevation:
+            item = _turned(context, item, lens.elevation)
         item.data.type, key = lens.camera.record.type, lens.camera.model.key
         if item.data.type == "PANO":
             item.data.panorama_type = key
@@ -79,6 +83,20 @@ class FitLens(OfCamera, bpy.types.Operator):
         setattr(getattr(item.data, GROUP), MODEL.name, BLENDERS_OWN)
         self.report({"INFO"}, lens.said)
         return {"FINISHED"}
+
+
+def _turned(context, item, elevation: float):
+    """Return a copy of a camera that is turned up by an angle, follows it, and takes its place in the scene."""
+    turned, scene = bpy.data.objects.new(f"{item.name} Lens", item.data.copy()), context.scene
+    for collection in item.users_collection:
+        collection.objects.link(turned)
+    turned.parent = item
+    turned.matrix_parent_inverse = Matrix.Diagonal([1 / abs(s) for s in item.matrix_world.to_scale()]).to_4x4()
+    turned.rotation_euler.x = elevation
+    if scene.camera == item:
+        scene.camera = turned
+    select_alone(context, turned)
+    return turned
 
 
 class AddProjector(OfCamera, bpy.types.Operator):

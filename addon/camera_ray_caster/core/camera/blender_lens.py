@@ -1,6 +1,7 @@
 """Blender's own lens nearest to a camera's: a perspective, the polynomial fisheye, or an orthographic.
 
 Assumption: the rays leave one eye; the fisheye keeps the azimuth about the axis, through the pixel that looks ahead.
+The axis of a ``Pitched`` lens, such as a dome master's, is that of the lens: the camera is turned with it.
 Parallel rays look along the camera's axis; their pixels are linear in their places.
 Formula: least squares over pixels. Perspective: x = fx X + cx and y = fy Y + cy for rays (X, Y, -1), which is linear.
 Fisheye: theta = -(k1 r + ... + k4 r^4), linear in k; the ratio of the pixel's sides is that which keeps the azimuth.
@@ -12,13 +13,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from math import cos, sin
 from typing import Any
 
 import numpy as np
 
 from ..cameras.fisheye_polynomial import COEFFICIENTS, FisheyePolynomial
 from ..cameras.orthographic import Orthographic
-from ..cameras.parts.radial import FISHEYE_FOV
+from ..cameras.parts.pitched import Pitched
+from ..cameras.parts.pose import pose_from
+from ..cameras.parts.radial import FISHEYE_FOV, Radial
 from ..cameras.perspective import Perspective
 from ..records import BlenderCamera, InputError
 from .build import camera_from
@@ -53,18 +57,25 @@ class BlenderLens:
     """Blender's settings of camera and render that are to be set, by name."""
     worst: float
     mean: float
+    elevation: float = 0.0
+    """Angle in radians by which the lens looks up from the camera's viewing direction, about the camera's X axis."""
+    beyond: float = 0.0
+    """Part of the picture that the lens shows and the camera does not."""
 
     @property
     def said(self) -> str:
         """Return the lens, its errors and what renders it, in one line."""
         errors = f"at most {self.worst:.2g} and in the mean {self.mean:.2g} pixels from the model's rays"
-        return f"{self.camera.model.label}, {errors}: {ENGINES[self.camera.model.key]}"
+        beyond = f"; {100 * self.beyond:.2g} % of the picture, black before, shows the scene" if self.beyond else ""
+        return f"{self.camera.model.label}, {errors}{beyond}: {ENGINES[self.camera.model.key]}"
 
 
 def blender_lens(camera: Camera) -> BlenderLens:
     """Return Blender's lens nearest to a camera's. Raises InputError for rays that neither leave one eye nor all look
     along the axis, for pixels with times of their own, and if no lens has the camera's rays.
     """
+    remedy = "use Use in Cycles" if camera.record.model else "Cycles renders it as it is"
+    camera, elevation = _level(camera)
     width, height = camera.raster.size
     x, y = (np.unique(np.linspace(0, side - 1, min(side, SAMPLED)).round()) + 0.5 for side in (width, height))
     x, y = (part.ravel() for part in np.meshgrid(x, y))
@@ -75,12 +86,12 @@ def blender_lens(camera: Camera) -> BlenderLens:
     parallel = bool((np.abs(rays[:, :2]) <= PARALLEL * np.abs(rays[:, 2:])).all() and (rays[:, 2] < 0).all())
     if camera.pixel_time is not None or not (camera.model.central or parallel):
         reason = "whose pixels have their own times" if camera.pixel_time is not None else "whose rays have no eye"
-        raise InputError(f"no lens of Blender is like that of camera {camera.name!r}, {reason}: use Use in Cycles")
+        raise InputError(f"no lens of Blender is like that of camera {camera.name!r}, {reason}: {remedy}")
     if parallel and not camera.model.central:
         lens = _orthographic(camera, np.stack((x, y), axis=-1), places + rays)
         if lens is not None and lens.worst <= FAR * max(width, height):
             return lens
-        raise InputError(f"no lens of Blender is like that of camera {camera.name!r}: use Use in Cycles")
+        raise InputError(f"no lens of Blender is like that of camera {camera.name!r}: {remedy}")
     there = np.isfinite(rays).all(axis=-1)
     if not there.any():
         raise InputError(f"camera {camera.name!r} has no ray in its frame: there is nothing to fit")
@@ -89,9 +100,28 @@ def blender_lens(camera: Camera) -> BlenderLens:
     nearest = min(found, key=lambda lens: lens.worst, default=None)
     if nearest is None or nearest.worst > FAR * max(width, height):
         error = "" if nearest is None else f"; the nearest errs by {nearest.worst:.2g} pixels"
-        raise InputError(f"no lens of Blender is like that of camera {camera.name!r}{error}: use Use in Cycles")
+        raise InputError(f"no lens of Blender is like that of camera {camera.name!r}{error}: {remedy}")
     straight = (lens for lens in found if lens.camera.model.key == Perspective.key and lens.worst <= GOOD)
-    return next(straight, nearest)
+    lens = next(straight, nearest)
+    with np.errstate(all="ignore"):  # NaN means no ray
+        seen = np.isfinite(lens.camera.model.rays(x, y)[1][0])
+    return replace(lens, elevation=elevation, beyond=float((seen & ~there).mean()))
+
+
+def _level(camera: Camera) -> tuple[Camera, float]:
+    """Return a camera that looks along the axis of its lens, and the angle by which it was turned up for that."""
+    if not isinstance(camera.model, Pitched):
+        return camera, 0.0
+    elevation = camera.model.elevation
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = camera.pose.basis @ _turned_up(elevation), camera.pose.eye
+    record = replace(camera.record, matrix_world=matrix)
+    return replace(camera, model=replace(camera.model, elevation=0.0), pose=pose_from(record), record=record), elevation
+
+
+def _turned_up(angle: float) -> np.ndarray:
+    """Return the rotation about the X axis by an angle in radians, (3, 3)."""
+    return np.array([(1.0, 0.0, 0.0), (0.0, cos(angle), -sin(angle)), (0.0, sin(angle), cos(angle))])
 
 
 def _orthographic(camera: Camera, pixels, points) -> BlenderLens | None:
@@ -137,9 +167,10 @@ def _nearest(camera: Camera, pixels, rays) -> Iterator[tuple[BlenderCamera, dict
     scale = r.max()
     powers = np.stack([(r / scale) ** power for power in (1, 2, 3, 4)], axis=-1)
     k = np.linalg.lstsq(powers, theta, rcond=None)[0] / scale ** np.arange(1, 5)
+    rim = max(float(theta.max()), camera.model.widest if isinstance(camera.model, Radial) else 0.0)
     yield _record(raw, FisheyePolynomial.key, aspect, {
         **{one.name: -value for one, value in zip(COEFFICIENTS, (0.0, *k), strict=True)},
-        FISHEYE_FOV.name: min(2 * float(theta.max()) * (1 + 1e-6), 2 * np.pi),
+        FISHEYE_FOV.name: min(2 * rim * (1 + 1e-6), 2 * np.pi),
         "shift_x": 0.5 - ahead[0] / width, "shift_y": 0.5 - ahead[1] / height,
     })  # fmt: skip
 
