@@ -29,7 +29,7 @@ def cast_all(user, scenes):
     folder.mkdir(exist_ok=True)
     yield from into(user, folder)
     yield from user.until(run.running, "the pictures are being made")
-    yield from user.until(lambda: run.running() is None, "the pictures are made", 120)
+    yield from user.until(lambda: run.running() is None, "the pictures are made")
     assert run.latest().startswith("Wrote 4 pictures into"), run.latest()
     assert sorted(path.stem for path in folder.glob("*.png")) == [
         f"{name}_{frame:04}" for name in (scene.camera.name, "Dome") for frame in (1, 2)
@@ -44,11 +44,11 @@ def cast_all(user, scenes):
     folder = user.folder / "stopped"
     folder.mkdir(exist_ok=True)
     yield from into(user, folder)
-    yield from user.until(lambda: run.running() and run.running().made, "a picture is made", 120)
+    yield from user.until(lambda: run.running() and run.running().made, "a picture is made")
     yield from user.wait(0.5)
     user.picture("cameras_casting")
     yield from user.key("Escape")
-    yield from user.until(lambda: run.running() is None, "it has ended", 20)
+    yield from user.until(lambda: run.running() is None, "it has ended")
     assert run.latest().startswith("Stopped: "), run.latest()
     assert 0 < len(list(folder.glob("*.json"))) < 100
     check_whole(folder)
@@ -77,7 +77,7 @@ def cast_all_by_cycles(user, scenes):
         user.picture("cameras_by_cycles")
         return
     yield from user.until(run.running, "the pictures are being made")
-    yield from user.until(lambda: run.running() is None, "the pictures are made", 120)
+    yield from user.until(lambda: run.running() is None, "the pictures are made")
     assert run.latest().startswith("Wrote 4 pictures into"), run.latest()
     check_whole(folder)
     made = np.load(folder / f"{scene.camera.name}_0001.npz")
@@ -103,7 +103,7 @@ def export_all(user, scenes):
     yield from user.press(f"{BUTTON}export(")
     yield from into(user, folder)
     yield from user.until(lambda: run.running() and run.running().progress, "it is exporting")
-    yield from user.until(lambda: run.running() is None, "it has exported", 60)
+    yield from user.until(lambda: run.running() is None, "it has exported")
     folder /= "toys_json"
     assert run.latest() == f"Wrote 1 file into {folder}", run.latest()
     cameras = json.loads((folder / "camera.json").read_text())["cameras"]
@@ -121,7 +121,7 @@ def export_all(user, scenes):
     user.picture("exporting_all")
     yield from user.point(*middle(user.region("WINDOW")))
     yield from user.key("Escape")
-    yield from user.until(lambda: run.running() is None, "it has ended", 20)
+    yield from user.until(lambda: run.running() is None, "it has ended")
     assert run.latest() == f"Stopped: nothing was written into {stopped / 'toys_json'}", run.latest()
     assert not list(stopped.iterdir())
     scene.frame_end = 200

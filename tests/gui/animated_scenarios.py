@@ -61,7 +61,7 @@ def by_hand(user, scenes):
         before = reports.latest(scene)
         yield from user.point(*middle(user.region("WINDOW")))
         yield from begin()
-        yield from user.until(lambda before=before: reports.latest(scene) is not before, "it is cast", 60)
+        yield from user.until(lambda before=before: reports.latest(scene) is not before, "it is cast")
         settings = reports.latest(scene).camera["settings"]
         assert abs(settings["tilt"] - 0.5) < 1e-6
         assert settings["fov"] == own.fov

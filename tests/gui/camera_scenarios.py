@@ -1,5 +1,7 @@
 """What a user does with the settings of a camera, one scenario a function: see scenarios.py."""
 
+from itertools import cycle
+
 import bpy
 import numpy as np
 from parts import BUTTON, addon, load
@@ -44,30 +46,29 @@ MODELS = 'bpy.ops.wm.call_menu(name="CAMERA_RAY_CASTER_MT_models")'
 
 
 def model_gallery(user, scenes):
-    """A picture of the gallery is a button: a click sets its model, after a direct move, and after the mouse wheel."""
+    """A picture of the gallery is a button: a click sets its model, after a direct move or the mouse wheel, in turn."""
     yield from load(user, scenes, "toys")
     camera, keys = bpy.context.scene.camera.data, [it.key for it in addon("ui.gallery_panels").pictured()]
     own = camera.camera_ray_caster
     yield from user.find(MODELS, share=0.3)
     button = user.region().x + user.region().width - 75, user.known[MODELS]
-    for key in keys[::7]:
+    for key, steps in zip(keys[::7], cycle((0, 3)), strict=False):
         if key in addon("ui.gallery_panels").TIMES:
             own.time_mode = "NONE"
-        for steps in (0, 3):
-            own.model = "PENCIL" if key != "PENCIL" else "OMNIMAX"
-            yield from user.click(*button)
-            yield from user.wait(0.7)
-            cell = marked(user.picture("gallery"), button)
-            place = keys.index(key), keys.index(own.model)
-            (across, up), (left, bottom) = ([n % 8 for n in place], [n // 8 for n in place]), cell[:2]
-            x = left + (across[0] - across[1] + 0.5) * cell[2]
-            for _ in range(steps):
-                user.send("click", 5)
-                yield
-            yield from user.click(x, bottom + (up[1] - up[0] + 0.6) * cell[3])
-            yield from user.wait(0.3)
-            chosen = own.time_mode if key in addon("ui.gallery_panels").TIMES else camera.camera_ray_caster_gallery
-            assert chosen == key, (key, chosen, steps)
+        own.model = "PENCIL" if key != "PENCIL" else "OMNIMAX"
+        yield from user.click(*button)
+        yield from user.wait(0.7)
+        cell = marked(user.picture("gallery"), button)
+        place = keys.index(key), keys.index(own.model)
+        (across, up), (left, bottom) = ([n % 8 for n in place], [n // 8 for n in place]), cell[:2]
+        x = left + (across[0] - across[1] + 0.5) * cell[2]
+        for _ in range(steps):
+            user.send("click", 5)
+            yield
+        yield from user.click(x, bottom + (up[1] - up[0] + 0.6) * cell[3])
+        yield from user.wait(0.3)
+        chosen = own.time_mode if key in addon("ui.gallery_panels").TIMES else camera.camera_ray_caster_gallery
+        assert chosen == key, (key, chosen, steps)
     yield from user.click(user.region().x + 60, button[1])
     yield from user.wait(0.5)
     user.picture("menu_of_models")

@@ -31,7 +31,7 @@ def stop(user, scenes):
     assert np.diff(times).max() < PAUSE, np.diff(times)
     assert 0 < addon("ui.cast_operator").fraction() < 1
     yield from user.key("Escape")
-    yield from user.until(lambda: addon("ui.cast_operator").fraction() is None, "it has stopped", 5)
+    yield from user.until(lambda: addon("ui.cast_operator").fraction() is None, "it has stopped")
     assert addon("output.reports").latest() is None
     assert "Ray Caster distance_bound" not in bpy.data.images
 
@@ -55,7 +55,7 @@ def stop_samples(user, scenes):
 
     worker.stop = timed
     yield from user.key("Escape")
-    yield from user.until(lambda: cast.fraction() is None, "it has stopped", 5)
+    yield from user.until(lambda: cast.fraction() is None, "it has stopped")
     print(f"stopped after {waited[0]:.2f} s")
     assert waited[0] < PAUSE, waited
     assert addon("output.reports").latest() is None

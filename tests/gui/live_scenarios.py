@@ -139,7 +139,7 @@ def live_shadings(user, scenes):
         for _ in range(3):
             scene.camera.location.y += 0.02
             user.area().tag_redraw()
-            yield from user.until(lambda count=count: region.count > count, "it is drawn again", 60)
+            yield from user.until(lambda count=count: region.count > count, "it is drawn again")
             count = region.count
         again = (time.process_time() - began) / 3
         print(f"{shading}, {scene.render.engine}: {first:.1f} s of processor time at first, then {1e3 * again:.0f} ms")
@@ -203,7 +203,7 @@ def live_redraws(user, scenes):
             for count in range(1, REDRAWS + 1):
                 scene.camera.location.y += 0.02
                 area.tag_redraw()
-                yield from user.until(lambda count=count: len(drawn) >= count, "it is drawn", 60)
+                yield from user.until(lambda count=count: len(drawn) >= count, "it is drawn")
             return 1e3 * (time.process_time() - began) / REDRAWS
 
         plain = yield from moved()

@@ -116,7 +116,7 @@ def redraws_all_around(user, scenes):
         waited = np.median(watch.waited)
         print(f"street, {kind}: the window stands still for {1e3 * waited:.1f} ms")
         assert waited < STREET, watch.waited
-        yield from user.until(lambda: watch.made[-1][0] == 1, "the full picture is there", 60)
+        yield from user.until(lambda: watch.made[-1][0] == 1, "the full picture is there")
         user.picture(f"street_{kind.lower()}")
     watch.end()
     space.shading.type = "SOLID"
@@ -139,7 +139,7 @@ def redraws_of_models(user, scenes):
             for count in range(1, REDRAWS + 1):
                 camera.location.y += 0.02
                 area.tag_redraw()
-                yield from user.until(lambda count=count: len(drawn) >= count, "it is drawn", 60)
+                yield from user.until(lambda count=count: len(drawn) >= count, "it is drawn")
             return 1e3 * (time.process_time() - began) / REDRAWS
 
         space.shading.type = "SOLID"

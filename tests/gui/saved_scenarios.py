@@ -23,6 +23,7 @@ def saved(user, scenes, *states):
     """A file that is saved in each of some states is opened again as if nothing had been: nothing is stuck, no handler
     is there twice, and the panel works.
     """
+    yield from load(user, scenes, "toys")  # which ends what a scenario before has begun
     handlers = every_handler()
     for begin in states:
         held = yield from begin(user, scenes)
@@ -106,7 +107,7 @@ def all_cameras(user, scenes):
     before = kept(scene)
     with bpy.context.temp_override(window=user.window):
         bpy.ops.camera_ray_caster.cast_all("EXEC_DEFAULT", directory=str(folder), frames="RANGE")
-    yield from user.until(lambda: run.running() and run.running().made, "a picture is made", 60)
+    yield from user.until(lambda: run.running() and run.running().made, "a picture is made")
 
     def held():
         assert kept(bpy.context.scene) == before

@@ -153,7 +153,7 @@ def ray_under_mouse(user, scenes):
     write = gizmo._write
     gizmo._write = lambda context, mouse, lines: (told.append(dict(lines)), write(context, mouse, lines))
     yield from user.point(view.x + view.width // 2, view.y + view.height // 2)
-    yield from user.until(lambda: told, "the mouse is told", 5)
+    yield from user.until(lambda: told, "the mouse is told")
     yield from user.wait(0.5)
     user.picture("ray_under_mouse")
     column, row = map(int, told[-1]["Pixel"].removesuffix(" from the bottom left").split(", "))

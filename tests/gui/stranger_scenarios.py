@@ -211,7 +211,7 @@ def results_stay(user, scenes):
     yield from user.press(buttons[3])
     yield from user.until(lambda: addon("output.reports").verified().findings, "the camera is verified")
     bpy.ops.camera_ray_caster.cast_all(directory=str(user.folder / "stay"), frames="CURRENT")
-    yield from user.until(lambda: run.running() is None and run.latest(), "the pictures are made", 60)
+    yield from user.until(lambda: run.running() is None and run.latest(), "the pictures are made")
     yield from user.wait(0.7)
     after = yield from places()
     user.picture("results_stay")

@@ -11,6 +11,8 @@ import numpy as np
 
 TICK = 0.05
 """Seconds between two steps."""
+PATIENCE = 180
+"""Seconds after which what a scenario waits for has failed: no measure of speed, for the machine may be busy."""
 
 KEYCODES = {"F3": 69, "F12": 96}
 """Keys whose name gives xdotool the wrong level."""
@@ -34,13 +36,13 @@ class User:
         return next(region for region in self.area(area).regions if region.type == kind)
 
     def send(self, *words):
-        subprocess.run(["xdotool", *map(str, words)], check=True, timeout=20)
+        subprocess.run(["xdotool", *map(str, words)], check=True, timeout=PATIENCE)
 
     def wait(self, seconds):
         for _ in range(max(1, round(seconds / TICK))):
             yield
 
-    def until(self, holds, what, seconds=20):
+    def until(self, holds, what, seconds=PATIENCE):
         end = time.monotonic() + seconds
         while not holds():
             assert time.monotonic() < end, f"not within {seconds} s: {what}"
@@ -85,7 +87,7 @@ class User:
         Blender's own operator gives a black one with software OpenGL.
         """
         path = f"{self.folder}/{name}.png"
-        subprocess.run(["import", "-window", "root", *self.crop(areas), path], check=True, timeout=20)
+        subprocess.run(["import", "-window", "root", *self.crop(areas), path], check=True, timeout=PATIENCE)
         image = bpy.data.images.load(path)
         pixels = pixels_of(image)
         bpy.data.images.remove(image)

@@ -21,7 +21,7 @@ def autosaved(user, scenes):
     bpy.ops.ed.undo_push(message="moved")
     paths.temporary_directory, paths.use_auto_save_temporary_files = str(user.folder), True
     paths.auto_save_time = 1
-    yield from user.until(lambda: list(user.folder.glob("*autosave.blend")), "Blender has saved by itself", 100)
+    yield from user.until(lambda: list(user.folder.glob("*autosave.blend")), "Blender has saved by itself")
     paths.use_auto_save_temporary_files = False
     assert not any(overlays(user.area().spaces.active).values()), "it told nobody"
     (path,) = user.folder.glob("*autosave.blend")
@@ -126,7 +126,7 @@ def linked_cameras(user, scenes):
     yield from user.until(lambda: reports.verified(second), "the second is verified")
     assert reports.verified(second).camera["model"] == "Omnimax"
     yield from user.press(f"{BUTTON}cast(")
-    yield from user.until(lambda: reports.latest(second), "it is cast", 60)
+    yield from user.until(lambda: reports.latest(second), "it is cast")
     assert reports.latest(first) is None
     linked = second.camera
     linked.override_create(remap_local_usages=True).data.override_create(remap_local_usages=True)

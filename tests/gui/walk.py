@@ -8,6 +8,7 @@ import json
 import os
 import subprocess
 import sys
+import time
 import traceback
 from pathlib import Path
 
@@ -46,14 +47,16 @@ def prepare():
 
 
 def tell(user, scenes, results, wanted):
-    """Yield through the scenarios, and note how each ended."""
+    """Yield through the scenarios, and note how each ended; its seconds are printed."""
     for name in wanted or SCENARIOS:
+        began = time.monotonic()
         try:
             yield from (SCENARIOS[name] if name in SCENARIOS else acts(int(name)))(user, scenes)
             results[name] = "ok"
         except FAILURES:
             results[name] = traceback.format_exc()
             user.picture(f"failure_{name}")
+        print(f"scenario {name}: {time.monotonic() - began:.0f} s", flush=True)
 
 
 def main(scenes, folder, *wanted):

@@ -48,8 +48,8 @@ def slit_scan_movie(user, scenes):
     form.file_format = "FFMPEG"
     yield from user.point(*middle(view))
     user.send("key", "ctrl+96")  # F12
-    yield from user.until(lambda: list(user.folder.glob("movie_*")), "the movie is begun", 60)
-    yield from user.until(lambda: not bpy.app.is_job_running("RENDER"), "the movie is made", 120)
+    yield from user.until(lambda: list(user.folder.glob("movie_*")), "the movie is begun")
+    yield from user.until(lambda: not bpy.app.is_job_running("RENDER"), "the movie is made")
     yield from user.wait(1)
     user.picture("walk_movie")
     (path,) = user.folder.glob("movie_*")

@@ -50,7 +50,7 @@ def set_frame(user, scenes):
     engine.own_frame = lambda raw: said.append(own_frame(raw)) or said[-1]
     yield from user.point(*middle(user.region("WINDOW")))
     yield from user.key("F12")
-    yield from user.until(lambda: said, "the render warns", 60)
+    yield from user.until(lambda: said, "the render warns")
     engine.own_frame = own_frame
     assert said[0].sentence.startswith("the picture is stretched: the frame has 96 × 54 pixels"), said
     yield from user.until(lambda: any(area.type == "IMAGE_EDITOR" for area in user.window.screen.areas), "it is shown")
@@ -89,7 +89,7 @@ def other_engine(user, scenes):
     yield from user.wait(0.5)
     yield from user.point(*middle(user.region("WINDOW")))
     yield from user.key("F12")
-    yield from user.until(lambda: said, "the status bar says it", 60)
+    yield from user.until(lambda: said, "the status bar says it")
     assert said[0].startswith("Workbench does not support Omnimax: it renders a perspective view"), said
     yield from user.until(lambda: any(area.type == "IMAGE_EDITOR" for area in user.window.screen.areas), "it is shown")
     yield from user.wait(0.7)
@@ -101,7 +101,7 @@ def other_engine(user, scenes):
     user.picture("other_engine")
     yield from user.press(f"{BUTTON}use_this_engine(")
     yield from user.until(lambda: scene.render.engine == "CAMERA_RAY_CASTER", "the engine is set")
-    yield from user.until(lambda: None in said, "the status bar is Blender's again", 60)
+    yield from user.until(lambda: None in said, "the status bar is Blender's again")
     other.show = show
 
 
