@@ -248,19 +248,21 @@ class Shapes:
     """Objects whose mesh is cast as an exact sphere or plane, each with the largest distance between the two, over the
     radius or the plane's longer half side.
     """
-
     uv: np.ndarray | None = None
     """(names, 2, 3) float64: the UV map of spheres and planes by ``name_index``, affine in the two coordinates of the
     surface: (u, v) = uv @ (first, second, 1). None if u and v are the coordinates themselves.
     """
     notes: tuple[tuple[str, str], ...] = ()
-    """Objects and materials that passes show otherwise than their settings or Cycles' passes, each with what differs.
-    """
+    """Objects and materials that passes show otherwise than their settings or Cycles, each with the difference."""
     timeline: Timeline = ONE_TIME
     """The shapes, and the camera that sees them, at other times."""
 
     def __len__(self) -> int:
         return len(self.kind)
+
+    def __repr__(self) -> str:
+        counts = zip(np.bincount(self.kind), ("sphere", "plane", "infinite plane", "mesh"), strict=False)
+        return f"<Shapes {', '.join(f'{kind}: {count}' for count, kind in counts if count) or 'none'}>"
 
     def at(self, frame: float) -> Shapes:
         """Return the shapes at a frame: themselves if they do not move."""

@@ -17,6 +17,9 @@ class Scene:
     camera: Camera
     shapes: Shapes
 
+    def __repr__(self) -> str:
+        return f"<Scene {self.camera}, {self.shapes}>"
+
     @classmethod
     def given(cls, camera: Camera | Scene, shapes: Shapes | None, to: str) -> Scene:
         """Return the scene that is given to a function as camera and shapes, or as one record. Raises TypeError, which

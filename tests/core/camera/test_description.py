@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import camera_ray_caster as crc
+from camera_ray_caster.core.records import no_shapes
 
 SIZE = 640, 480
 LENS = {"fx": 210.0, "fy": 211.0, "cx": 300.0, "cy": 239.0, "k1": 0.1}
@@ -39,6 +40,18 @@ def test_a_camera_is_one_line_with_its_own_settings():
     assert "pitch" not in line
     assert "lens=35.0" in repr(crc.camera("PERSP", SIZE, lens=35.0))
     assert "lens" not in repr(crc.camera("PERSP", SIZE))
+
+
+def test_shapes_scenes_images_and_fits_are_one_line():
+    shapes = crc.join(crc.spheres(2 * [(0, 0, -4)]), crc.mesh([(0, 0, -9), (1, 0, -9), (0, 1, -9)], [(0, 1, 2)]))
+    assert repr(shapes) == "<Shapes sphere: 2, mesh: 1>"
+    assert repr(no_shapes()) == "<Shapes none>"
+    scene = crc.Scene(crc.camera("PERSP", (8, 6)), shapes)
+    assert repr(scene) == f"<Scene {scene.camera}, {shapes}>"
+    assert repr(crc.cast(scene, passes=("depth", "normal"))) == "<Images: depth (6, 8), normal (6, 8, 3)>"
+    line = repr(crc.fit(fisheye(), "OPENCV_FISHEYE"))
+    assert line.startswith("<Fit: OpenCV Fisheye, at most ")
+    assert "\n" not in line
 
 
 def test_matrices_and_size():

@@ -62,6 +62,9 @@ class Fit:
     converged: bool
     """Whether the search ended at a minimum; else at an edge of the settings or of what the fitted camera sees."""
 
+    def __repr__(self) -> str:
+        return f"<Fit: {self.summary}>"
+
     @property
     def summary(self) -> str:
         """The model and its distance from the first camera, in one line."""

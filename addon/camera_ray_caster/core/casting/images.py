@@ -24,6 +24,9 @@ class Images(dict[str, np.ndarray]):
     rays: int
     """Number of rays that were cast, with their samples."""
 
+    def __repr__(self) -> str:
+        return f"<Images: {', '.join(f'{name} {np.shape(image)}' for name, image in self.items()) or 'none'}>"
+
     def keep(self, passes: tuple[str, ...]) -> None:
         """Remove all but some passes, and put these in their order."""
         kept = {name: self[name] for name in passes}
