@@ -28,7 +28,7 @@ def view(camera_scene, monkeypatch):
         return images, (step, rectangle)
 
     def show(self, picture):
-        images, (step, self._picture) = picture
+        images, (step, self._picture) = picture if len(picture[1]) == 2 else (picture[0], ("mean", picture[1]))
         self.shown.append(step)
         self.arrays.append(images["combined"])
 
@@ -104,3 +104,31 @@ def test_a_picture_takes_the_memory_of_the_last_one_of_its_size(view):
     for step in (8, 1):
         first, second = (array for array, own in zip(view.arrays, view.shown, strict=True) if own == step)
         assert first is second
+
+
+def test_means_of_samples_follow_and_the_last_picture_is_that_of_all_samples(view, monkeypatch):
+    """With the bits of a render: of ``cast`` with these samples. Each mean is shown as soon as it is there."""
+    bpy.context.scene.camera_ray_caster.samples = 5
+    bpy.ops.mesh.primitive_monkey_add()
+    means, keep = [], viewport._keep
+
+    def kept(pictures, target, combined, rows, samples):
+        keep(pictures, target, combined, rows, samples)
+        means.append((samples, combined.copy()))
+        while pictures and samples:  # until the view has shown it
+            sleep(0.01)
+
+    monkeypatch.setattr(viewport, "_keep", kept)
+    drawn(view)
+    while view._worker is not None:
+        if viewport._news.is_set() or view._worker.done:
+            viewport.redraw_if_finished()
+            drawn(view)
+        sleep(0.01)
+    assert view.shown[-5:] == [1, *["mean"] * 3, 1], view.shown
+    assert [samples for samples, _ in means if samples] == [1, 2, 4]
+    camera, shapes = view._target.camera(1), viewport.cached_scene(bpy.context).shapes
+    for count, array in zip((1, 2, 4, 5), view.arrays[-4:], strict=True):
+        wanted = viewport.cast(camera, shapes, passes="combined", samples=count)["combined"]
+        assert (array == wanted).all(), count
+    assert not (view.arrays[-1] == view.arrays[-5]).all()

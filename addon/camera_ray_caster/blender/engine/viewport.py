@@ -1,4 +1,5 @@
-"""Rendered shading in the 3D View: a coarse picture at once, then finer pictures by a thread until a change.
+"""Rendered shading in the 3D View: a coarse picture at once, then finer pictures by a thread until a change, and at
+last the means of the first 1, 2, 4, ... of the scene's samples, as in a render.
 
 A redraw waits for the coarse picture, but not long. A picture that takes longer is shown when it is finished, also if
 the view has changed meanwhile; the next one is coarser.
@@ -9,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
+from threading import Event
 from time import perf_counter
 from typing import Any
 
@@ -46,6 +48,8 @@ INTERVAL = 0.03
 """Interval in seconds of the checks whether a finer picture is finished."""
 
 _workers: list[Worker] = []
+_news = Event()
+"""Whether a worker has the mean of more samples to show."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +84,11 @@ class Viewport:
     _first = FIRST
     """Index in STEPS of the first picture of a view."""
     _step = 0
-    """Index in STEPS of the picture that is being cast, or was cast last."""
+    """Index in STEPS of the picture that is being cast, or was cast last; beyond the last one, it has all samples."""
+    _samples = 1
+    """Number of rays per pixel of the last picture."""
+    _means: list[tuple] = []
+    """Pictures of the samples so far, not yet shown, with their rectangles."""
     _worker: Worker | None = None
     _is_first = True
     """Whether the worker casts the first picture of a view."""
@@ -99,14 +107,16 @@ class Viewport:
         settings = context.scene.camera_ray_caster
         shown = {"shading": settings.shading or SHADING.default}  # no word for the item of a newer version
         matrices = [tuple(row) for row in (*region_data.view_matrix, *region_data.window_matrix)]
-        key = scene, matrices, context.region.width, context.region.height, shown
+        key = scene, matrices, context.region.width, context.region.height, shown, settings.samples
         self.update_stats("", left_out_count((*scene.shapes.left_out, *uncolored(scene.shapes, ("combined",)))))
         if self._worker is not None and self._worker.done:
             self._take()
             if self._key == key:
                 self._refine()
+        elif self._means:
+            self._show(self._means.pop())
         if self._key != key and (self._worker is None or not self._is_first):
-            self._key = key
+            self._key, self._samples = key, settings.samples
             self._abandon()
             self._begin(context, scene, shown)
         if self._picture is not None:
@@ -123,7 +133,7 @@ class Viewport:
         if self._target is None:
             self._picture = None
             return
-        self._cast = partial(_cast, self._target, scene.shapes, shown)
+        self._cast, self._shown = partial(_cast, self._target, scene.shapes), shown
         started = perf_counter()
         self._start(self._first, is_first=True)
         if not self._worker.wait(QUICK):
@@ -139,7 +149,7 @@ class Viewport:
 
     def _refine(self) -> None:
         """Start the cast of the next finer picture, if there is one."""
-        if self._step + 1 < len(STEPS):
+        if self._step + 1 < len(STEPS) + (self._samples > 1):
             self._start(self._step + 1)
 
     def _start(self, step: int, is_first: bool = False) -> None:
@@ -147,7 +157,11 @@ class Viewport:
         self._step, self._is_first = step, is_first
         spare = self._spare.get(step)
         self._spare = {other: images for other, images in self._spare.items() if other != step}
-        self._worker = Worker(partial(self._cast, STEPS[self._step], spare))
+        self._means, options = [], self._shown
+        if step == len(STEPS):
+            step -= 1
+            options = {**options, "samples": self._samples, "preview": partial(_keep, self._means, self._target)}
+        self._worker = Worker(partial(self._cast, options, STEPS[step], spare))
         _workers.append(self._worker)
         if not bpy.app.timers.is_registered(redraw_if_finished):
             bpy.app.timers.register(redraw_if_finished, first_interval=INTERVAL)
@@ -194,9 +208,9 @@ def _target(context, raw: BlenderCamera | None) -> Target | None:
     return Target(left, bottom, width, height, raw, seen)
 
 
-def _cast(target: Target, shapes, shown: dict[str, str], step: int, spare: Images | None, progress=None):
+def _cast(target: Target, shapes, shown: dict[str, Any], step: int, spare: Images | None, progress=None):
     """Return the images at a step, with the combined pass, in the memory of ``spare`` if it fits, and their rectangle.
-    This may run in a thread.
+    ``shown``: further arguments of ``cast``. This may run in a thread.
     """
     camera, passes = target.camera(step), ("combined",)
     into = reusable(spare, passes, camera.raster.shape, np.float32)
@@ -204,10 +218,18 @@ def _cast(target: Target, shapes, shown: dict[str, str], step: int, spare: Image
     return images, target.rectangle(camera.raster)
 
 
+def _keep(means: list[tuple], target: Target, combined: np.ndarray, rows: slice, samples: int) -> None:
+    """Keep a copy of the mean of some samples, to be shown by the next redraw. This runs in a thread."""
+    if samples:  # a coarse picture is worse than the one that is shown
+        means.append(({"combined": combined.copy()}, target.rectangle(target.camera(1).raster)))
+        _news.set()
+
+
 def redraw_if_finished() -> float | None:
     """Redraw the 3D Views when a finer picture is finished; Blender calls this while any picture is being cast."""
     finished = [worker for worker in _workers if worker.done]
-    if finished:
+    if finished or _news.is_set():
+        _news.clear()
         _workers[:] = [worker for worker in _workers if worker not in finished]
         for window in bpy.context.window_manager.windows:
             for area in window.screen.areas:
