@@ -202,7 +202,7 @@ def viewport(user, scenes):
 
 
 def cycles(user, scenes):
-    """A camera of a model that Blender does not have is made one of Cycles, and seen in the viewport."""
+    """A camera of a model that Blender does not have is made one of Cycles, or Blender's nearest, and seen there."""
     yield from load(user, scenes, "toys")
     scene, view = bpy.context.scene, user.area()
     camera = scene.camera
@@ -218,11 +218,18 @@ def cycles(user, scenes):
     yield from user.press(f"{BUTTON}use_in_cycles(", properties)
     yield from user.wait(2)
     user.picture("cycles_way_back")
-    if not _cycles.with_osl:  # as Debian builds it: the button says so, and the camera is as it was
+    if _cycles.with_osl:
+        assert camera.data.type == "CUSTOM"
+    else:  # as Debian builds it: the button says so, the camera is as it was, and a dome is Blender's own fisheye
         assert (camera.data.type, len(bpy.data.texts)) == ("PERSP", 0)
-        view.ui_type = "VIEW_3D"
-        return
-    assert camera.data.type == "CUSTOM"
+        yield from user.key("Escape")  # closes the message
+        camera.data.camera_ray_caster.model = "DOME_MASTER"
+        yield from user.wait(1)
+        yield from user.find(f"{BUTTON}fit_lens(", properties, share=2 / 3)
+        user.send("click", 1)
+        yield from user.wait(2)
+        assert (scene.camera.data.type, scene.camera.parent) == ("PANO", camera)
+        user.picture("cycles_fitted")
     view.ui_type = "VIEW_3D"
     yield from user.wait(0.5)
     space = view.spaces.active
