@@ -17,7 +17,7 @@ class StyleModule:
 
     scene: Any
     layer: str
-    place: int
+    index: int
     script: Any
 
     @property
@@ -27,13 +27,13 @@ class StyleModule:
 
     def has(self, script) -> None:
         """Set the module's script, or None."""
-        self.settings.modules[self.place].script = script
+        self.settings.modules[self.index].script = script
 
     @property
     def is_on(self) -> bool:
         """Whether Blender would run it in the current evaluation."""
         on = self.scene.render.use_freestyle and self.scene.view_layers[self.layer].use_freestyle
-        return on and self.settings.mode == "SCRIPT" and self.settings.modules[self.place].use
+        return on and self.settings.mode == "SCRIPT" and self.settings.modules[self.index].use
 
 
 _withheld: list[StyleModule] = []
@@ -45,10 +45,10 @@ def open_file(path: Path, enable_autoexec: bool = False) -> None:
     Raises InputError if there is no such file or this Blender cannot open it.
     """
     try:
-        found = path.is_file()
+        is_file = path.is_file()
     except (OSError, ValueError):  # no permission; a null character
-        found = False
-    if not found:
+        is_file = False
+    if not is_file:
         raise InputError(f"there is no file {str(path)!r}: give the path of a .blend file")
     try:
         with redirect_stdout(None):  # Python prints a copy of the error there
@@ -83,9 +83,9 @@ def withhold_style_modules() -> None:
     """
     for scene in bpy.data.scenes:
         for layer in scene.view_layers:
-            for place, module in enumerate(layer.freestyle_settings.modules):
+            for index, module in enumerate(layer.freestyle_settings.modules):
                 if module.script is not None:
-                    _withheld.append(StyleModule(scene, layer.name, place, module.script))
+                    _withheld.append(StyleModule(scene, layer.name, index, module.script))
                     _withheld[-1].has(None)
 
 

@@ -21,7 +21,7 @@ def keep_output() -> None:
 def quiet_errors() -> Iterator[None]:
     """Discard what is written to standard error inside the context, by C code, too."""
     try:
-        kept = os.dup(2)
+        standard_error = os.dup(2)
     except OSError:  # it is closed
         yield
         return
@@ -31,5 +31,5 @@ def quiet_errors() -> Iterator[None]:
     try:
         yield
     finally:
-        os.dup2(kept, 2)
-        os.close(kept)
+        os.dup2(standard_error, 2)
+        os.close(standard_error)

@@ -72,8 +72,8 @@ def findings_of_picture(camera: Camera, camera_object, depsgraph, view="") -> li
     answers, settings = _answers(camera, camera_object, depsgraph, view), {**camera.record.settings, "frame": None}
     of = (replace(camera.record, settings={}), tuple(settings.items()),
           answers and replace(answers, camera=None, depsgraph=None))  # fmt: skip
-    others, findings = _kept.pop((camera.name, view), (None, []))
-    if not same(of, others):
+    last_of, findings = _kept.pop((camera.name, view), (None, []))
+    if not same(of, last_of):
         findings = verify(camera, answers)
     _kept[camera.name, view] = of, findings
     if len(_kept) > MOST_KEPT:

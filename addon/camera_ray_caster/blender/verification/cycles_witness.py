@@ -68,17 +68,17 @@ def compared(camera: Camera, shift: tuple[float, float], ends_of) -> Finding:
     if not (decided & rays.valid).any():
         return not_compared(CYCLES, "float32 cannot represent these rays")
     differs = decided & (rays.valid == np.isnan(ends[..., 0]))
-    both = decided & (rays.valid | differs)
-    pixels = np.stack(np.broadcast_arrays(x, y), axis=-1)[both]
-    path = (ends - rays.origins)[both]
+    compared = decided & (rays.valid | differs)
+    pixels = np.stack(np.broadcast_arrays(x, y), axis=-1)[compared]
+    path = (ends - rays.origins)[compared]
     distance = length_of(path)
-    angles = angles_between(path / distance[:, None], rays.directions[both])
-    bound = bounds.direction[both] + (bounds.origin[both] + STORED * half) / distance
-    turned = _turned(camera, pixels, rays.origins[both], rays.directions[both], distance)
+    angles = angles_between(path / distance[:, None], rays.directions[compared])
+    bound = bounds.direction[compared] + (bounds.origin[compared] + STORED * half) / distance
+    turned = _turned(camera, pixels, rays.origins[compared], rays.directions[compared], distance)
     worst = np.argmax(np.where(np.isnan(angles), np.inf, angles / bound))
-    told = slice(None) if angles[worst] <= bound[worst] else [worst]  # each pixel has its own bound
-    errors = np.stack((angles / turned, np.zeros_like(angles)), axis=1)[told]
-    return finding(CYCLES, errors, angles[told], (bound / turned)[told], bound[told], (0.0, 0.0))
+    selected = slice(None) if angles[worst] <= bound[worst] else [worst]  # each pixel has its own bound
+    errors = np.stack((angles / turned, np.zeros_like(angles)), axis=1)[selected]
+    return finding(CYCLES, errors, angles[selected], (bound / turned)[selected], bound[selected], (0.0, 0.0))
 
 
 def _turned(camera: Camera, pixels, origins, directions, distance) -> np.ndarray:
@@ -109,8 +109,8 @@ def _witness_scene(camera: Camera, shader: CameraShader, shift, center, half: fl
     """Yield a scene with the camera and the box; remove all new data-blocks afterwards."""
     made = []
 
-    def new(collection, *given):
-        made.append((collection, item := collection.new(*given)))
+    def new(collection, *arguments):
+        made.append((collection, item := collection.new(*arguments)))
         return item
 
     try:
@@ -123,8 +123,8 @@ def _witness_scene(camera: Camera, shader: CameraShader, shift, center, half: fl
         mesh.from_pydata((center + half * CORNERS).tolist(), [], FACES)
         mesh.materials.append(material)
         box = new(bpy.data.objects, "Witness", mesh)
-        for one in (item, parent, box):
-            scene.collection.objects.link(one)
+        for linked in (item, parent, box):
+            scene.collection.objects.link(linked)
         scene.camera, scene.world = item, None
         _emit_position(material, center, half)
         data.shift_x, data.shift_y = shift
@@ -155,12 +155,12 @@ def _emit_position(material, center, half: float) -> None:
     nodes, links = material.node_tree.nodes, material.node_tree.links
     nodes.clear()
     names = "ShaderNodeNewGeometry", "ShaderNodeVectorMath", "ShaderNodeVectorMath"
-    place, beside, scaled = (nodes.new(name) for name in names)
+    geometry, beside, scaled = (nodes.new(name) for name in names)
     shader, output = nodes.new("ShaderNodeEmission"), nodes.new("ShaderNodeOutputMaterial")
     beside.operation, scaled.operation = "SUBTRACT", "MULTIPLY_ADD"
     beside.inputs[1].default_value = center
     scaled.inputs[1].default_value, scaled.inputs[2].default_value = [0.25 / half] * 3, [0.5] * 3
-    links.new(place.outputs["Position"], beside.inputs[0])
+    links.new(geometry.outputs["Position"], beside.inputs[0])
     links.new(beside.outputs[0], scaled.inputs[0])
     links.new(scaled.outputs[0], shader.inputs["Color"])
     links.new(shader.outputs[0], output.inputs["Surface"])

@@ -65,7 +65,7 @@ def albedo(values: HitValues, out: np.ndarray) -> None:
     """
     for channel in range(3):
         surface = material_color(values, channel)
-        paint(values, surface, lambda one: one.own, channel, np.add)
+        paint(values, surface, lambda material: material.emission, channel, np.add)
         np.copyto(out[..., channel], surface, where=values.hits.where, casting="same_kind")
 
 

@@ -106,10 +106,10 @@ class CameraBeams(CloudBeams):
         camera, motion, basis = self.camera, self.camera.timeline.motion, self.camera.pose.basis
         bases = np.broadcast_to(basis, (len(vectors), 3, 3))
         if self.times is not None and motion is not None:
-            frames, which = np.unique(self.times[at], return_inverse=True)
+            frames, frame_index = np.unique(self.times[at], return_inverse=True)
             poses = motion.poses_at(frames)
             bases = np.array([camera.at(frame).pose.basis for frame in frames.tolist()]) if poses is None else poses[1]
-            bases = bases.reshape(-1, 3, 3)[which]
+            bases = bases.reshape(-1, 3, 3)[frame_index]
         return np.einsum("nji,nj->ni", bases, vectors) @ FROM_CAMERA.T
 
     def rings(self, at: Places) -> np.ndarray:
@@ -131,21 +131,22 @@ class RayBeams(CloudBeams):
     """(rows, columns): the rings."""
 
     @classmethod
-    def of(cls, given: RayPattern, shapes: Shapes, name: str, pose, rate: float) -> RayBeams:
+    def of(cls, pattern: RayPattern, shapes: Shapes, name: str, pose, rate: float) -> RayBeams:
         """Return the beams of some rays. Without a ``pose``, of a sensor in the world's axes, at the origin of the rays
         if they share one.
         """
-        how = {"times": given.times, "near": given.near, "far": given.far}
-        images = cast_rays(given.origins, given.directions, shapes, passes=PASSES, **how)
+        how = {"times": pattern.times, "near": pattern.near, "far": pattern.far}
+        images = cast_rays(pattern.origins, pattern.directions, shapes, passes=PASSES, **how)
         shape = images["distance"].shape
         size = (int(np.prod(shape[:-1])), shape[-1]) if shape else (1, 1)
         origins, directions = (
             np.broadcast_to(np.asarray(vectors, np.float64), (*shape, 3)).reshape(*size, 3)
-            for vectors in (given.origins, given.directions)
+            for vectors in (pattern.origins, pattern.directions)
         )
         with np.errstate(invalid="ignore"):
             directions = directions / np.linalg.norm(directions, axis=-1, keepdims=True)
-        times = None if given.times is None else np.broadcast_to(np.asarray(given.times, float), shape).reshape(size)
+        times = pattern.times
+        times = None if times is None else np.broadcast_to(np.asarray(times, float), shape).reshape(size)
         sensor = np.eye(4)
         if pose is not None:
             sensor = np.array(pose_matrix(pose))
@@ -154,7 +155,7 @@ class RayBeams(CloudBeams):
             sensor[:3, 3] = origins[0, 0]
         passes = {key: image.reshape(*size, *image.shape[len(shape) :]) for key, image in images.items()}
         first = 0.0 if times is None or not times.size else float(times.min())
-        rings = _rings(given.rings, shape).reshape(size)
+        rings = _rings(pattern.rings, shape).reshape(size)
         return cls(name, sensor, passes, directions, first, times, rate, 1.0, origins, rings)
 
     def places(self, hit: np.ndarray) -> Places:
@@ -180,10 +181,10 @@ def _rings(rings, shape: tuple[int, ...]) -> np.ndarray:
     if rings is None:
         count = shape[-1] if shape else 1
         return np.minimum(np.arange(int(np.prod(shape))) // max(count, 1), MOST_RING).reshape(shape)
-    given = arguments.numbers(rings, "rings")
-    if not ((given >= 0) & (given <= MOST_RING) & (given % 1 == 0)).all():
+    ring_of = arguments.numbers(rings, "rings")
+    if not ((ring_of >= 0) & (ring_of <= MOST_RING) & (ring_of % 1 == 0)).all():
         raise InputError(f"rings must be whole numbers from 0 to {MOST_RING}")
     try:
-        return np.broadcast_to(given, shape)
+        return np.broadcast_to(ring_of, shape)
     except ValueError as error:
-        raise InputError(f"rings of shape {given.shape} do not broadcast to rays of shape {shape}") from error
+        raise InputError(f"rings of shape {ring_of.shape} do not broadcast to rays of shape {shape}") from error

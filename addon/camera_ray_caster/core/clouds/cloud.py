@@ -140,10 +140,10 @@ def scan(
         check_rows(shapes)
         beams = CameraBeams.of(scene.camera, shapes)
     else:
-        given, shapes = _given(rays, times, rings, camera, shapes)
+        pattern, shapes = _given(rays, times, rings, camera, shapes)
         (step, behind), rate = _steps(None, quantum), arguments.number(fps, "fps", LARGEST, LEAST)
         check_rows(shapes)
-        beams = RayBeams.of(given, shapes, arguments.name(name), pose, rate)
+        beams = RayBeams.of(pattern, shapes, arguments.name(name), pose, rate)
     images, frame = beams.images, beams.frame
     hit = (images["shape_index"] != NOTHING) & np.isfinite(images["distance"])
     ahead, true = np.where(hit[..., None], beams.directions, 0.0), np.where(hit, images["distance"], 0.0)
@@ -186,18 +186,18 @@ def _given(rays, times, rings, camera, shapes) -> tuple[RayPattern, Shapes]:
     if isinstance(rays, RayImages):
         if rays.rays is None:
             raise InputError("all hits of rays are no cloud: cast the rays without all_hits")
-        given, shapes = rays.rays, rays.shapes if shapes is None else shapes
+        pattern, shapes = rays.rays, rays.shapes if shapes is None else shapes
     else:
         try:
             origins, directions = (rays.origins, rays.directions) if hasattr(rays, "origins") else rays
         except (TypeError, ValueError) as error:
             raise InputError("rays must be origins and directions, or the result of cast_rays") from error
-        given = RayPattern(origins, directions)
+        pattern = RayPattern(origins, directions)
     shapes = camera if shapes is None else shapes
     if not isinstance(shapes, Shapes) or not (camera is None or camera is shapes):
         raise InputError("scan takes a camera or rays: give rays= and shapes=")
-    times, rings = (old if new is None else new for old, new in ((given.times, times), (given.rings, rings)))
-    return given._replace(times=times, rings=rings), shapes
+    times, rings = (old if new is None else new for old, new in ((pattern.times, times), (pattern.rings, rings)))
+    return pattern._replace(times=times, rings=rings), shapes
 
 
 def _steps(camera: Camera | None, quantum) -> tuple[float, float]:
@@ -223,5 +223,5 @@ def _is_category(value) -> bool:
 
 def _categories(shapes: Shapes, shape, index, categories: Mapping[str, int]) -> np.ndarray:
     by_name = np.array([categories.get(name, NOTHING) for name in shapes.names] or [NOTHING])
-    found = by_name[shapes.name_index[shape]]
-    return np.where(found == NOTHING, index, found).astype(np.int32)
+    category = by_name[shapes.name_index[shape]]
+    return np.where(category == NOTHING, index, category).astype(np.int32)

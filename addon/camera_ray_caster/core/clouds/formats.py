@@ -97,8 +97,8 @@ def _nuscenes(cloud: PointCloud, axes: str) -> Files:
     points = points @ NUSCENES_FROM_SENSOR.T if axes == SENSOR else points
     numbers = np.zeros(len(cloud), int)
     for category in np.unique(cloud.category):
-        some = cloud.category == category
-        numbers[some] = np.unique(cloud.instance[some], return_inverse=True)[1] + 1
+        selected = cloud.category == category
+        numbers[selected] = np.unique(cloud.instance[selected], return_inverse=True)[1] + 1
     if len(cloud) and not (0 <= cloud.category.min() <= cloud.category.max() < 65 and numbers.max() < 1000):
         raise InputError(
             f"panoptic labels of nuScenes have categories up to 64 and 999 instances of each, and the points have "
@@ -117,9 +117,9 @@ def _las(cloud: PointCloud, axes: str) -> Files:
 def _npz(cloud: PointCloud, axes: str) -> Files:
     points, normals = _placed(cloud, axes)
     names = "range", "true_range", "row", "column", "ring", "time", "instance", "category", "incidence", "reflectance"
-    own = {name: getattr(cloud, name) for name in names}
+    values = {name: getattr(cloud, name) for name in names}
     yield "_points.npz", _npz_bytes(points=points, normals=normals, pose=cloud.pose, size=np.array(cloud.size),
-                                     meters=cloud.meters, **own)  # fmt: skip
+                                     meters=cloud.meters, **values)  # fmt: skip
 
 
 def _npz_bytes(**arrays: Any) -> bytes:

@@ -34,22 +34,22 @@ def world_rays(camera: Camera, x: np.ndarray, y: np.ndarray) -> WorldRays:
     further = camera.model.formula_rounding(x, y)
     basis = camera.pose.basis.tolist()
 
-    def moved(part: int) -> tuple[Any, Any]:
+    def moved(index: int) -> tuple[Any, Any]:
         """Return a vector in the world and its error bound."""
-        length = norm(here[part])
-        own = (camera.stretch * camera.model.ray_rounding + gamma(8)) * length
-        own = own + camera.stretch * further[part] * (length if part else 1.0)
-        moves = [_lengths(difference(there[part], here[part])) for there in beside]
+        length = norm(here[index])
+        rounded = (camera.stretch * camera.model.ray_rounding + gamma(8)) * length
+        rounded = rounded + camera.stretch * further[index] * (length if index else 1.0)
+        moves = [_lengths(difference(there[index], here[index])) for there in beside]
         farthest = [np.fmax.reduce(lengths, axis=0) if np.ndim(lengths) else lengths for lengths in moves]
         shares = [rounding / STEP for rounding in pixels]
-        error = own + camera.stretch * sum(share * length for share, length in zip(shares, farthest, strict=True))
+        error = rounded + camera.stretch * sum(share * length for share, length in zip(shares, farthest, strict=True))
         at_rim = reduce(np.logical_or, (np.isnan(lengths).any(axis=0) for lengths in moves if np.ndim(lengths)), False)
         if np.any(at_rim):  # there a ray may turn with the square root of a move, and an axis may have no neighbor
-            most = sum(np.maximum(share, np.sqrt(share)) for share in shares)
+            largest_share = sum(np.maximum(share, np.sqrt(share)) for share in shares)
             worst = np.fmax(*farthest)
             worst = np.where(np.isnan(worst), np.inf, worst)
-            error = np.where(at_rim, own + camera.stretch * most * worst, error)
-        return matvec(basis, here[part]), error
+            error = np.where(at_rim, rounded + camera.stretch * largest_share * worst, error)
+        return matvec(basis, here[index]), error
 
     origin, origin_error = ((0.0, 0.0, 0.0), 0.0) if camera.model.central else moved(0)
     direction, direction_error = moved(1)

@@ -56,18 +56,18 @@ class Texture(Value):
     def at(self, places: Places) -> np.ndarray:
         """See ``Value``; the coordinates run from 0 to 1 over the image."""
         x, y = places.value(self.vector)[:2]
-        found = self._texels(np.atleast_1d(x), np.atleast_1d(y))
+        values = self._texels(np.atleast_1d(x), np.atleast_1d(y))
         if self.is_alpha:
-            return found
+            return values
         if self.divides and not self.image.is_data:
-            alpha = found[3]
-            found /= np.where((alpha == 0) | (alpha == 1), 1.0, alpha)
-        return linear(found[:3]) if self.image.is_srgb else found[:3]
+            alpha = values[3]
+            values /= np.where((alpha == 0) | (alpha == 1), 1.0, alpha)
+        return linear(values[:3]) if self.image.is_srgb else values[:3]
 
     def _texels(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return the stored values, 0 .. 1 for bytes, (4, m), or of alpha alone, (1, m)."""
         high, wide = self.image.texels.shape[:2]
-        x, y = (np.where(np.isfinite(one), one, 0.0) for one in np.broadcast_arrays(x, y))
+        x, y = (np.where(np.isfinite(coordinate), coordinate, 0.0) for coordinate in np.broadcast_arrays(x, y))
         if not self.is_smooth:
             return self._read(np.floor(x * wide), np.floor(y * high))
         x, y = x * wide - 0.5, y * high - 0.5
@@ -81,26 +81,26 @@ class Texture(Value):
         """Return texels by column and row, whole numbers also beyond the edges, as ``_texels`` does."""
         texels = self.image.texels
         high, wide = texels.shape[:2]
-        place = _wrapped(row, high, self.extension) * wide + _wrapped(column, wide, self.extension)
+        texel = _wrapped(row, high, self.extension) * wide + _wrapped(column, wide, self.extension)
         if self.is_alpha:
-            found = texels.reshape(-1).take(4 * place + 3)[None].astype(float)
+            values = texels.reshape(-1).take(4 * texel + 3)[None].astype(float)
         else:
-            found = texels.reshape(-1, 4).take(place, axis=0).T.astype(float)
+            values = texels.reshape(-1, 4).take(texel, axis=0).T.astype(float)
         if texels.dtype == np.uint8:
-            found /= 255
+            values /= 255
         if self.extension == CLIP:
-            found[:, (column < 0) | (column >= wide) | (row < 0) | (row >= high)] = 0.0
-        return found
+            values[:, (column < 0) | (column >= wide) | (row < 0) | (row >= high)] = 0.0
+        return values
 
 
-def _wrapped(place: np.ndarray, count: int, extension: str) -> np.ndarray:
+def _wrapped(texel: np.ndarray, count: int, extension: str) -> np.ndarray:
     """Return the texels that stand for texels beyond the edges, along one side."""
     if extension == REPEAT:
-        return np.mod(place, count).astype(np.intp)
+        return np.mod(texel, count).astype(np.intp)
     if extension == MIRROR:
-        twice = np.mod(place, 2 * count)
+        twice = np.mod(texel, 2 * count)
         return np.minimum(twice, 2 * count - 1 - twice).astype(np.intp)
-    return np.clip(place, 0, count - 1).astype(np.intp)
+    return np.clip(texel, 0, count - 1).astype(np.intp)
 
 
 def linear(color: np.ndarray) -> np.ndarray:

@@ -115,32 +115,32 @@ def hue_saturation(color, hue, saturation, value, factor) -> np.ndarray:
 
 def hsv_of(color: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return hue, saturation and value, (m,) each, of a color."""
-    most, least = color.max(axis=0), color.min(axis=0)
-    span = most - least
-    red, green, blue = (most - color) / np.where(span > 0, span, 1.0)
-    hue = np.where(color[0] == most, blue - green, np.where(color[1] == most, 2 + red - blue, 4 + green - red))
+    largest, least = color.max(axis=0), color.min(axis=0)
+    span = largest - least
+    red, green, blue = (largest - color) / np.where(span > 0, span, 1.0)
+    hue = np.where(color[0] == largest, blue - green, np.where(color[1] == largest, 2 + red - blue, 4 + green - red))
     hue = np.where(span > 0, np.mod(hue / 6, 1.0), 0.0)
-    return hue, np.where(most != 0, span / np.where(most != 0, most, 1.0), 0.0), most
+    return hue, np.where(largest != 0, span / np.where(largest != 0, largest, 1.0), 0.0), largest
 
 
 def rgb_of(hue: np.ndarray, saturation: np.ndarray, value: np.ndarray) -> np.ndarray:
     """Return the color of hue, saturation and value."""
-    parts = [np.abs(hue * 6 - 3) - 1, 2 - np.abs(hue * 6 - 2), 2 - np.abs(hue * 6 - 4)]
-    return np.array([((np.clip(part, 0, 1) - 1) * saturation + 1) * value for part in parts])
+    ramps = [np.abs(hue * 6 - 3) - 1, 2 - np.abs(hue * 6 - 2), 2 - np.abs(hue * 6 - 4)]
+    return np.array([((np.clip(ramp, 0, 1) - 1) * saturation + 1) * value for ramp in ramps])
 
 
 def rotated(vector: np.ndarray, angles: np.ndarray, inverse: bool = False) -> np.ndarray:
     """Return a vector turned by Euler angles, x first (Blender's XYZ), or turned back."""
     order = (0, 1, 2)
-    found = np.array(np.broadcast_arrays(*vector))
+    result = np.array(np.broadcast_arrays(*vector))
     for axis in reversed(order) if inverse else order:
         cosine, sine = np.cos(angles[axis]), np.sin(-angles[axis] if inverse else angles[axis])
         i, j = (axis + 1) % 3, (axis + 2) % 3
-        a, b = found[i], found[j]
-        turned = list(found)
+        a, b = result[i], result[j]
+        turned = list(result)
         turned[i], turned[j] = cosine * a - sine * b, sine * a + cosine * b
-        found = np.array(np.broadcast_arrays(*turned))
-    return found
+        result = np.array(np.broadcast_arrays(*turned))
+    return result
 
 
 def mapped(kind: str, vector, location, rotation, scale) -> np.ndarray:
@@ -155,9 +155,9 @@ def mapped(kind: str, vector, location, rotation, scale) -> np.ndarray:
     return turned + location if kind == "POINT" else turned
 
 
-def checker(place: np.ndarray, scale: np.ndarray) -> np.ndarray:
+def checker(point: np.ndarray, scale: np.ndarray) -> np.ndarray:
     """Return where a Checker Texture has its first color, 1, and its second, 0."""
-    cell = np.floor((place * scale + 1e-6) * 0.999999) % 2
+    cell = np.floor((point * scale + 1e-6) * 0.999999) % 2
     return (((cell[0] == cell[1]) == (cell[2] == 1)) * 1.0)[None]
 
 
@@ -165,11 +165,11 @@ def looked_up(table: np.ndarray, is_smooth: bool, position: np.ndarray, goes_on:
     """Return the entries of a table (channels, n) at positions 0 .. 1, (1, m), interpolated or the one before. Beyond
     its ends the table is constant, or ``goes_on`` as the line through the two last entries.
     """
-    place = np.nan_to_num(position[0]) * (table.shape[1] - 1)
-    within = np.clip(place, 0, table.shape[1] - 1)
+    entry = np.nan_to_num(position[0]) * (table.shape[1] - 1)
+    within = np.clip(entry, 0, table.shape[1] - 1)
     before = np.floor(within).astype(np.intp)
     if not is_smooth:
         return table[:, before]
     first = np.minimum(before, table.shape[1] - 2)
     slope = table[:, first + 1] - table[:, first]
-    return table[:, before] + ((place if goes_on else within) - before) * slope
+    return table[:, before] + ((entry if goes_on else within) - before) * slope

@@ -15,7 +15,7 @@ class Surface:
 
     lit: Value
     """The color that light shows, three channels."""
-    own: Value | None = None
+    emission: Value | None = None
     """The color of its emission, before the strength; None without emission shaders."""
     glow: Value | None = None
     """The light that it emits, three channels; None for no light."""
@@ -33,4 +33,4 @@ class Surface:
     @property
     def changes(self) -> bool:
         """Whether anything changes over the surface."""
-        return not all(map(all_constant, (self.lit, self.own, self.glow, self.alpha)))
+        return not all(map(all_constant, (self.lit, self.emission, self.glow, self.alpha)))

@@ -103,7 +103,7 @@ def constant(*numbers: float) -> Constant:
 
 def function_of(function: Callable[..., np.ndarray], *inputs: Value) -> Value:
     """Return a function of expressions; a constant if all of these are constants."""
-    known = [one.values for one in inputs if isinstance(one, Constant)]
+    known = [value.values for value in inputs if isinstance(value, Constant)]
     if len(known) < len(inputs):
         return Function(function, inputs)
     with np.errstate(all="ignore"):
