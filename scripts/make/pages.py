@@ -50,7 +50,7 @@ They are recognized by their content, whatever their names are.
 
 * A file that does not state the size of its pictures is taken to be for the size of the frame; a message says so.
   `crc.load_calibration` needs `size=` then.
-* Four coefficients of OpenCV without the name of their model are for the chosen model (`--model`).
+* If an OpenCV file has four coefficients and no model name, choose the model with `--model`.
 * A file may be compressed by gzip, and hold several cameras, by name, in a list or in lines of JSON. Camera in File
   (`--calibration-camera`) chooses one.
 
@@ -69,8 +69,8 @@ is the coordinate system of the file:
   file.
 
 The frame of a pose is that in the picture's name, CAMERA_FRAME, or the number of the image; the first of several
-times, and KITTI's first pose, are frame 1. If images of one name have lenses of several models, or two of them one
-frame, they become cameras NAME-1, NAME-2, ... If each frame has one of several cameras, markers bind it.
+times, and KITTI's first pose, are frame 1. If images with the same name use different lens models or the same frame,
+they are split into NAME-1, NAME-2, ... If each frame uses exactly one camera, timeline markers switch between them.
 
 * `--rig FILE` without `--frames` casts and exports each camera in the frames of its own poses.
 * `--rig-parent NAME` makes the empty a child of an object. If that is a camera, the coordinates of the file are those

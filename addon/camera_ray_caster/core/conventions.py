@@ -13,8 +13,8 @@ Pixels
     Column 0 is the left column, row 0 the BOTTOM row, y is up, as in Blender's image buffers. Pixel coordinates are
     continuous over the full frame: (0, 0) is its bottom left corner, the center of pixel (i, j) is (i + 1/2, j + 1/2).
     Normalized view coordinates are [-1, 1] x [-1, 1] over the full frame.
-    Arrays, also in NPZ files, hold the pixels of the render border; PNG, EXR and masks have the whole frame unless Crop
-    to Border is on.
+    With a render border, arrays and NPZ files contain only the border. PNG, EXR and masks keep the full frame unless
+    Crop to Border is on.
     K (the camera matrix of computer vision) has y DOWN and its origin in the center of the top left pixel, as OpenCV.
 
 Rays

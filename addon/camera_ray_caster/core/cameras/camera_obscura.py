@@ -48,7 +48,7 @@ class CameraObscura(Perspective):
     SETTINGS = (DEPTH, WIDTH, HOLE, *FILM)
     FORMULA = (
         Step(
-            "Pixel on the wall, V pixels on its fitted side, p times as high as wide",
+            "Point on the wall (V: pixels along its fitted side; p: pixel height / width)",
             "X = (x - W/2 + shift_x V) width / V, Y = ((y - H/2) p + shift_y V) width / V",
         ),
         Step("Direction, through the hole", "r = -X u - Y v + depth w"),

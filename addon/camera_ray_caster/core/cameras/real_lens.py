@@ -84,7 +84,7 @@ class RealLens(WindowModel):
     )  # fmt: skip
     FORMULA = (
         Step(
-            "Pixel on the film, upright, V pixels on the fitted side, p times as high as wide, mm of the file",
+            "Point on the upright film, mm of the file (V: pixels along the fitted side; p: pixel height / width)",
             "a = (x - W/2 + shift_x V) pitch, b = ((y - H/2) p + shift_y V) pitch",
         ),
         Step("Chief ray of the radius, by its polynomials", "rho = sqrt(a² + b²), h, z, q"),

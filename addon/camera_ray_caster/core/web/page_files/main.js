@@ -95,7 +95,7 @@ function numbers() {
   row("from the axis", `${shown(Math.atan2(Math.hypot(ray[3], ray[4]), -ray[5]) * DEGREES)}°`);
   row("meets", hit.index < 0 ? "nothing" : `${hit.name}, at distance t = ${shown(hit.t)}, at ${shown(hit.point)} in the ${SCENE.still ? "scene (x right, y up)" : "room"}`);
   const back = pixelOf(camera, along(ray.slice(0, 3), Math.min(hit.t, 20 * SCENE.scale) / size(ray.slice(3)), ray.slice(3)));
-  row("back to the pixel", back ? `(${shown(back[0])}, ${shown(back[1])}), ${shown(Math.hypot(back[0] - x, back[1] - y), 2)} pixels off, by Gauss and Newton's method from the rays alone` : "not found by Gauss and Newton's method from the rays alone");
+  row("back to the pixel", back ? `(${shown(back[0])}, ${shown(back[1])}), ${shown(Math.hypot(back[0] - x, back[1] - y), 2)} px off (found from the rays by Gauss–Newton)` : "not found from the rays by Gauss–Newton");
   if (state.times !== "none") row("time of the pixel", `${shown(time)} s`);
   $("tag").replaceChildren(make("b", `r = ${shown(ray.slice(3), 3)}`), make("span", hit.index < 0 ? "meets nothing" : `meets ${hit.name}`));
 }
