@@ -140,7 +140,7 @@ def test_glass_is_offered_to_models_with_an_eye_and_its_settings_appear_when_it_
     assert drawn(blender, PortPanel, data) == (("port",), ())
     own.port = "DOME"
     names, _ = drawn(blender, PortPanel, data)
-    assert names == ("port", "port_radius", "port_decenter", "port_thickness", "port_glass", "port_medium")
+    assert " ".join(names) == "port port_radius port_decenter port_thickness port_glass port_medium port_inside"
     own.model = "PUSHBROOM"
     assert not PortPanel.poll(context)
     data.type, own.model = "PERSP", "BLENDER"

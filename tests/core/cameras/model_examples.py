@@ -35,11 +35,11 @@ ONLY_SOME = {
 
 IN_TANK = {
     "port": "FLAT", "port_distance": 50.0, "port_tilt_x": 0.1, "port_tilt_y": -0.2, "port_thickness": 10.0,
-    "port_glass": 1.49, "port_medium": 1.333,
+    "port_glass": 1.49, "port_medium": 1.333, "port_inside": 1.0,
 }  # fmt: skip
 IN_DOME = {
     "port": "DOME", "port_radius": 80.0, "port_decenter": (3.0, -5.0, 20.0), "port_thickness": 4.0, "port_glass": 1.49,
-    "port_medium": 1.333,
+    "port_medium": 1.333, "port_inside": 1.0,
 }  # fmt: skip
 """Settings of a camera behind glass, which any model with an eye takes."""
 
@@ -49,13 +49,14 @@ EXAMPLES = defaultdict(lambda: [{}], {
     **multiperspective_examples.EXAMPLES,
     **table_examples.EXAMPLES,
     "PERSP": [{}, PORTRAIT, WIDE_PIXELS, BORDER | {"lens": 4.0}, {"lens": 400.0, "matrix_world": TURNED},
-              IN_TANK | {"lens": 18.0}, PORTRAIT | IN_DOME],
+              IN_TANK | {"lens": 18.0}, PORTRAIT | IN_DOME | {"port_inside": 1.47}],
     "ORTHO": [{}, PORTRAIT, WIDE_PIXELS, BORDER | {"ortho_scale": 0.01}, {"ortho_scale": 50.0, "matrix_world": TURNED}],
     "EQUIRECTANGULAR": [{}, SHIFTED, BORDER, {"longitude_min": 0.5, "latitude_max": 0.1, "shift_y": 0.2}],
     "EQUIANGULAR_CUBEMAP_FACE": [{}, SHIFTED, BORDER, PORTRAIT],
     "MIRRORBALL": [{}, SHIFTED, BORDER, PORTRAIT],
     "FISHEYE_EQUIDISTANT": [{}, SHIFTED, BORDER | {"fisheye_fov": 0.3}, PORTRAIT | {"fisheye_fov": 6.2},
-                            IN_TANK | {"fisheye_fov": 2.2, "matrix_world": TURNED}, IN_DOME | {"fisheye_fov": 4.0}],
+                            IN_TANK | {"fisheye_fov": 2.2, "matrix_world": TURNED}, IN_DOME | {"fisheye_fov": 4.0},
+                            IN_TANK | {"fisheye_fov": 2.6, "port_inside": 1.47, "port_medium": 1.0}],
     "FISHEYE_EQUISOLID": [
         {},
         SHIFTED,

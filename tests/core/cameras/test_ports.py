@@ -68,6 +68,7 @@ def test_a_point_has_its_pixel_again(seed):
     """From 1 mm to 1 km behind glass of any kind; a plate at the eye is left out: see below."""
     rng = np.random.default_rng(seed)
     indices = {"port_glass": rng.uniform(1, 2), "port_medium": rng.uniform(1, 2), "port_thickness": rng.uniform(0, 30)}
+    indices["port_inside"] = (1.0, rng.uniform(1, 2))[seed % 2]
     tilt_x, tilt_y = rng.uniform(-0.7, 0.7, 2)
     flat = {"port": "FLAT", "port_distance": 10 ** rng.uniform(0, 3), "port_tilt_x": tilt_x, "port_tilt_y": tilt_y}
     dome = {"port": "DOME", "port_radius": 100.0, "port_decenter": tuple(rng.uniform(-39, 39, 3))}
@@ -94,6 +95,23 @@ def test_what_is_before_the_glass_and_beyond_the_last_ray_has_no_pixel():
         assert np.isfinite(fisheye.project((np.sin(angle), 0.0, -np.cos(angle)))).all() == seen
     behind_plate = crc.camera("EQUIRECTANGULAR", (64, 32), port="FLAT").rays().valid
     assert behind_plate.mean() == 0.5  # the half before it
+
+
+def test_a_plate_reflects_beyond_the_critical_angle_and_equal_indices_bend_nothing():
+    """From oil into air by Snell's law, at the middle row of an equidistant fisheye."""
+    oil = {"port": "FLAT", "port_inside": 1.5, "port_medium": 1.0, "port_thickness": 0.0, "port_distance": 50.0}
+    cam = crc.camera("FISHEYE_EQUIDISTANT", (400, 400), fisheye_fov=2.0, **oil)
+    critical = np.arcsin(1 / 1.5)
+    angles = np.array((0.3, critical - 1e-6, critical + 1e-6))
+    rays = cam.rays_at(200 + 200 * angles, np.full(3, 200.0))
+    assert list(rays.valid) == [True, True, False]
+    np.testing.assert_allclose(rays.directions[:2, 0], 1.5 * np.sin(angles[:2]), rtol=0, atol=1e-15)
+    assert "more than 41.81 degrees from its normal" in cam.model.remark(cam.record)
+    image = crc.cast(cam, crc.spheres([(0.0, 0.0, 0.0)], 9.0), passes=("shape_index",))["shape_index"]
+    seen = np.hypot(*(np.mgrid[:400, :400] + 0.5 - 200)) < 200 * critical
+    np.testing.assert_array_equal(image >= 0, seen)
+    same = crc.camera("PERSP", SIZE, port="DOME", port_inside=1.4, port_glass=1.4, port_medium=1.4)
+    assert not isinstance(same.model, BehindPort)
 
 
 def test_rays_of_a_lens_s_aperture_are_refracted_too():
@@ -151,6 +169,11 @@ def test_a_pinhole_in_a_fish_tank_is_far_off_and_a_fit_is_not():
         ("PERSP", {"port": "FLAT", "port_thickness": -1.0}, "port_thickness .* 0 or more"),
         ("PERSP", {"port": "DOME", "port_thickness": 100.0}, "port_thickness .* below port_radius, 100"),
         ("PERSP", {"port": "DOME", "port_decenter": (0.0, 0.0, 95.0)}, "port_decenter .* below 90, the inner radius"),
+        (
+            "PERSP",
+            {"port": "DOME", "port_inside": 1.5, "port_glass": 1.5, "port_medium": 1.0, "port_decenter": (0, 0, 47.0)},
+            "port_decenter .* below 46.6667, so that no light is totally reflected",
+        ),
         ("PERSP", {"port": "FLAT", "port_radius": 50.0}, "port_radius of PERSP has no effect unless port is 'DOME'"),
         ("PERSP", {"port_distance": 50.0}, "port_distance of PERSP has no effect unless port is 'FLAT'"),
         ("PERSP", {"port": "PLATE"}, "unknown port 'PLATE'"),

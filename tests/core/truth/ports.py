@@ -15,7 +15,7 @@ def behind(raw, found):
     point, ahead = found
     ahead = [part / norm(ahead) for part in ahead]
     number = {name: mpf(value) for name, value in raw.settings.items() if isinstance(value, float)}
-    thickness, glass, medium = (number[f"port_{name}"] for name in ("thickness", "glass", "medium"))
+    thickness, inside, glass, medium = (number[f"port_{name}"] for name in ("thickness", "inside", "glass", "medium"))
     if port == "FLAT":
         x, y = number["port_tilt_x"], number["port_tilt_y"]
         normal = [-cos(x) * sin(y), sin(x), -cos(x) * cos(y)]
@@ -25,7 +25,7 @@ def behind(raw, found):
         center = [part * MM for part in exact(raw.settings["port_decenter"])]
         outer = number["port_radius"] * MM
         faces = [Sphere(center, outer - thickness * MM), Sphere(center, outer)]
-    for face, before, after in zip(faces, (mpf(1), glass), (glass, medium), strict=True):
+    for face, before, after in zip(faces, (inside, glass), (glass, medium), strict=True):
         t = face.crossing(point, ahead)
         if t is None:
             return None

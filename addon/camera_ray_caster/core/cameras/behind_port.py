@@ -1,9 +1,11 @@
 """A camera behind glass: any model whose rays leave one eye, and a port that refracts them.
 
-Assumptions: geometric optics, faces that are planes or spheres, air on the camera's side. Rays begin on the outer face,
-and so do distances: what is between the lens and that face is not cast. Depth is the distance along the ray.
-Formula: with d the unit direction in air, N the normal of a plate and c = d . N, the part of n d along a face is the
-same on both sides (Snell's law): r = d - c N + sqrt(n_m^2 - 1 + c^2) N; at a dome, so at one face after the other.
+Assumptions: geometric optics, faces that are planes or spheres; the lens alone gives the rays in the medium inside.
+Rays begin on the outer face, and so do distances: what is between the lens and that face is not cast. Depth is the
+distance along the ray. There is no ray where the light is totally reflected.
+Formula: with d the unit direction inside, N the normal of a plate, c = d . N and n_m relative to the index inside, the
+part of n d along a face is the same on both sides (Snell's law): r = d - c N + sqrt(n_m^2 - 1 + c^2) N; at a dome, so
+at one face after the other.
 See ``parts.port`` for the inverse and references.
 """
 
@@ -11,6 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cache
+from operator import attrgetter
 from typing import Any, ClassVar
 
 import numpy as np
@@ -20,23 +23,23 @@ from ..maths.vector import unit
 from ..records import BlenderCamera, InputError, Raster
 from .model import Model, Step
 from .parts.aperture import Aperture, focus_of
-from .parts.port import PORTS, DomePort, FlatPort, balls_in_air, rays_in_air
+from .parts.port import PORTS, DomePort, FlatPort, balls_inside, rays_inside
 from .parts.port_settings import PORT, SETTINGS
 from .parts.pose import pose_from
 from .parts.silhouette import everywhere
 
 EYE = 0.0, 0.0, 0.0
 OF_FLAT = (
-    Step("Unit vector in air", "d = r / sqrt(r . r)"),
-    Step("Cosine of the angle in air to the plate's normal N", "c = d . N"),
-    Step("The same in the glass and in the medium, times the index", "g = sqrt(ng² - 1 + c²), m = sqrt(nm² - 1 + c²)"),
+    Step("Unit vector inside", "d = r / sqrt(r . r)"),
+    Step("Cosine of the angle inside to the plate's normal N", "c = d . N"),
+    Step("In the glass and in the medium, times the relative index", "g = sqrt(ng² - 1 + c²), m = sqrt(nm² - 1 + c²)"),
     Step("Origin on the outer face, D the distance and T the thickness", "o = d D/c + (d - N c) T/g + N T"),
     Step("Direction behind the port", "r = (d - N c + N m) / nm"),
 )
 OF_DOME = (
-    Step("Unit vector in air", "d = r / sqrt(r . r)"),
+    Step("Unit vector inside", "d = r / sqrt(r . r)"),
     Step("Square of its line's distance from the dome's center, from which the eye is at E", "s = (E × d) . (E × d)"),
-    Step("Radius, cosine and index at the inner face, in air and in glass", "a = sqrt(A² - s), b = sqrt(ng² A² - s)"),
+    Step("At the inner face, inside and in glass", "a = sqrt(A² - s), b = sqrt(ng² A² - s)"),
     Step("At the outer face, in glass and in the medium", "f = sqrt(ng² B² - s), h = sqrt(nm² B² - s)"),
     Step("On the inner face, and in the glass", "P = E + d (a - E . d), k = d + P (b - a)/A²"),
     Step("On the outer face", "Q = P + k (f - b)/ng²"),
@@ -68,7 +71,7 @@ class BehindPort(Model):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Model:  # type: ignore[override]
-        """Return the lens behind its port; the lens alone if there is nothing but air. Raises InputError for a lens
+        """Return the lens behind its port; the lens alone if all indices are equal. Raises InputError for a lens
         whose rays do not leave one eye.
         """
         lens, port = cls.kind.from_blender(raw, raster), cls.port_class.from_blender(raw)
@@ -77,21 +80,6 @@ class BehindPort(Model):
         if isinstance(port.glass, float) and port.glass == port.medium == 1:
             return lens
         return cls(raster.size, lens, port, float(focus_of(raw, pose_from(raw))))
-
-    @classmethod
-    def following(cls, given):
-        """See Model."""
-        return cls.kind.following(given)
-
-    @classmethod
-    def eye(cls, raw, view):
-        """See Model."""
-        return cls.kind.eye(raw, view)
-
-    @classmethod
-    def off_axis(cls, raw, slope):
-        """See Model."""
-        return cls.kind.off_axis(raw, slope)
 
     @property
     def steps(self) -> tuple[Step, ...]:
@@ -116,24 +104,24 @@ class BehindPort(Model):
         return unit(direction) if self.lens.planar else direction
 
     def project(self, points):
-        """See Model: the direction in air by Newton's method, then the inverse of the lens."""
+        """See Model: the direction inside by Newton's method, then the inverse of the lens."""
         points = np.asarray(points, np.float64)
         with np.errstate(all="ignore"):  # NaN means no pixel
-            return self.lens.project(rays_in_air(self.port, points.reshape(-1, 3))).reshape(*points.shape[:-1], 2)
+            return self.lens.project(rays_inside(self.port, points.reshape(-1, 3))).reshape(*points.shape[:-1], 2)
 
     def bounds(self, centers, radii):
-        """See Model: those of balls in air that hold what may be seen."""
+        """See Model: those of balls inside that hold what may be seen."""
         if np.isinf(radii).any():
             return everywhere(len(radii))
         with np.errstate(all="ignore"):  # a plate at the eye has points without a ray
-            held, grown = balls_in_air(self.port, centers, radii)
+            held, grown = balls_inside(self.port, centers, radii)
         unseen = np.isnan(grown)
         bounds = self.lens.bounds(held, np.where(unseen, 0.0, grown))
         bounds[unseen] = np.nan
         return bounds
 
     def aperture(self, raw, pose):
-        """See Model: the lens's own, sharp at its focus distance in air."""
+        """See Model: the lens's own, sharp at its focus distance inside."""
         thin = self.lens.aperture(raw, pose)
         return None if thin is None else AnyDepth(**vars(thin))
 
@@ -142,9 +130,13 @@ class BehindPort(Model):
         origin, direction = self.lens.through(aperture, self.lens.rays(x, y), x, y, point)
         return self.port.bent(origin, self._unit(direction))
 
-    def light(self, aperture, x, y, point):
-        """See Model."""
-        return self.lens.light(aperture, x, y, point)
+    def remark(self, raw):
+        """See Model: the lens's, or from which angle a plate reflects all light."""
+        least = min(self.port.glass, self.port.medium)
+        if isinstance(self.port, DomePort) or least >= 1:
+            return self.lens.remark(raw)
+        angle = f"{np.degrees(np.arcsin(float(least))):.4g}"
+        return f"the port totally reflects what is more than {angle} degrees from its normal: no light comes from there"
 
     def posed(self, pose):
         """See Model."""
@@ -154,43 +146,15 @@ class BehindPort(Model):
         """See Model."""
         return replace(self, lens=self.lens.settled())
 
-    def facts(self):
-        """See Model."""
-        return self.lens.facts()
-
     @property
     def focused_at(self) -> float:  # type: ignore[override]
         """See Model."""
         return self.focus
 
     @property
-    def smooth(self) -> bool:  # type: ignore[override]
-        """See Model."""
-        return self.lens.smooth
-
-    @property
-    def guarded(self) -> bool:  # type: ignore[override]
-        """See Model."""
-        return self.lens.guarded
-
-    @property
-    def size(self):
-        """See Model."""
-        return self.lens.size
-
-    @property
-    def shape(self):
-        """See Model."""
-        return self.lens.shape
-
-    @property
     def formula_reach(self) -> float:
         """See Model."""
         return self.lens.formula_reach + self.port.reach
-
-    def pixel_rounding(self, x, y):
-        """See Model."""
-        return self.lens.pixel_rounding(x, y)
 
     @property
     def ray_rounding(self) -> float:
@@ -198,13 +162,17 @@ class BehindPort(Model):
         return gamma(8)
 
     def formula_rounding(self, x, y):
-        """See Model: the rounding of the ray in air, as the port lets it grow."""
+        """See Model: the rounding of the ray inside, as the port lets it grow."""
         moved, turned = self.port.growth(self._unit(self.lens.rays(x, y)[1]))
         rounding = self.lens.ray_rounding + gamma(12) + self.lens.formula_rounding(x, y)[1]
         return rounding * moved, rounding * turned
 
 
-def in_air(model: Model) -> Model:
+for _name in ("facts", "guarded", "light", "pixel_rounding", "shape", "size", "smooth"):
+    setattr(BehindPort, _name, property(attrgetter(f"lens.{_name}")))
+
+
+def lens_of(model: Model) -> Model:
     """Return the lens of a model behind a port; any other model as it is."""
     return model.lens if isinstance(model, BehindPort) else model
 
@@ -228,6 +196,7 @@ def behind(kind: type[Model], port: str) -> type[Model]:
         (BehindPort,),
         {
             **{name: getattr(kind, name) for name in ("key", "group", "number", "FORMULA")},
+            **{name: staticmethod(getattr(kind, name)) for name in ("following", "eye", "off_axis")},
             "label": f"{kind.label} behind a {item.label}",
             "description": kind.description,
             "kind": kind,

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..camera.camera import Camera
-from ..cameras.behind_port import in_air
+from ..cameras.behind_port import lens_of
 from ..cameras.model import WindowModel
 from ..cameras.parts.calibrated import Calibrated
 from ..cameras.parts.calibration import PRINCIPAL_POINT, Calibration
@@ -192,7 +192,7 @@ def _formula(camera: Camera, seen: Probe):
     given = {name: number for name, number in given.items() if np.isfinite(number).all()}
     if given:
         yield f"with {', '.join(f'{name} = {shown(number)}' for name, number in given.items())}"
-    lens = in_air(model)
+    lens = lens_of(model)
     if isinstance(lens, WindowModel):
         plane = lens.window.plane_from_pixels(x, y)
         pitch = lens.window.pitch_x, lens.window.pitch_y
@@ -215,7 +215,7 @@ def _formula(camera: Camera, seen: Probe):
 
 def _known(camera: Camera, x: float, y: float) -> dict[str, Any]:
     """Return the values of the names in a model's formula. Settings are also known without their prefixes."""
-    model, raster = in_air(camera.model), camera.raster
+    model, raster = lens_of(camera.model), camera.raster
     facts: dict[str, Any] = dict(model.facts())
     numbers = {name: number for name, number in (camera.settings | facts).items() if type(number) in (int, float)}
     known: dict[str, Any] = dict(zip("uvw", np.diag([1.0, 1.0, -1.0]), strict=True))

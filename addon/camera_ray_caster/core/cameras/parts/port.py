@@ -1,10 +1,11 @@
 """Ports: a flat plate or a dome of glass between a camera and another medium, such as water.
 
-Light goes from air (index 1) through the glass into the medium; every index is at least 1, so that there is no total
-reflection. Rays lie in planes through one axis, the plate's normal or the line from the dome's center to the eye. One
-whose angle in air has the tangent q runs away from a plate's axis by h q / sqrt(n^2 + (n^2 - 1) q^2) in a layer of the
-depth h and the index n; through a dome n r sin i is the same all along it. Both give a place that increases with the
-angle, so that each point has one direction in air.
+Light goes from the medium inside, such as air, through the glass into the medium. Refraction depends on the ratios of
+indices alone: those of ports are relative to the medium inside. Where one is below 1, rays may be totally reflected,
+and are none. Rays lie in planes through one axis, the plate's normal or the line from the dome's center to the eye. One
+whose angle in a layer of index 1 has the tangent q runs away from a plate's axis by h q / sqrt(n^2 + (n^2 - 1) q^2) in
+a layer of the depth h and the index n; through a dome n r sin i is the same all along it. Both give a place that
+increases with the angle, so that each point has one direction inside; a dome near total reflection is refused.
 References: A. Agrawal et al., A Theory of Multi-Layer Flat Refractive Geometry (2012); M. Born and E. Wolf, Principles
 of Optics, 7th ed. (1999), section 3.2 (Bouguer's formula).
 """
@@ -18,7 +19,7 @@ import numpy as np
 from ...maths.recording import cos, sin
 from ...maths.vector import along, components, cross, difference, dot, norm, unit
 from ...records import BlenderCamera
-from .port_settings import DECENTER, DISTANCE, DOME, FLAT, GLASS, MEDIUM, RADIUS, THICKNESS, TILTS
+from .port_settings import DECENTER, DISTANCE, DOME, FLAT, GLASS, INSIDE, MEDIUM, RADIUS, THICKNESS, TILTS
 
 MILLIMETER = 1e-3
 """In Blender units, as for a thin lens."""
@@ -28,6 +29,16 @@ the plate more, as the direction nears the plate's own.
 """
 SLACK = 1e-9
 """Angle, rad, by which bounds are larger: far more than rounding."""
+APART = 0.7
+"""Share of the distance from the center at which a dome reflects totally, up to which an eye sees no point twice: of
+60,000 random domes with relative indices from 0.1 to 10, two had rays that meet at 0.75, and none at 0.7.
+"""
+
+
+def indices_of(raw: BlenderCamera) -> tuple:
+    """Return the indices of a record's glass and medium, relative to that inside."""
+    inside = INSIDE.read(raw)
+    return GLASS.read(raw) / inside, MEDIUM.read(raw) / inside
 
 
 @dataclass(frozen=True)
@@ -47,7 +58,7 @@ class FlatPort:
         x, y = (tilt.read(raw) for tilt in TILTS)
         distance, thickness = (length.read(raw) * MILLIMETER for length in (DISTANCE, THICKNESS))
         normal = -cos(x) * sin(y), sin(x), -cos(x) * cos(y)
-        return cls(normal, distance, thickness, GLASS.read(raw), MEDIUM.read(raw))
+        return cls(normal, distance, thickness, *indices_of(raw))
 
     @property
     def reach(self) -> float:
@@ -64,7 +75,9 @@ class FlatPort:
         c = dot(self.normal, direction)
         c = np.where(c > 0, c, np.nan)
         flat = along(direction, self.normal, -c)
-        glass, medium = (np.sqrt((index * index - 1) + c * c) for index in (self.glass, self.medium))
+        squares = [(index * index - 1) + c * c for index in (self.glass, self.medium)]
+        passes = np.minimum(*squares) >= 0
+        glass, medium = (np.sqrt(np.where(passes, square, np.nan)) for square in squares)
         inner = along(origin, direction, (self.distance - dot(self.normal, origin)) / c)
         share = self.thickness / glass
         outer = tuple(o + (share * k + self.thickness * n) for o, k, n in zip(inner, flat, self.normal, strict=True))
@@ -73,8 +86,11 @@ class FlatPort:
     def growth(self, direction):
         """Return how much a small turn of rays, unit vectors, moves their origins (a length) and turns them."""
         c = np.maximum(dot(self.normal, direction), np.finfo(float).tiny)
-        glass = (self.glass * self.glass - 1) + c * c
-        return 2 * (self.distance / (c * c) + self.glass * self.thickness / glass), 1.0
+        glass, medium = (
+            np.maximum((index * index - 1) + c * c, np.finfo(float).tiny) for index in (self.glass, self.medium)
+        )
+        in_glass = self.thickness * self.glass**2 * c / (glass * np.sqrt(glass))
+        return 2 * (self.distance / (c * c) + in_glass), np.maximum(1.0, c / np.sqrt(medium))
 
     def places(self, points):
         """Return where points (n, 3) are: behind the outer face and from the axis, (n,) each; the first is negative for
@@ -84,18 +100,20 @@ class FlatPort:
         return depth - self.reach, norm(components(points - depth[:, None] * self.axis))
 
     def spread(self, behind, across, radii):
-        """Return the least and the largest angle in air of what balls hold, and half the angle around the axis."""
+        """Return the least and the largest angle inside of what balls hold, and half the angle around the axis."""
         far, near = np.maximum(behind + radii, 0.0), np.maximum(behind - radii, 0.0)
         least, most = self.angle(far, np.maximum(across - radii, 0.0)), self.angle(near, across + radii)
         around = np.arcsin(np.minimum(radii / np.maximum(across, np.finfo(float).tiny), 1.0))
         return least, most, np.where(radii < across, around, np.pi)
 
     def angle(self, behind, across):
-        """Return the angles from the axis in air of rays that meet points; NaN where there is none.
+        """Return the angles from the axis inside of rays that meet points; pi / 2 where there is none.
 
-        Newton's method from the axis: ``rho`` is concave, so that no step goes too far.
+        Newton's method from the axis, for the tangent q in the least of the indices: ``rho`` is concave, so that no
+        step goes too far.
         """
-        layers = (self.distance, 1.0), (self.thickness, self.glass), (behind, self.medium)
+        least = min(1.0, self.glass, self.medium)
+        layers = (self.distance, 1 / least), (self.thickness, self.glass / least), (behind, self.medium / least)
         q = np.zeros(np.shape(across))
         for _ in range(STEPS):
             square = q * q
@@ -108,7 +126,8 @@ class FlatPort:
             q = q + np.maximum(step, 0.0)
             if not (step > SETTLED * q).any():
                 break
-        return np.arctan(np.where(np.isnan(q), np.inf, q))
+        inside = np.arctan(q * least / np.sqrt(1 + (1 - least * least) * q * q))
+        return np.where(np.isfinite(q), inside, np.pi / 2)
 
 
 @dataclass(frozen=True)
@@ -133,15 +152,22 @@ class DomePort:
             most = float(outer - thickness)
             said = f"{away:.6g} mm long"
             raise DECENTER.refusal(raw, said, f"below {most:.6g}, the inner radius, so that the eye is inside the dome")
-        return cls(
-            (x * MILLIMETER, y * MILLIMETER, z * MILLIMETER), (outer - thickness) * MILLIMETER, thickness * MILLIMETER,
-            GLASS.read(raw), MEDIUM.read(raw),
-        )  # fmt: skip
+        center, shell = (x * MILLIMETER, y * MILLIMETER, z * MILLIMETER), (outer - thickness, thickness)
+        port = cls(center, *(length * MILLIMETER for length in shell), *indices_of(raw))
+        if port.least < port.inner and not port.away < APART * port.least:
+            limit = f"below {float(APART * port.least / MILLIMETER):.6g}, so that no light is totally reflected"
+            raise DECENTER.refusal(raw, f"{away:.6g} mm long", limit)
+        return port
 
     @property
     def outer(self) -> float:
         """Radius of the outer face."""
         return self.inner + self.thickness
+
+    @property
+    def least(self) -> float:
+        """Distance from the center below which a ray's line inside passes both faces."""
+        return min(self.inner, self.glass * self.inner, self.medium * self.outer)
 
     @property
     def reach(self) -> float:
@@ -164,8 +190,8 @@ class DomePort:
         p = cross(start, direction)
         square, inner, outer = dot(p, p), self.inner * self.inner, self.outer * self.outer
         glass, medium = self.glass * self.glass, self.medium * self.medium
-        before, entering = np.sqrt(inner - square), np.sqrt(glass * inner - square)
-        leaving, behind = np.sqrt(glass * outer - square), np.sqrt(medium * outer - square)
+        squares = (part - square for part in (inner, glass * inner, glass * outer, medium * outer))
+        before, entering, leaving, behind = (np.sqrt(np.where(part >= 0, part, np.nan)) for part in squares)
         first = along(start, direction, before - dot(start, direction))
         inside = along(direction, first, (glass - 1) / (entering + before))  # of length n
         last = along(first, inside, self.thickness * (self.outer + self.inner) / (entering + leaving))
@@ -174,7 +200,8 @@ class DomePort:
 
     def growth(self, direction):
         """See FlatPort: most for the line that is farthest from the center."""
-        turn = 1 + self.away / np.sqrt(self.inner**2 - self.away**2)
+        faces = 1 if self.least == self.inner else 2
+        turn = 1 + faces * self.away / np.sqrt(self.least**2 - self.away**2)
         return 2 * turn * self.outer, turn
 
     def places(self, points):
@@ -194,7 +221,7 @@ class DomePort:
         return least, most, np.where((low > 0) & (high < np.pi), turn, np.pi)
 
     def angle(self, behind, around):
-        """Return the angles from the axis in air of rays that meet points: Newton's method in a bracket."""
+        """Return the angles from the axis inside of rays that meet points: Newton's method in a bracket."""
         if not self.away:
             return around
         radii = self.inner, self.glass * self.inner, self.glass * self.outer, self.medium * self.outer
@@ -221,7 +248,7 @@ PORTS = {FLAT: FlatPort, DOME: DomePort}
 Port = FlatPort | DomePort
 
 
-def rays_in_air(port: Port, points: np.ndarray) -> np.ndarray:
+def rays_inside(port: Port, points: np.ndarray) -> np.ndarray:
     """Return the unit directions (n, 3) at the eye of the rays that meet points (n, 3); NaN for points that are not
     behind the port, and for those that no ray meets.
     """
@@ -232,8 +259,8 @@ def rays_in_air(port: Port, points: np.ndarray) -> np.ndarray:
     return np.where(seen[:, None], directions, np.nan)
 
 
-def balls_in_air(port: Port, centers: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return centers (n, 3) and radii (n,) of balls that hold, as the eye sees them in air, all that may be seen of
+def balls_inside(port: Port, centers: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return centers (n, 3) and radii (n,) of balls that hold, as the eye sees them inside, all that may be seen of
     balls behind the port; NaN for balls before it, and radii above 1, the distance, for balls that may be anywhere.
     """
     behind, across = port.places(centers)

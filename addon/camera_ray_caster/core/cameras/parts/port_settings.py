@@ -22,6 +22,10 @@ GLASS = Number("port_glass", "Index of Glass", "Refractive index of the port's g
 MEDIUM = Number(
     "port_medium", "Index of Medium", "Refractive index of what is behind the port", 1.333, 1.0, 10.0, digits=4
 )
+INSIDE = Number(
+    "port_inside", "Index Inside", "Refractive index of what is between the lens and the port: air, water, oil",
+    1.0, 1.0, 10.0, digits=4,
+)  # fmt: skip
 DISTANCE = Number(
     "port_distance", "Distance", "From the eye to the inner face of the plate, along its normal", 50.0, 0.0, unit="mm"
 )
@@ -35,7 +39,7 @@ DECENTER = Numbers("port_decenter", "Decentering", "Center of the dome in the ca
                    (0.0, 0.0, 0.0), ("X", "Y", "Z"))  # fmt: skip
 SETTINGS: dict[str, tuple[Setting, ...]] = {
     NONE: (),
-    FLAT: (DISTANCE, *TILTS, THICKNESS, GLASS, MEDIUM),
-    DOME: (RADIUS, DECENTER, THICKNESS, GLASS, MEDIUM),
+    FLAT: (DISTANCE, *TILTS, THICKNESS, GLASS, MEDIUM, INSIDE),
+    DOME: (RADIUS, DECENTER, THICKNESS, GLASS, MEDIUM, INSIDE),
 }
 """The settings that each item of PORT reads."""
