@@ -124,7 +124,7 @@ UNITS = {
     "NVIDIA NCore": "m", "CAHVOR": "m", "DepthAI": "cm", "Anipose": "", "EasyMocap": "m", "CMU Panoptic": "cm",
     "nuScenes": "m",
     "ARKitScenes": "m", "OpenCV": "", "mrcal": "", "OpenSfM": "m", "RealityCapture": "", "openMVG": "",
-    "Bundler": "", "NVM": "", "Gaussian splatting": "", "nerfstudio camera paths": "", "LLFF": "",
+    "Bundler": "", "NVM": "", "Gaussian splatting": "", "ns-render camera paths": "", "LLFF": "",
     "Surround360": "", "fSpy": "", "Open3D": "m",
     "KITTI": "m", "this add-on": "", "TUM": "m", "EuRoC trajectories": "m",
 }  # fmt: skip

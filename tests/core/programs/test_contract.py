@@ -168,3 +168,20 @@ def plain(lens):
 def test_every_export_of_a_program_is_a_format():
     keys = {one.export.key for one in PROGRAMS if one.export is not None}
     assert keys == {one.key for one in FORMATS}
+
+
+SHARED = {"OpenCV", "CAHVOR", "Velodyne", "Ouster", "this add-on"}
+"""Names that camera models and devices have, too, and the add-on's own."""
+ADDON = Path(programs.__file__).parents[2]
+TEXTS = [path.read_text(encoding="utf-8") for path in sorted(ADDON.rglob("*.py")) if "presets" not in path.parts]
+MOST_FILES = 3
+
+
+@pytest.mark.one_for_each("name")
+@pytest.mark.parametrize("name", [one.name for one in PROGRAMS if one.name not in SHARED])
+def test_a_program_is_named_in_few_files(name):
+    """Its own file, the list of programs, and one more; what others say of it follows from its record. Longer names
+    (KITTI-360) and endings of files (.nvm) are others.
+    """
+    word = re.compile(rf"(?<![A-Za-z.]){re.escape(name)}(?![A-Za-z]|-\w)", re.IGNORECASE)
+    assert 1 <= sum(bool(word.search(text)) for text in TEXTS) <= MOST_FILES

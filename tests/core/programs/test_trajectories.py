@@ -54,7 +54,7 @@ def test_a_place_may_be_negative(tmp_path):
         ("0 1 0 0 0 4 5 6\n1 1 0 0 0 4 5 7\n", "the second to the fifth are a quaternion"),
         ("#timestamp,x,y,z,qx,qy,qz,qw\n1,2,3,4,0,,0,1\n", "pose 1 is .* 8 finite numbers"),
         (f"# {'quat' * 20000} x y z qx qy qz\n1 2 3 4 5 6 7\n", "its lines have 7 numbers"),
-        ("1583836591.25,1,2,3,0,0,0,1\n", "not in whole nanoseconds as in EuRoC's"),
+        ("1583836591.25,1,2,3,0,0,0,1\n", "not in whole nanoseconds as in .csv files"),
         ("# timestamp,x,y,z,rx,ry,rz\n0,4,0,0,0,0,1\n12500,4,0,0,0,0,1\n", "tell their unit in the first line"),
     ],
 )

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import camera_ray_caster as crc
-from camera_ray_caster.core.sets.bop_models import ObjectModel, model_of, ply
+from camera_ray_caster.core.sets.object_models import ObjectModel, model_of, ply
 from camera_ray_caster.core.sets.symmetries import of_ellipsoid
 
 CUBE = np.array(list(product((-1.0, 1.0), repeat=3)))

@@ -1,4 +1,4 @@
-"""The points of pictures in files of scanners' formats: a cloud for each picture, and KITTI's sequences of a run."""
+"""The points of pictures in files of scanners' formats: a cloud for each picture, and sequences of a run."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ import bpy
 
 from ...core.cast import Images
 from ...core.clouds.cloud import AXES, OF_DEVICE, SENSOR, scan
-from ...core.clouds.formats import POINT_FORMATS, files_of
+from ...core.clouds.formats import IN_WORDS, POINT_FORMATS, files_of
 from ...core.clouds.sequences import sequence
 from ...core.exports.camera_json import camera_from_json
 from ...core.file_set import atomic_folder
@@ -24,16 +24,14 @@ from ...core.sets.common import dataset_of
 from ..read.unique import find_unique
 from .annotations import CATEGORY
 
-KITTI = "kitti"
 SEQUENCES = "sequences"
-"""Folder of KITTI's sequences, one for each camera."""
+"""Folder of sequences, one for each camera."""
 
 
 def add_points(parser) -> None:
     """Add the options for points."""
     parser.add_argument("--points", type=str.lower, choices=POINT_FORMATS, help=
-        "also write the hit points as a point cloud: PLY, PCD, KITTI with SemanticKITTI's labels, nuScenes, LAS or "
-        "NPZ")  # fmt: skip
+        f"also write the hit points as a point cloud: {IN_WORDS}")  # fmt: skip
     parser.add_argument("--points-axes", type=str.lower, choices=AXES, default=SENSOR, help=
         "axes of points: x ahead, y left, z up where each beam fires, or the world's; default: %(default)s")
     for name, text in (
@@ -110,7 +108,7 @@ def categories_of(names: Sequence[str]) -> dict[str, int]:
 
 
 def collect_sequences(folder: Path, jobs: Iterable[Any]) -> None:
-    """Make KITTI's sequences of the files of pictures: one for each camera, with its frames in order."""
+    """Make sequences of the files of pictures: one for each camera, with its frames in order."""
     for number, camera in enumerate(dict.fromkeys(job.camera for job in jobs)):
         place = folder / SEQUENCES / f"{number:02}"
         for kind, ending in (("velodyne", ".bin"), ("labels", ".label")):

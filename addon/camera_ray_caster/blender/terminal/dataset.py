@@ -20,6 +20,7 @@ from typing import Any
 
 import bpy
 
+from ...core.clouds.formats import SEQUENCED
 from ...core.exports.writing import write
 from ...core.file_set import Taken, atomic_folder, clear_up
 from ...core.records import InputError
@@ -28,7 +29,7 @@ from ...core.sets.common import DATASET
 from ...core.sets.run import Run
 from ...core.text_forms.json_text import as_text
 from ..output.annotations import merged_files
-from ..output.points import KITTI, collect_sequences
+from ..output.points import collect_sequences
 from ..output.stamps import differing, finished
 from ..read.camera import check_camera, check_markers
 from ..read.unique import unique_name
@@ -74,11 +75,11 @@ def begun(
 
 
 def end(options: Namespace, jobs: Iterable[PictureJob], suffixes: Sequence[str], several: bool = True) -> None:
-    """Write what lies beside the pictures of a run: annotations.json, KITTI's sequences, reader and preview. A folder
+    """Write what lies beside the pictures of a run: annotations.json, sequences of points, reader and preview. A folder
     that is no data set's has those for which there are options.
     """
     annotated = several and (options.annotations or options.keypoints is not None)
-    if options.points == KITTI:
+    if options.points == SEQUENCED:
         collect_sequences(options.output, jobs)
     if annotated or options.dataset:
         whole = merged_files(options.output, jobs, suffixes) if annotated else ()

@@ -28,6 +28,9 @@ OF_SCENES = "calibration", "rig", "resolution", "to"
 RECAST = "depths, masks, boxes and poses are cast anew, with meshes as meshes; pictures still show the exact shapes"
 """Remark on sets with models."""
 
+WITH_OPTION = {one.option: key for key, one in SET_FORMATS.items() if one.option}
+"""The only format that has an option, by the option."""
+
 FEW = 8
 """Files whose names are printed."""
 
@@ -37,8 +40,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
     parser = command_parser(
         prog,
         "Write the cameras of a Blender file, at one or more frames, or a finished data set, for other programs.",
-        f"{prog} blend_scenes/toys.blend --format colmap --cameras ALL --frames 1:100:10 --output out",
-        "writes cameras.txt, images.txt and points3D.txt; cameras that COLMAP cannot represent are refused.",
+        f"{prog} blend_scenes/toys.blend --format npz --cameras ALL --frames 1:100:10 --output out",
+        "writes a ray map for each camera and frame; cameras that a format cannot represent are refused.",
         ends="exit status: 0 done; 2 bad input.",
     )
     formats = {one.key: one for one in FORMATS} | SET_FORMATS
@@ -46,9 +49,10 @@ def run(arguments: Sequence[str], prog: str) -> int:
         "; ".join(f"{key}: {one.description}" for key, one in formats.items())
         + f". For the folder of a finished data set only: {', '.join(SET_FORMATS)}")  # fmt: skip
     parser.add_argument("--points", type=count, metavar="N", help=
-        f"number of seed points, for colmap-scene only; default: {sparse.COUNT}")  # fmt: skip
+        f"number of seed points, for {WITH_OPTION['points']} only; default: {sparse.COUNT}")  # fmt: skip
     parser.add_argument("--models", type=Path, metavar="FILE.blend", help=
-        "Blender file of the data set, from which its objects' models are written, for bop-scenes only")  # fmt: skip
+        "Blender file of the data set, from which its objects' models are written, for "
+        f"{WITH_OPTION['models']} only")  # fmt: skip
     parser.add_argument("--validation", type=_part, metavar="PART", help=
         f"part of the pictures of a data set for validation, such as 0.2: a split in the files of "
         f"{', '.join(key for key, one in SET_FORMATS.items() if one.splits)}; default: none")  # fmt: skip
@@ -62,10 +66,9 @@ def run(arguments: Sequence[str], prog: str) -> int:
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
     options = parser.parse_args(arguments)
     check_cameras(options)
-    if options.points and options.format != "colmap-scene":
-        raise InputError("--points applies to --format colmap-scene only")
-    if options.models and options.format != "bop-scenes":
-        raise InputError("--models applies to --format bop-scenes only")
+    for name, key in WITH_OPTION.items():
+        if getattr(options, name) and options.format != key:
+            raise InputError(f"--{name} applies to --format {key} only")
     if options.scene and options.file is not None and options.file.is_dir() and not options.models:
         raise InputError("--scene names the scene of a .blend: add --models FILE.blend, or leave it out")
     if options.validation and not (options.format in SET_FORMATS and SET_FORMATS[options.format].splits):

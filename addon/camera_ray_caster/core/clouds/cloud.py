@@ -1,6 +1,6 @@
 """The points of a cast: of a scanner or of any other camera, with the errors of a device by choice.
 
-The sensor's axes are those of ROS: x ahead, y to the left, z up; a scanner that moves has them where each beam fired,
+The sensor's axes are x ahead, y to the left, z up; a scanner that moves has them where each beam fired,
 as a real one's raw points. In the world points lie where they were hit.
 The strength of a return is proportional to the cosine of the angle of incidence over the square of the range. Returns
 weaker than that of a surface perpendicular to the beam at a chosen range are lost at random. Ranges have Gaussian

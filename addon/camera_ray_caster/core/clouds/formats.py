@@ -23,7 +23,7 @@ from .cloud import SENSOR, PointCloud
 from .las import las
 
 PLY_TYPES = {"<f4": "float", "<f8": "double", "<i4": "int"}
-"""The ring is an int, too, since Open3D does not read properties of type ushort."""
+"""The ring is an int, too, since readers do not know properties of type ushort."""
 NUSCENES_FROM_SENSOR = np.array(((0.0, -1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
 """From the sensor's axes to x right, y ahead, z up."""
 
@@ -133,6 +133,11 @@ POINT_FORMATS: dict[str, tuple[Callable[[PointCloud, str], Files], Unit]] = {
     "nuscenes": (_nuscenes, METERS), "las": (_las, METERS), "npz": (_npz, BLENDER_UNITS),
 }  # fmt: skip
 """Functions of a cloud and one of AXES, and units of lengths, by the keys of their formats."""
+ENDINGS = {".pcd.bin": "nuscenes", ".ply": "ply", ".pcd": "pcd", ".bin": "kitti", ".las": "las", ".npz": "npz"}
+"""Formats by the ends of their files' names; the first one that fits counts."""
+IN_WORDS = "PLY, PCD, KITTI with SemanticKITTI's labels, nuScenes, LAS or NPZ"
+SEQUENCED = "kitti"
+"""Key of the format that has sequences; see ``sequences``."""
 
 
 def _units(cloud: PointCloud) -> str:

@@ -1,9 +1,9 @@
-"""The frames of a scanner as a sequence of KITTI's odometry: poses.txt, calib.txt and times.txt beside the points.
+"""The frames of a scanner as a sequence of odometry: poses.txt, calib.txt and times.txt beside the points.
 
 poses.txt has the poses of a camera at the scanner, x right, y down, z ahead, relative to that of the first frame, in
 meters.
 calib.txt has Tr, the transformation from the scanner to that camera, and no lenses.
-Reference: A. Geiger et al., Are we ready for Autonomous Driving? The KITTI Vision Benchmark Suite, CVPR 2012.
+Reference: A. Geiger et al., Are we ready for Autonomous Driving?, CVPR 2012.
 """
 
 from __future__ import annotations

@@ -7,13 +7,11 @@ import os
 from .. import arguments
 from ..any_rays.door import RayImages
 from ..clouds.cloud import AXES, SENSOR, PointCloud, scan
-from ..clouds.formats import files_of
+from ..clouds.formats import ENDINGS, POINT_FORMATS, files_of
 from ..exports.writing import write
 from ..names import file_name
+from ..programs.parts.program import in_words
 from .files import Exported, destination, format_came_first
-
-ENDINGS = {".pcd.bin": "nuscenes", ".ply": "ply", ".pcd": "pcd", ".bin": "kitti", ".las": "las", ".npz": "npz"}
-"""Formats of points by the ends of their files' names; the first one that fits counts."""
 
 
 @format_came_first("cloud", lambda done: done.paths)
@@ -29,8 +27,7 @@ def save_points(
     return the paths, as ``export`` does.
 
     path: a file, whose ending tells the format, or with ``format`` a folder.
-    format: "ply", "pcd", "kitti" (.bin, and SemanticKITTI's .label), "nuscenes" (.pcd.bin and labels), "las" (1.4) or
-        "npz".
+    format: KEYS.
     name: of the files in a folder, without an ending; default: the camera's.
     axes: "sensor", x ahead, y to the left and z up where each beam fired, or "world".
 
@@ -49,3 +46,6 @@ def save_points(
         cut = file[: -len(next(ending for ending in ENDINGS if file.lower().endswith(ending)))]
         files = {file: files[first], **{cut + other[len(stem) :]: files[other] for other in others}}
     return Exported(write(files.items(), folder), [])
+
+
+save_points.__doc__ = (save_points.__doc__ or "").replace("KEYS", in_words(f'"{key}"' for key in POINT_FORMATS))

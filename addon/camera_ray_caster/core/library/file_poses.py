@@ -32,8 +32,8 @@ CALLER = 3
 
 def pose_in_file(path: str, lens: Lens, model: str, frame: tuple[int, int]) -> np.ndarray | None:
     """Return the pose of a lens in a file, (4, 4) from Blender's camera frame to the file's, as the nearest rotation;
-    None if the file has none. The world is the file's: of Kalibr's cameras OpenCV's axes of the first one. Warns, and
-    returns None, if the file has several poses of the lens, or bad ones.
+    None if the file has none. The world is the file's: of a rig without one, OpenCV's axes of its first camera.
+    Warns, and returns None, if the file has several poses of the lens, or bad ones.
     """
     document = Document(path)
     is_table, program = lens.model == ray_arrays.KEY, program_of(document)

@@ -19,6 +19,7 @@ from ..exports import export as files_of
 from ..exports.format import Content, Shot
 from ..exports.writing import write
 from ..names import file_names
+from ..programs import PROGRAMS
 from ..programs.parts.program import in_words
 from ..records import InputError
 
@@ -32,12 +33,9 @@ class Exported(NamedTuple):
     """What the files do not say of the cameras, one line each."""
 
 
-ENDINGS = {
-    "cameras.txt": "colmap", "transforms.json": "nerfstudio", "camchain.yaml": "kalibr", "scene_camera.json": "bop",
-    "_tum.txt": "tum", "_kitti.txt": "kitti", "_euroc.csv": "euroc", ".cameramodel": "mrcal", ".yml": "opencv",
-    ".yaml": "ros", ".npz": "npz", ".exr": "stmap", ".json": "json",
-}  # fmt: skip
-"""Formats of cameras by the ends of their files' names; the first one that fits counts."""
+_WRITERS = [program.export for program in PROGRAMS if program.export is not None and program.export.ending]
+ENDINGS = {writer.ending: writer.key for writer in sorted(_WRITERS, key=lambda writer: -len(writer.ending))}
+"""Formats of cameras by the ends of their files' names, the longest first; the first one that fits counts."""
 
 
 def destination(

@@ -75,6 +75,7 @@ def hint(document: Document) -> str:
 
 PROGRAM = ProgramFiles(
     "ARKitScenes", ".pincam; .traj", looks, reads="pinhole", read=read, poses=poses, unit=METERS,
+    columns="(.traj) 7",
     endings=(PINCAM, TRAJECTORY), hint=hint,
     pictures=PictureFolders(f"*{PINCAM}", ("", "lowres_wide_intrinsics"), moved_by=TRAJECTORY),
 )  # fmt: skip

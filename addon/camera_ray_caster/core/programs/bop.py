@@ -76,6 +76,6 @@ PROGRAM = ProgramFiles(
     export=FileWriter(
         "bop", "BOP",
         "scene_camera.json: pinholes and poses in millimeters; of several cameras scene_camera_<camera>.json",
-        write, MODELS, refusal,
+        write, MODELS, refusal, ending="scene_camera.json",
     ),
 )  # fmt: skip

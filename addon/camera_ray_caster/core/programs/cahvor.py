@@ -3,7 +3,7 @@
 C is the place, A the axis, H and V lead to the column and the row; O is the axis of the distortion R, and E that of
 CAHVORE's pupil: see ``parts.cahvor``. Model = CAHVORE1 has the linearity 1, CAHVORE2 0, CAHVORE3,L that of its number.
 The frame of a camera's lens has z along O. Lengths are meters, the file's frame is that of C.
-References: mrcal documentation, CAHVOR models; JPL, the CAHV family of camera models.
+Reference: JPL, the CAHV family of camera models.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""camera_path.json of nerfstudio's viewer and ns-render: a camera for each picture of a video.
+"""camera_path.json of ns-render and its viewer: a camera for each picture of a video.
 
 camera_to_world is of a camera like Blender's, by rows; fov is the vertical field of view in degrees, and the center the
 middle of the picture. A fisheye is equidistant with the same focal length.
-Reference: nerfstudio, cameras/camera_paths.py: get_path_from_json.
+Reference: the program's own reader, cameras/camera_paths.py: get_path_from_json.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ def poses(document: Document) -> list[Placed]:
 
 
 PROGRAM = ProgramFiles(
-    "nerfstudio camera paths", "camera_path.json", looks,
+    "ns-render camera paths", "camera_path.json of ns-render and its viewer", looks,
     marks="keyframes camera_type render_height render_width camera_path fps",
     reads="perspective, fisheye, equirectangular",
     lost="other camera types are refused", read=read, poses=poses,

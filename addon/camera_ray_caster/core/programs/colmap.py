@@ -235,6 +235,6 @@ PROGRAM = ProgramFiles(
     poses=poses, pair=pair,
     export=FileWriter(
         "colmap", "COLMAP", "cameras.txt, images.txt and points3D.txt: calibrated lenses and poses",
-        write, MODELS, refusal,
+        write, MODELS, refusal, ending="cameras.txt",
     ),
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""The sensor.yaml of EuRoC's and Kimera's data sets: one camera in the words of Kalibr.
+"""The sensor.yaml of EuRoC's and Kimera's data sets: one camera in the words of ``parts.camchain``.
 
 T_BS leads from the camera to the body. The center of the first pixel is (0, 0).
 References: The EuRoC MAV dataset, Data format. Kimera-VIO documentation.

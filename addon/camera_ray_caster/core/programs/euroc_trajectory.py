@@ -37,7 +37,9 @@ def _line(record: CameraRecord) -> str:
 
 PROGRAM = ProgramFiles(
     "EuRoC trajectories", ".csv", looks, lost="lenses", poses=placed_in_lines, unit=METERS,
+    columns="at least 8 apart by commas",
     export=FileWriter(
-        "euroc", "EuRoC Trajectory", "<camera>_euroc.csv: nanoseconds, places and quaternions of any camera", write
+        "euroc", "EuRoC Trajectory", "<camera>_euroc.csv: nanoseconds, places and quaternions of any camera", write,
+        ending="_euroc.csv",
     ),
 )  # fmt: skip

@@ -31,7 +31,7 @@ POSE, POSES = re.compile("T_|R_|t_"), ("T_cam_imu", "T_imu_cam", "T_cn_cnm1")
 MODELS = {
     f"{kind}-{bend}": (model, (*SHAPES[kind][1], *terms))
     for (kind, bend), (model, terms) in DISTORTIONS.items()
-    if bend != "radialtangential8"  # OKVIS's word, not Kalibr's
+    if bend != "radialtangential8"  # of files that share the words
 } | {f"{kind}-none": SHAPES[kind] for kind in ("omni", "eucm", "ds")}
 
 
@@ -110,6 +110,6 @@ PROGRAM = ProgramFiles(
     export=FileWriter(
         "kalibr", "Kalibr",
         "camchain.yaml: the lenses of a rig that does not change, and their poses beside each other",
-        write, MODELS,
+        write, MODELS, ending="camchain.yaml",
     ),
 )  # fmt: skip

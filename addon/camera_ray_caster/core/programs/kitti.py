@@ -120,5 +120,9 @@ PROGRAM = ProgramFiles(
     "KITTI", "calib_cam_to_cam.txt, also perspective.txt of KITTI-360; calib.txt; poses .txt", looks,
     marks="P0 P1 P2 P3 Tr", reads="pinholes as calibrated (K_02) and rectified (P_rect_02, P2), and their places",
     lost="of calib.txt the size of the pictures; of poses lenses and times", read=read, poses=poses, unit=METERS,
-    export=FileWriter("kitti", "KITTI Poses", "<camera>_kitti.txt: a matrix for each frame, of any camera", write),
+    columns="12",
+    export=FileWriter(
+        "kitti", "KITTI Poses", "<camera>_kitti.txt: a matrix for each frame, of any camera", write,
+        ending="_kitti.txt",
+    ),
 )  # fmt: skip

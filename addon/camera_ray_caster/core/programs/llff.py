@@ -1,8 +1,8 @@
-"""poses_bounds.npy of LLFF, NeRF and mip-NeRF 360: a row of 17 numbers for each picture.
+"""poses_bounds.npy of LLFF and of data sets after it: a row of 17 numbers for each picture.
 
 The first 15 are a matrix of three rows: the camera's axes down, right and back, its place, and height, width and focal
 length in pixels. The last two are the nearest and the farthest depth. The center is the middle of the picture.
-Reference: LLFF, its documentation: Using your own poses without running COLMAP.
+Reference: LLFF, its documentation, Using your own poses.
 """
 
 from __future__ import annotations

@@ -21,7 +21,7 @@ OMNI = "omni"
 """SVO's type of OCam: its intrinsics are the polynomial, 5 terms, the center, c, d, e, the inverse and two radii."""
 KINDS = {"pinhole": "pinhole", "unifiedprojection": "omni"}
 BENDS = {"fisheye": "fov", "rationalradtan": "radialtangential8", "radtan": "radtan", "equidistant": "equidistant"}
-"""Kalibr's words for a type of camera and of distortion, by their plain names."""
+"""The words of ``parts.camchain`` for a type of camera and of distortion, by their plain names."""
 
 
 def looks(document: Document) -> bool:

@@ -179,6 +179,6 @@ PROGRAM = ProgramFiles(
     export=FileWriter(
         "mrcal", "mrcal",
         "<camera>_<frame>.cameramodel: OpenCV's lenses, panoramas and stereographic fisheyes, and poses",
-        write, MODELS, refusal,
+        write, MODELS, refusal, ending=".cameramodel",
     ),
 )  # fmt: skip

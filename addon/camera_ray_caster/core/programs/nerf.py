@@ -1,8 +1,7 @@
 """NeRF's transforms_train.json, _val.json and _test.json: pinholes by their angle of view, and poses.
 
 camera_angle_x is the whole lens: square pixels, the center in the middle, no distortion. Of ten pictures in order the
-eighth is of val and the tenth of test. Poses are from Blender's camera frame to the world. nerfstudio's reader reads
-these files.
+eighth is of val and the tenth of test. Poses are from Blender's camera frame to the world.
 Reference: B. Mildenhall et al., NeRF (2020), and its data sets.
 """
 
@@ -36,7 +35,7 @@ def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
     least, most = min(angles), max(angles)
     if most - least > NEAR:
         differ = f"{angles[least]!r} and {angles[most]!r} differ"
-        raise InputError(f"NeRF has one camera_angle_x, but {differ}: {SEPARATELY}, or for nerfstudio")
+        raise InputError(f"NeRF has one camera_angle_x, but {differ}: {SEPARATELY}, or as transforms.json")
     of = {7: "val", 9: "test"}
     for part in PARTS:
         frames = [_frame(record) for number, record in enumerate(records) if of.get(number % 10, "train") == part]

@@ -197,6 +197,7 @@ PROGRAM = ProgramFiles(
     reads="OPENCV, PINHOLE, OPENCV_FISHEYE, FISHEYE624, EQUIRECTANGULAR, ORTHOPHOTO",
     lost="several camera models in one file; k4 to k6 of a pinhole", read=read, poses=poses,
     export=FileWriter(
-        "nerfstudio", "nerfstudio", "transforms.json: pinholes and fisheyes, and poses", write, WRITTEN, rolling=True
+        "nerfstudio", "nerfstudio", "transforms.json: pinholes and fisheyes, and poses", write, WRITTEN, rolling=True,
+        ending="transforms.json",
     ),
 )  # fmt: skip

@@ -99,6 +99,7 @@ PROGRAM = ProgramFiles(
     reads="pinhole with 4, 5, 8, 12 or 14 coefficients, fisheye, omnidir; stereo pairs",
     lost="of four coefficients without a model's name: which model they are of", read=plain_lenses, poses=poses,
     export=FileWriter(
-        "opencv", "OpenCV", "<camera>.yml for FileStorage: pinhole, fisheye and omnidir, and poses", write, MODELS
+        "opencv", "OpenCV", "<camera>.yml for FileStorage: pinhole, fisheye and omnidir, and poses", write, MODELS,
+        ending=".yml",
     ),
 )  # fmt: skip

@@ -49,5 +49,5 @@ PROGRAM = ProgramFiles(
     "ray maps as .npz; .npy or float32 .exr of directions, also with origins; .csv and .obj of a mesh of rays", looks,
     reads="a ray for each pixel, or fewer", lost="pixel times", read=read,
     endings=(".obj", ".csv", *BINARY), hint=hint,
-    export=FileWriter("npz", "Ray Maps (NPZ)", ""),
+    export=FileWriter("npz", "Ray Maps (NPZ)", "", ending=".npz"),
 )  # fmt: skip

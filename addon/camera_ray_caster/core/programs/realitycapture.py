@@ -6,7 +6,7 @@ rows from the world to the camera, x right, y down, z ahead. Heading, pitch and 
 that looks down, with its upper side to the north, is turned about its axes y by the roll, x by the pitch, and z by the
 heading, clockwise. Four radial coefficients make a Radial Polynomial. None of this is documented in full: px, py and
 the angles of a .csv are taken as other readers do, who do not agree on the order of t1 and t2, which are refused.
-References: RealityCapture, XMP Camera Math; nerfstudio, realitycapture_utils.py.
+Reference: RealityCapture, XMP Camera Math.
 """
 
 from __future__ import annotations

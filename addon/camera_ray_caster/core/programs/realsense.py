@@ -1,7 +1,7 @@
-"""Intel RealSense's intrinsics, as JSON, with ppx and ppy; and Open3D's intrinsic_matrix, which is stored by columns.
+"""Intel RealSense's intrinsics, as JSON, with ppx and ppy; and an intrinsic_matrix, which is stored by columns.
 
 The center of the first pixel is (0, 0).
-References: librealsense documentation, Projection; Open3D documentation, PinholeCameraIntrinsic.
+Reference: librealsense documentation, Projection.
 """
 
 from __future__ import annotations

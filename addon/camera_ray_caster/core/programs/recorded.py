@@ -92,5 +92,6 @@ def _restored(value: Any) -> Any:
 
 PROGRAM = ProgramFiles(
     "this add-on", "camera.json, report.json", looks, marks="format cameras all_frames frames record settings",
-    reads="every model", lost="nothing", read=read, poses=poses, export=FileWriter("json", "Camera JSON", ""),
+    reads="every model", lost="nothing", read=read, poses=poses,
+    export=FileWriter("json", "Camera JSON", "", ending=".json"),
 )  # fmt: skip

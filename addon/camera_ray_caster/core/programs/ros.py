@@ -64,6 +64,6 @@ PROGRAM = ProgramFiles(
     read=plain_lenses,
     export=FileWriter(
         "ros", "ROS CameraInfo", "<camera>.yaml: plumb_bob, rational_polynomial and equidistant lenses, without poses",
-        write, MODELS, rigid=False,
+        write, MODELS, rigid=False, ending=".yaml",
     ),
 )  # fmt: skip

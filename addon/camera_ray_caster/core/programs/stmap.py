@@ -5,5 +5,6 @@ from __future__ import annotations
 from .parts.program import FileWriter, ProgramFiles
 
 PROGRAM = ProgramFiles(
-    "STMaps", "pairs of .exr", lost="what is seen from two places; poses", export=FileWriter("stmap", "STMaps", "")
+    "STMaps", "pairs of .exr", lost="what is seen from two places; poses",
+    export=FileWriter("stmap", "STMaps", "", ending=".exr"),
 )

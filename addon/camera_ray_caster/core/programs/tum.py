@@ -38,7 +38,9 @@ def _line(record: CameraRecord) -> str:
 
 PROGRAM = ProgramFiles(
     "TUM", "trajectories .txt", looks, lost="lenses", poses=placed_in_lines, unit=METERS,
+    columns="8, the last 4 a quaternion (TartanAir 7)",
     export=FileWriter(
-        "tum", "TUM Trajectory", "<camera>_tum.txt: seconds, places and quaternions of any camera", write
+        "tum", "TUM Trajectory", "<camera>_tum.txt: seconds, places and quaternions of any camera", write,
+        ending="_tum.txt",
     ),
 )  # fmt: skip

@@ -1,11 +1,11 @@
-"""Velodyne's calibration of a unit, as the YAML of its ROS driver: a mapping for each laser.
+"""Velodyne's calibration of a unit, as the YAML of its driver: a mapping for each laser.
 
 Angles are in radians; rot_correction is subtracted from the azimuth. The origin of a laser lies vert_offset_correction
 above and horiz_offset_correction to the left of the center: the point of a range R is origin + R direction. The files
 do not tell when lasers fire: it is that of the device with as many lasers, of 64 that of the S3. What corrects measured
 ranges is not needed for true ones: dist_correction, and dist_correction_x and _y, which bend rays below 25 m, are not
 read.
-References: ROS package velodyne_pointcloud, gen_calibration; Velodyne, HDL-64E S3 User Manual, appendix F.
+References: velodyne_pointcloud, gen_calibration; Velodyne, HDL-64E S3 User Manual, appendix F.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def read(document: Document) -> list[Lens]:
 
 
 PROGRAM = ProgramFiles(
-    "Velodyne", "calibrations of the ROS driver as .yaml", looks,
+    "Velodyne", "calibrations of velodyne_pointcloud as .yaml", looks,
     marks="lasers laser_id rot_correction vert_correction num_lasers",
     reads="lasers, with angles and offsets, as scanners",
     lost="when lasers fire, which is that of the device; corrections of ranges", read=read,

@@ -7,34 +7,22 @@ numpy only.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
-from typing import NamedTuple
 
-from . import bop, labels, maps, nerfstudio, sparse
+from . import frame_list, labels, maps, object_scenes, sparse
+from .format import SetFormat
 from .reading import Files, View, chosen, read_set, views_of, with_splits
 
-
-class SetFormat(NamedTuple):
-    """A format of data sets."""
-
-    description: str
-    files: Callable[[list[View]], Files]
-    splits: bool = False
-    """Whether files tell the splits of views."""
-
-
 SET_FORMATS = {
-    "bop-scenes": SetFormat("BOP: a scene per camera: rgb, depth, masks, poses of objects, boxes", bop.files, True),
-    "colmap-scene": SetFormat("COLMAP: images, sparse/0, seed points with tracks from the hits", sparse.files, True),
-    "nerfstudio-scene": SetFormat("nerfstudio: transforms.json, images, depths and masks", nerfstudio.files, True),
+    **object_scenes.FORMAT, **sparse.FORMAT, **frame_list.FORMAT,
     "panoptic": SetFormat("COCO panoptic: ids of segments as PNG, and panoptic.json", labels.panoptic, True),
     "yolo": SetFormat("YOLO: images, and boxes in labels, by category", labels.yolo, True),
     "masks": SetFormat("a PNG of each object's visible and whole mask", labels.masks),
     "depth16": SetFormat("16-bit PNG of depths in millimeters, as the scale in depth16.json tells", maps.depth16),
     "normals": SetFormat("16-bit PNG of normals in the camera's frame, x right, y down, z ahead", maps.normals),
     "preview": SetFormat("preview.png: picture, depth, indices and normals side by side", maps.preview),
-}
+}  # fmt: skip
 """Formats of finished sets, by their keys."""
 
 

@@ -1,6 +1,6 @@
 """Views of a set, cast anew with the meshes of objects in place of the exact spheres and planes that were cast.
 
-So depths, masks, boxes and poses are of the surfaces that the models of BOP have.
+So depths, masks, boxes and poses are of the surfaces that the models of ``object_scenes`` have.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from ..annotations.coco import Sheet, document
 from ..cast import cast
 from ..records import Shapes
-from .bop_models import check_size, no_shape
+from .object_models import check_size, no_shape
 from .reading import View
 
 ShapesAt = Callable[[float], Shapes]

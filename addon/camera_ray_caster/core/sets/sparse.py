@@ -16,6 +16,7 @@ import numpy as np
 from ..exports import remarks
 from ..programs.colmap import IMAGES, POINTS, texts
 from ..records import InputError
+from .format import SetFormat
 from .png import srgb
 from .reading import VALIDATION, Files, View
 from .streams import Records, Tracks, Waiting
@@ -103,3 +104,8 @@ def _around(distances: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         slack += np.nan_to_num(np.fmin(before, after))
     slack = BESIDE * slack + 1e-6 * np.nan_to_num(distances)
     return distances - slack, distances + slack
+
+
+FORMAT = {"colmap-scene": SetFormat(
+    "COLMAP: images, sparse/0, seed points with tracks from the hits", files, splits=True, option="points"
+)}  # fmt: skip

@@ -1,10 +1,10 @@
-"""Symmetries of BOP's models: the rotations that map the vertices, normals and colors of a model onto themselves.
+"""Symmetries of models: the rotations that map the vertices, normals and colors of a model onto themselves.
 
 The candidates are n-fold rotations about the axes of the object, n up to MOST, and the rotations of a cube, all about
 the mean of the vertices. A model with an n-fold symmetry of at least ROUND counts as a surface of revolution: it
-differs from one by up to 2 %, where BOP allows 10 % of the diameter. Two sets of points are considered equal if their
+differs from one by up to 2 %, where data sets allow 10 % of its size. Two sets of points are considered equal if their
 characteristic functions, the sums of exp(i k x), are equal at some vectors k.
-References: BOP toolkit documentation, BOP dataset format; T. Hodan et al., BOP Challenge 2020.
+References: see ``object_scenes``.
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ from .xml_subset import Element, XmlError, storage, tree
 from .yaml_subset import YamlError, parse
 
 LARGEST = 1 << 28
-"""Maximum size in bytes, decompressed: JSON of this size, some 250,000 frames of nerfstudio, takes 5 s to read."""
+"""Maximum size in bytes, decompressed: JSON of this size, some 250,000 frames with poses, takes 5 s to read."""
 
 PER_BYTE = 25
 """Bytes of memory that a byte of a file takes when it is read: lists of short numbers take the most."""

@@ -1,4 +1,4 @@
-"""The words of Kalibr's camera and distortion models, which EuRoC, Kimera, OKVIS, maplab and others share."""
+"""The words of Kalibr's camera and distortion models, which several programs share."""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 
 The radius of the ideal picture is focal tan(theta) of a pinhole, and focal theta of a fisheye; the polynomial gives
 that of the real picture. Both models are exact.
-Reference: Panorama Tools documentation, Lens correction model; Hugin documentation, Lens correction model.
+Reference: Panorama Tools documentation, Lens correction model.
 """
 
 from __future__ import annotations

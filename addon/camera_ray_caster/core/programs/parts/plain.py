@@ -1,7 +1,7 @@
 """Calibrations by plain entries: as OpenCV's samples write them, and other programs by the same names.
 
 A calibration has a camera matrix, or fx, fy, cx and cy; it may have distortion coefficients, in OpenCV's order or by
-name, and the size of its pictures. Open3D's matrix is stored by columns. Files do not agree on names: see ``spelled``.
+name, and the size of its pictures. An intrinsic_matrix is stored by columns. Names differ: see ``spelled``.
 Four coefficients may be a pinhole's or a fisheye's; if the file does not name its model, the chosen one decides. A file
 with an entry xi is omnidir's. The center of the first pixel is (0, 0).
 References: OpenCV documentation, Camera Calibration and 3D Reconstruction; Fisheye camera model; Omnidirectional Camera
@@ -213,7 +213,7 @@ def _named(document: Document, found: Spelled) -> dict[str, float]:
 
 
 def _region(document: Document, found: Spelled) -> tuple[float, float, dict]:
-    """Return x and y of the picture in the calibrated one, and the settings of its size: all of it, unless ROS's roi
+    """Return x and y of the picture in the calibrated one, and the settings of its size: all of it, unless a roi
     tells a part.
     """
     width, height = found.size()

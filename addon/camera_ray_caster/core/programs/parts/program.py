@@ -105,6 +105,8 @@ class FileWriter:
     """Whether a pose is stored as a rotation."""
     rolling: bool = False
     """Whether a rolling shutter is written, by its first and last pose."""
+    ending: str = ""
+    """End of the names of files by which an export tells the format; "" if none does."""
 
 
 class PictureFolders(NamedTuple):
@@ -154,6 +156,8 @@ class ProgramFiles:
     """Returns why a document with such a name is not of this program; None if it cannot tell."""
     pictures: PictureFolders | None = None
     """Its folders with a file for each picture."""
+    columns: str = ""
+    """How many numbers a line of its trajectories has, in words; "" for other files."""
     pair: Callable[[Path], tuple[Path, Path] | None] = lambda path: None
     """Returns the file of lenses and that of poses to which a file or a folder belongs, of a program with one each."""
 

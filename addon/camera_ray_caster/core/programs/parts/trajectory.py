@@ -55,7 +55,7 @@ class Columns(NamedTuple):
     """The line that names them."""
 
 
-SPACED, TIMELESS, OF_EUROC = (
+SPACED, TIMELESS, IN_NANOSECONDS = (
     Columns(((0, None),), (1, 2, 3), (7, 4, 5, 6)), Columns((), (0, 1, 2), (6, 3, 4, 5)),
     Columns(((0, 1e-9),), (1, 2, 3), (4, 5, 6, 7)),
 )  # fmt: skip
@@ -89,7 +89,7 @@ def columns_of(document: Document) -> Columns | None:
     if count == 7 and not has_commas and _is_unit(map(_words, lines), slice(3, 7)):
         return TIMELESS
     if count >= 8 and has_commas and len(numbers_of(first[:8])) == 8:
-        return OF_EUROC
+        return IN_NANOSECONDS
     return SPACED if count == 8 and not has_commas and len(numbers_of(first)) == 8 else None
 
 
@@ -109,8 +109,8 @@ def placed_in_lines(document: Document) -> list[Placed]:
         document.check()
         name = f"pose {number}"
         used = [index for index, _ in columns.time] + [*columns.place, *columns.turn]
-        if len(row) <= max(used) or (columns is not OF_EUROC and len(row) != len(rows[0])):
-            document.numbers(row, name, len(rows[0]) if columns is not OF_EUROC else 8)  # raises
+        if len(row) <= max(used) or (columns is not IN_NANOSECONDS and len(row) != len(rows[0])):
+            document.numbers(row, name, len(rows[0]) if columns is not IN_NANOSECONDS else 8)  # raises
         values = dict(zip(used, document.numbers([row[index] for index in used], name, len(used)), strict=True))
         place, turn = [values[i] for i in columns.place], [values[i] for i in columns.turn]
         if len(turn) == 4:
@@ -140,9 +140,9 @@ def _check(document: Document, columns: Columns, rows: list[list[str]]) -> None:
         raise document.refusal("of its 8 numbers the second to the fifth are a quaternion of length 1, not the last 4: "
                                "name the columns in the first line, such as # timestamp qw qx qy qz x y z")  # fmt: skip
     times = [row[columns.time[0][0]] for row in rows if columns.time and len(row) > columns.time[0][0]]
-    if columns is OF_EUROC and "." in times[0]:
+    if columns is IN_NANOSECONDS and "." in times[0]:
         raise document.refusal(
-            f"its first time is {times[0]}, and not in whole nanoseconds as in EuRoC's trajectories: name the columns "
+            f"its first time is {times[0]}, and not in whole nanoseconds as in .csv files: name the columns "
             "in the first line, such as #timestamp [s],x,y,z,qx,qy,qz,qw"
         )
     whole = columns.time and columns.time[0][1] is None and all(time.isdigit() for time in times)

@@ -18,7 +18,7 @@ from .lenses import lenses_of
 from .poses import object_and_frame, placed_in
 
 UNNAMED = "", "camera"
-"""Names of lenses in files that do not name them; nerfstudio's is the latter."""
+"""Names of lenses in files that do not name them."""
 
 MOST_POSES = 100_000
 """Poses that are read from a file."""

@@ -50,9 +50,9 @@ def _by_numbers(document: Document) -> str:
     words = next(iter(document.lines()), "").split()
     if not words or len(words) != len(numbers_of(words)):
         return ""
-    return (f"its lines have {len(words)} numbers: those of TUM's trajectories have 8, of TartanAir 7, the last 4 a "
-            "quaternion, of ARKitScenes (.traj) 7, of KITTI 12, of EuRoC at least 8 apart by commas; or name the "
-            "columns in the first line, such as # timestamp x y z qx qy qz qw")  # fmt: skip
+    known = ", ".join(f"of {program.name} {program.columns}" for program in PROGRAMS if program.columns)
+    return (f"its lines have {len(words)} numbers: those of trajectories have, {known}; or name the columns in the "
+            "first line, such as # timestamp x y z qx qy qz qw")  # fmt: skip
 
 
 def _of_text(document: Document) -> InputError:

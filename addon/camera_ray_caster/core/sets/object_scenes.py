@@ -4,7 +4,7 @@ Objects are the categories, numbered by name in models_info.json; the frame of a
 its axes. With the .blend of the set, each has a model, models/obj_OBJECT.ply, and its symmetries; without, diameters
 are those of boxes. Splits are the folders train and val in place of test.
 Lengths are in millimeters; depth in 16 bits is along the viewing direction, in steps of depth_scale.
-Reference: BOP toolkit documentation, BOP dataset format.
+References: BOP toolkit documentation, BOP dataset format; T. Hodan et al., BOP Challenge 2020.
 """
 
 from __future__ import annotations
@@ -21,7 +21,8 @@ from ..exports import find_format, records
 from ..programs.bop import image_of
 from ..records import InputError, Shapes
 from ..units import MILLIMETERS, factor
-from .bop_models import diameter, model_of, ply
+from .format import SetFormat
+from .object_models import diameter, model_of, ply
 from .png import png
 from .reading import Files, View
 from .streams import Waiting
@@ -110,3 +111,8 @@ def _facts(one: dict[str, Any]) -> dict[str, Any]:
         "px_count_all": one["area_whole"], "px_count_valid": one["area_whole"], "px_count_visib": one.get("area", 0),
         "visib_fract": one.get("visible_fraction", 0.0),
     }  # fmt: skip
+
+
+FORMAT = {"bop-scenes": SetFormat(
+    "BOP: a scene per camera: rgb, depth, masks, poses of objects, boxes", files, splits=True, option="models"
+)}  # fmt: skip

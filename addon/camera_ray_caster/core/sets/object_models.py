@@ -1,11 +1,10 @@
-"""The models of BOP's objects: triangles in millimeters in the frame of each object, as PLY.
+"""The models of a data set's objects: triangles in millimeters in the frame of each object, as PLY.
 
 Meshes are those that were cast. Objects that are cast as exact spheres by their own setting have vertices on the
 surface, and triangles inside of it by up to 0.12 % of the radius.
 Normals of vertices are those of the faces about them, weighted by their angles. A vertex has the color of its material,
 or the mean of those of its triangles; a model whose color changes over a surface has none, and no symmetries.
-References: BOP toolkit documentation, BOP dataset format; G. Thürmer and C. Wüthrich, Computing Vertex Normals from
-Polygonal Facets (1998).
+References: see ``object_scenes``; G. Thürmer and C. Wüthrich, Computing Vertex Normals from Polygonal Facets (1998).
 """
 
 from __future__ import annotations

@@ -16,6 +16,7 @@ import numpy as np
 
 from ..programs.nerfstudio import camera_model, frame_of
 from ..records import InputError
+from .format import SetFormat
 from .png import png
 from .reading import TRAIN, VALIDATION, Files, View
 from .streams import Records, Waiting
@@ -51,3 +52,8 @@ def files(views: list[View]) -> Files:
         transforms |= {f"{part}_filenames": own for part, own in parts.items()}
     before, after = json.dumps(transforms, indent=1).split('""', 1)
     yield "transforms.json", chain([before], frames, [after])
+
+
+FORMAT = {
+    "nerfstudio-scene": SetFormat("nerfstudio: transforms.json, images, depths and masks", files, splits=True),
+}  # fmt: skip
