@@ -45,9 +45,10 @@ def test_the_spans_of_cells_are_hits_and_leave_few_pixels_open(spread, monkeypat
     corners[1:, :, turned] = corners[:0:-1, :, turned]  # seen from the eye, all volumes of a hit are positive
     ends = [np.sort(random.integers(0, size + 1, (2, 300)), axis=0) for size in x.shape[::-1]]
     bounds = np.concatenate(ends).T
-    cells = RayCells(direction, moment, x.shape)
-    met, opened = cells.spans(edge_vectors(corners, from_eye=not spread), np.full(300, 1e-14), bounds)
-    asked, undecided = 0, 0
+    edges, doubt = edge_vectors(corners, from_eye=not spread), np.full(300, 1e-14)
+    met, opened = RayCells(direction, moment, x.shape, 8).spans(edges, doubt, bounds)
+    at, windows = RayCells(direction, moment, x.shape, 32).windows(edges, doubt, bounds)
+    asked, undecided, looked_at, bounded = 0, 0, 0, 0
     for k, (x0, x1, y0, y1) in enumerate(bounds.tolist()):
         places = corners[..., k, None, None] - origin
         volumes = np.array([(direction * np.cross(places[i], places[j], axis=0)).sum(axis=0) for i, j in EDGES])
@@ -61,6 +62,14 @@ def test_the_spans_of_cells_are_hits_and_leave_few_pixels_open(spread, monkeypat
         assert not (certain + left)[~within].any()
         assert meets[(certain > 0) & ~np.isnan(direction[0])].all()
         assert (certain + left)[within & meets].all()
+        covered = np.zeros(x.shape, int)
+        for first, last, low, high in windows[at == k].tolist():
+            covered[low:high, first:last] += 1
+        assert covered.max() <= 1
+        assert not covered[~within].any()
+        assert covered[within & meets].all()
+        looked_at, bounded = looked_at + covered.sum(), bounded + within.sum()
         asked += (within & ~np.isnan(direction[0])).sum()
         undecided += left[~np.isnan(direction[0])].sum()
     assert 0 < undecided < 0.15 * asked, (undecided, asked)
+    assert looked_at < 0.8 * bounded, (looked_at, bounded)  # many of these triangles are as wide as the picture

@@ -41,11 +41,11 @@ class Pixels(NamedTuple):
 class RayCells:
     """Squares of pixels of a tile, in rows of cells, and the linear functions to which the rays in each are close."""
 
-    def __init__(self, direction: Any, moment: Any, shape: tuple[int, int]):
+    def __init__(self, direction: Any, moment: Any, shape: tuple[int, int], side: int):
         """Take components that broadcast to ``shape``, NaN where there is no ray; ``moment`` is None for the eye."""
-        rows, self._wide = (-(-size // tuning.RAY_CELL) for size in shape)
-        self._width, self._is_turned = shape[1], moment is None
-        parts = [_linear(component) for component in (*direction, *(() if moment is None else moment))]
+        rows, self._wide = (-(-size // side) for size in shape)
+        self._width, self._side, self._is_turned = shape[1], side, moment is None
+        parts = [_linear(component, side) for component in (*direction, *(() if moment is None else moment))]
         whole = [[np.broadcast_to(term, (rows, self._wide)).reshape(-1) for term in part] for part in parts]
         self._terms = np.array(whole).swapaxes(0, 1).copy()
         """(4, c, cells): the value at the first pixel, its changes by column and row, and the largest deviation."""
@@ -56,13 +56,22 @@ class RayCells:
         edges: (3, c, k), the vectors whose products with a ray's direction and moment are the three ``volumes`` of a
         triangle, to ``doubt``, (k,). All of them are positive at a hit; of rays with moments, they may all be negative.
         """
-        parts = self._parts(edges, doubt, bounds)
+        each = self._parts(edges, doubt, bounds)
+        parts = _Parts.joined([part.only(np.flatnonzero(part.meets())) for part in each])
         rows = _rows(parts)
         return self._pixels(parts, rows.at, rows.row, rows.first, rows.last), self._open(parts, rows)
 
-    def _parts(self, edges: np.ndarray, doubt: np.ndarray, bounds: np.ndarray) -> _Parts:
-        """Return the triangles in those cells in which some ray may hit them."""
-        side = tuning.RAY_CELL
+    def windows(self, edges: np.ndarray, doubt: np.ndarray, bounds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return triangles and windows, (p,) and (p, 4), outside of which no ray hits them; see ``spans``."""
+        parts = self._parts(edges, doubt, bounds)
+        some = np.flatnonzero(np.logical_or.reduce([part.meets() for part in parts]))
+        part = parts[0].only(some)
+        y, x = np.divmod(part.place, self._width)
+        return part.at, np.stack((x + part.x0, x + part.x1 + 1, y + part.y0, y + part.y1 + 1), axis=1)
+
+    def _parts(self, edges: np.ndarray, doubt: np.ndarray, bounds: np.ndarray) -> list[_Parts]:
+        """Return the triangles in all cells of their bounds, once for each sign that the volumes of a hit may have."""
+        side = self._side
         x0, x1, y0, y1 = bounds.T.astype(np.intp)
         first, last = x0 // side, -(-x1 // side)
         at, row = counted(-(-y1 // side) - y0 // side, y0 // side)
@@ -83,7 +92,7 @@ class RayCells:
         whole = [_Parts(at, place, volumes, x0, x1, y0, y1)]
         if not self._is_turned:
             whole.append(_Parts(at, place, volumes * np.array((-1, -1, -1, 1))[:, None], x0, x1, y0, y1))
-        return _Parts.joined([part.only(part.meets()) for part in whole])
+        return whole
 
     def _open(self, parts: _Parts, rows: _Rows) -> Pixels:
         """Return the pixels of rows that may be hit and are not certainly."""
@@ -124,12 +133,12 @@ class _Parts(NamedTuple):
         return _Parts(*(taken(each, some) for each in self))
 
     def meets(self) -> np.ndarray:
-        """Return the indices of the parts in which no edge is certainly missed."""
+        """Return in which parts no edge is certainly missed."""
         volume, across, up, doubt = self.volumes.swapaxes(0, 1)
         most = volume + doubt
         most += np.maximum(across * self.x0, across * self.x1)
         most += np.maximum(up * self.y0, up * self.y1)
-        return np.flatnonzero((most >= 0).all(axis=0))
+        return (most >= 0).all(axis=0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,13 +178,12 @@ def _rows(parts: _Parts) -> _Rows:
     return _Rows(taken(at, some), taken(row, some), *ends)
 
 
-def _linear(component: Any) -> tuple[Any, Any, Any, Any]:
+def _linear(component: Any, side: int) -> tuple[Any, Any, Any, Any]:
     """Return, for each cell of a component, (rows of cells, cells) or of size 1 where it broadcasts, its value at the
     first pixel, its changes by column and row, and its largest deviation from these; NaN is ignored.
     """
     if np.ndim(component) == 0:
         return float(component), 0.0, 0.0, 0.0
-    side = tuning.RAY_CELL
     values = np.asarray(component, np.float64)
     (rows, last_rows), (columns, last_columns) = (
         (first := np.arange(0, size, side), np.minimum(first + side, size) - 1) for size in values.shape

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from .. import tuning
 from ..maths.speed import Scratch, lazy, taken
 from ..maths.vector import cross, cut
 from .ray_cells import RayCells
@@ -70,7 +71,12 @@ class SearchRays:
     @lazy
     def cells(self) -> RayCells:
         """The directions, and the moments of rays with many origins, in cells of the tile."""
-        return RayCells(self.direction, self.moment, self.shape)
+        return RayCells(self.direction, self.moment, self.shape, tuning.RAY_CELL)
+
+    @lazy
+    def wide_cells(self) -> RayCells:
+        """Larger cells, for triangles with wide bounds."""
+        return RayCells(self.direction, self.moment, self.shape, tuning.WIDE_CELL)
 
     def at(self, pixel: np.ndarray) -> tuple[np.ndarray | None, np.ndarray]:
         """Return the origins, None for the eye, and the directions at (m,) pixels of the tile, (3, m) float64 each."""

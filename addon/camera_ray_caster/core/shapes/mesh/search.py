@@ -17,7 +17,7 @@ from ...records import MESH
 from ..cutouts import Cutouts, crossings
 from ..kind import Candidates, PixelBounds, ShapeSet
 from ..search_rays import SearchRays
-from ..windows import banded, in_tile, union
+from ..windows import banded, in_tile, pixels_in, union
 from .in_camera import MeshesInView, Triangles
 from .nearest import NONE, Nearest, SeenTriangles
 from .order import nearest_first, pieces, slabs
@@ -137,12 +137,32 @@ class MeshSet(ShapeSet):
 
     def _in_cells(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Nearest) -> Iterator[None]:
         """Keep the hits of any rays on triangles, in small steps."""
+        triangles = self._in_windows(rays, reach, triangles)
         triangles = triangles.only(*banded(triangles.bounds, tuning.BOXED_PIXELS))
         rest: list[Open] = []
         for some in pieces(triangles.bounds, tuning.BOXED_PIXELS):
             rest.append(self._in_some_cells(rays, reach, triangles.only(some), found))
             yield
         self._test(rays, rest, found)
+
+    def _in_windows(self, rays: SearchRays, reach: Reach, triangles: Triangles) -> Triangles:
+        """Return the triangles; if many have wide bounds, these once for each wide cell in which a ray may hit them."""
+        pixels = pixels_in(triangles.bounds.astype(np.intp))
+        is_wide = pixels > (2 * tuning.WIDE_CELL) ** 2
+        if pixels[is_wide].sum() < tuning.WIDE_TILES * math.prod(rays.shape):
+            return triangles
+        parts = [(np.flatnonzero(~is_wide), triangles.bounds[~is_wide])]
+        place = np.flatnonzero(is_wide)
+        wide = triangles.only(place)
+        which, bounds = banded(wide.bounds, tuning.WIDE_PIXELS)
+        for some in pieces(bounds, tuning.WIDE_PIXELS):
+            meets, corners = self.meshes.facing(taken(wide.corners, which[some]))
+            edges, doubt = edge_vectors(corners, rays.origin is None), _doubt(corners, reach)
+            at, windows = rays.wide_cells.windows(edges, CELLS_ROUNDING * doubt, bounds[some][meets])
+            parts.append((place[which[some][meets][at]], windows))
+        at, windows = map(np.concatenate, zip(*parts, strict=True))
+        order = np.argsort(at, kind="stable")
+        return triangles.only(at[order], windows[order])
 
     def _in_some_cells(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Nearest) -> Open:
         """Keep the hits on triangles that are certain, and return those pixels in which rounding could decide."""
