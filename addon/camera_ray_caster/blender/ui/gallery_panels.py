@@ -46,11 +46,11 @@ class ChooseModel(OfCamera, bpy.types.Operator):
     @classmethod
     def description(cls, context, properties):
         """Return the tooltip, which is the model's."""
-        return next((it.text for it in every_item() if it.key == properties.key), cls.__doc__)
+        return next((entry.text for entry in every_item() if entry.key == properties.key), cls.__doc__)
 
     def execute(self, context):
         """Set the model or the time."""
-        if self.key not in [it.key for it in every_item()]:
+        if self.key not in [entry.key for entry in every_item()]:
             self.report({"ERROR"}, f"There is no camera model {self.key!r}")
             return {"CANCELLED"}
         choose(camera_object_of(context).data, self.key)
@@ -72,13 +72,13 @@ class KeyModel(OfCamera, bpy.types.Operator):
 
 def choose(camera, key: str) -> None:
     """Set a camera's model; for one of Blender's own the type, and the type of panorama. Or set its times of pixels."""
-    own = getattr(camera, GROUP)
-    if key in [it.key for it in pixel_time.MODE.items]:
-        setattr(own, pixel_time.MODE.name, key)
-    elif key in [it.key for it in MODEL.items]:
-        own.model = key
+    settings = getattr(camera, GROUP)
+    if key in [entry.key for entry in pixel_time.MODE.items]:
+        setattr(settings, pixel_time.MODE.name, key)
+    elif key in [entry.key for entry in MODEL.items]:
+        settings.model = key
     else:
-        own.model = BLENDERS_OWN
+        settings.model = BLENDERS_OWN
         if key in camera.bl_rna.properties["type"].enum_items:
             camera.type = key
         else:
@@ -102,27 +102,27 @@ class ModelMenu(bpy.types.Menu):
                 column, free = row.column(), LINES
             free -= len(entries) + 1
             column.label(text=group)
-            for it in entries:
-                icon = "CHECKMARK" if it.key in chosen else "BLANK1"
-                column.operator(ChooseModel.bl_idname, text=it.label, icon=icon).key = it.key
+            for entry in entries:
+                icon = "CHECKMARK" if entry.key in chosen else "BLANK1"
+                column.operator(ChooseModel.bl_idname, text=entry.label, icon=icon).key = entry.key
 
 
 def by_group() -> Iterator[tuple[str, list[Item]]]:
     """Yield each group with its models as items; the last group are the times of the pixels."""
-    models = sorted(MODELS, key=lambda it: GROUPS.index(it.group))
-    for group, members in groupby(models, lambda it: it.group):
-        yield group, [Item(it.key, it.label, it.description, -1, group) for it in members]
+    models = sorted(MODELS, key=lambda model: GROUPS.index(model.group))
+    for group, members in groupby(models, lambda model: model.group):
+        yield group, [Item(model.key, model.label, model.description, -1, group) for model in members]
     yield "Time of Pixels", list(pixel_time.MODE.items)
 
 
 def every_item() -> list[Item]:
     """Return all models and times."""
-    return [it for _, entries in by_group() for it in entries]
+    return [entry for _, entries in by_group() for entry in entries]
 
 
 def pictured() -> list[Item]:
     """Return the models and times that the gallery shows."""
-    return [it for it in every_item() if it.key != pixel_time.NONE]
+    return [entry for entry in every_item() if entry.key != pixel_time.NONE]
 
 
 def scene_of(key: str) -> str:
@@ -131,13 +131,14 @@ def scene_of(key: str) -> str:
 
 
 def _pictures(camera, context) -> list[tuple[str, str, str, int, int]]:
-    items = pictured()
-    _kept[:] = [(it.key, it.label, it.text, gallery.icon(scene_of(it.key)), i) for i, it in enumerate(items)]
+    _kept[:] = [
+        (entry.key, entry.label, entry.text, gallery.icon(scene_of(entry.key)), i) for i, entry in enumerate(pictured())
+    ]
     return _kept
 
 
 def _place(camera) -> int:
-    return next((i for i, it in enumerate(pictured()) if it.key == key_of(camera)), -1)
+    return next((i for i, entry in enumerate(pictured()) if entry.key == key_of(camera)), -1)
 
 
 def draw_model(layout, camera):
