@@ -158,7 +158,6 @@ function show() {
   waiting = 0;
   try {
     camera = own ? own.camera : cameraOf(model, state.values);
-    say("");
     numbers();
     steps();
     cross_();
@@ -174,6 +173,7 @@ function show() {
 }
 
 function changed() {
+  say(""); // not by show, which may come after the message on a later change
   if (!waiting) waiting = requestAnimationFrame(show);
   clearTimeout(changed.link);
   changed.link = setTimeout(() => { history.replaceState(null, "", `#${linkOf(state, model)}`); }, 250);
