@@ -119,7 +119,10 @@ def name_of(path):
 
 
 NAMES = {name_of(path) for path in MODULES}
-ROOMS_WITHOUT_PRONOUNS = "core/clouds", "core/errors", "core/materials", "blender/process", "blender/verification"
+ROOMS_WITHOUT_PRONOUNS = (
+    *("core/clouds", "core/errors", "core/materials", "core/report", "core/text_forms"),
+    *("blender/process", "blender/verification"),
+)
 PRONOUNS = {*"one found own part place said told given rest it them what most more some which both".split()}  # noqa: SIM905
 DEFINITIONS = ast.FunctionDef | ast.ClassDef
 

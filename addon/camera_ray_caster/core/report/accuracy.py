@@ -123,12 +123,12 @@ def accuracy(camera: Camera, shapes: Shapes, plan: Plan) -> Accuracy:
     x, y = sample(camera.raster)
     if camera.pixel_time is None:
         return _at(plan, x, y)
-    found = Accuracy()
+    accuracy = Accuracy()
     moments = list(groups(camera.pixel_time, x, y))
     for frame, rows, columns, where in moments[:: -(-len(moments) // MOMENTS)]:
-        own = make_plan(camera.at(frame), shapes.at(frame), plan.request)
-        found += _at(own, x[:, columns], y[rows], where)
-    return found
+        moment_plan = make_plan(camera.at(frame), shapes.at(frame), plan.request)
+        accuracy += _at(moment_plan, x[:, columns], y[rows], where)
+    return accuracy
 
 
 def sample(raster: Raster) -> tuple[np.ndarray, np.ndarray]:
@@ -150,20 +150,20 @@ def _at(plan: Plan, x: np.ndarray, y: np.ndarray, where: np.ndarray | bool = Tru
     met: list[Crossings] = []
     hits = hits_at(plan, np.floor(x[0]).astype(int), np.floor(y[:, 0]).astype(int), met)
     meant = np.broadcast_to(where, hits.t.shape)
-    pixel, others = coincident(hits, met)
+    pixel, coincident_index = coincident(hits, met)
     here = meant.reshape(-1)[pixel]
-    pixel, others, shapes = pixel[here], others[here], plan.shapes
-    rows = np.unique(np.concatenate((hits.index.reshape(-1)[pixel], others)).astype(np.intp))
+    pixel, coincident_index, shapes = pixel[here], coincident_index[here], plan.shapes
+    rows = np.unique(np.concatenate((hits.index.reshape(-1)[pixel], coincident_index)).astype(np.intp))
     names = tuple(shapes.names[name] for name in np.unique(shapes.name_index[rows]).tolist())
     return Accuracy(int(np.count_nonzero(meant)), _bounds(hits, meant), coincident=len(np.unique(pixel)), names=names)
 
 
 def _bounds(hits: Hits, meant: np.ndarray) -> np.ndarray:
     """Return the bounds, (hits, 4), at the pixels that are meant."""
-    found = [np.zeros((0, len(QUANTITIES)))]
+    bounds = [np.zeros((0, len(QUANTITIES)))]
     with np.errstate(all="ignore"):
         for seen, errors in HitValues(hits).errors:
             relative = errors.distance / (np.abs(errors.t) * errors.rays.length)
             of_kind = np.stack((errors.distance, relative, errors.position, errors.normal), axis=1)
-            found.append(np.where(np.isnan(of_kind), np.inf, of_kind)[meant[seen]])
-    return np.concatenate(found)
+            bounds.append(np.where(np.isnan(of_kind), np.inf, of_kind)[meant[seen]])
+    return np.concatenate(bounds)

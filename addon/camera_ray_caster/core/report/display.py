@@ -30,15 +30,15 @@ def displayed(key: str, image: np.ndarray) -> tuple[np.ndarray, str]:
         values = np.pad(values, ((0, 0), (0, 0), (0, 1)))
     how = PASSES[key].shown if key in PASSES else RANGE
     if how == AS_IS:
-        colors, said = values, "as it is"
+        colors, caption = values, "as it is"
     elif how == SIGNED:
-        colors, said = (values + 1) / 2 * (values != 0).any(axis=-1, keepdims=True), "-1 is black, 0 gray, 1 white"
+        colors, caption = (values + 1) / 2 * (values != 0).any(axis=-1, keepdims=True), "-1 is black, 0 gray, 1 white"
     elif how == COUNTED:
-        colors, said = _colors(values[..., :1], key), "one color per number"
+        colors, caption = _colors(values[..., :1], key), "one color per number"
     else:
-        colors, said = _range(values, key in ("depth", "distance"))
+        colors, caption = _range(values, key in ("depth", "distance"))
     shown = np.broadcast_to(np.clip(np.nan_to_num(colors), 0, 1), (*values.shape[:2], 3))
-    return shown.astype(np.float32), said
+    return shown.astype(np.float32), caption
 
 
 def _colors(numbers: np.ndarray, key: str) -> np.ndarray:
@@ -60,7 +60,7 @@ def _range(values: np.ndarray, is_distance: bool) -> tuple[np.ndarray, str]:
     low, high = (np.array([end(column[mask]) if mask.any() else 0.0 for column, mask in _columns(values, counted)])
                  for end in (np.min, np.max))  # fmt: skip
     may_bend, scale = values.shape[-1] == 1 and low[0] > 0, ""
-    said = ", ".join(f"{a:.4g} to {b:.4g}" for a, b in zip(low, high, strict=True))
+    caption = ", ".join(f"{a:.4g} to {b:.4g}" for a, b in zip(low, high, strict=True))
     if may_bend and is_distance and high[0] > DEEP * low[0]:
         values, low, high, scale = -1 / np.where(counted, values, low), -1 / low, -1 / high, ", even in 1/distance"
     elif may_bend and high[0] > WIDE * low[0]:
@@ -68,8 +68,8 @@ def _range(values: np.ndarray, is_distance: bool) -> tuple[np.ndarray, str]:
         scale = ", logarithmic"
     share = (values - low) / np.where(high > low, high - low, 1.0)
     if values.shape[-1] == 1:
-        return np.where(counted, 1 - 0.9 * share, 0.0), f"white to dark: {said}{scale}"
-    return np.where(counted, share, 0.0), f"black to white by component: {said}"
+        return np.where(counted, 1 - 0.9 * share, 0.0), f"white to dark: {caption}{scale}"
+    return np.where(counted, share, 0.0), f"black to white by component: {caption}"
 
 
 def _columns(values: np.ndarray, counted: np.ndarray):

@@ -24,7 +24,7 @@ def sentences(notes: Sequence[tuple[str, str]], exact: Sequence[tuple[str, float
     names: dict[str, list[str]] = {}
     for name, note in notes:
         names.setdefault(note, []).append(name)
-    return [f"{_named(some)}: {note}" for note, some in names.items()] + _deviation(exact)
+    return [f"{_named(noted)}: {note}" for note, noted in names.items()] + _deviation(exact)
 
 
 def _deviation(exact: Sequence[tuple[str, float]]) -> list[str]:
@@ -39,5 +39,5 @@ def _deviation(exact: Sequence[tuple[str, float]]) -> list[str]:
 
 
 def _named(names: Sequence[str]) -> str:
-    more = len(names) - NAMED
-    return ", ".join(map(repr, names[:NAMED])) + (f" and {more} more" if more > 0 else "")
+    unnamed = len(names) - NAMED
+    return ", ".join(map(repr, names[:NAMED])) + (f" and {unnamed} more" if unnamed > 0 else "")

@@ -240,15 +240,15 @@ def _finding_lines(report: Report) -> list[str]:
 
 
 def _accuracy_lines(report: Report) -> list[str]:
-    found = report.accuracy
-    if not found.pixels:
+    sampled = report.accuracy
+    if not sampled.pixels:
         return []
-    if not found.hits:
-        return ["", f"Hits: none at {found.pixels} pixels all over the picture, in float64"]
+    if not sampled.hits:
+        return ["", f"Hits: none at {sampled.pixels} pixels all over the picture, in float64"]
     lines = ["", f"{'Hits':19} {'median bound':>13} {'worst bound':>13}"]
     for name, unit in QUANTITIES.items():
-        lines.append(f"  {name.replace('_', ' '):17} {found.median(name):13.1e} {found.worst(name):13.1e}  {unit}")
-    lines.append(f"  {found.hits} hits at {found.pixels} pixels all over the picture, in float64")
+        lines.append(f"  {name.replace('_', ' '):17} {sampled.median(name):13.1e} {sampled.worst(name):13.1e}  {unit}")
+    lines.append(f"  {sampled.hits} hits at {sampled.pixels} pixels all over the picture, in float64")
     return [*lines, f"  before storage: storing as float32 adds a rounding of up to {EPS32:.0e} of the value"]
 
 
@@ -267,7 +267,7 @@ def _second_lines(report: Report) -> list[str]:
 def _exact_lines(report: Report) -> list[str]:
     if not report.exact:
         return []
-    name, apart = max(report.exact, key=lambda each: each[1])
+    name, apart = max(report.exact, key=lambda entry: entry[1])
     meshes = "1 mesh" if len(report.exact) == 1 else f"{len(report.exact)} meshes"
     text = f"{meshes} cast as spheres or planes, with a deviation of at most {apart:.2%} of the radius, in {name!r}"
     return _listed("Exact shapes", [text])

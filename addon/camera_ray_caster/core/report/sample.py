@@ -64,18 +64,18 @@ class Sample:
         return self.origins + self.distance * self.directions
 
 
-def finding(name: str, errors, angles, bound_pixels, bound_radians, own) -> Finding:
-    """Return the finding of a comparison: worst and median errors, (n, 2) and (n,), and the bounds plus ``own``."""
+def finding(name: str, errors, angles, bound_pixels, bound_radians, margin) -> Finding:
+    """Return the finding of a comparison: worst and median errors, (n, 2) and (n,), and the bounds plus ``margin``."""
     pixels = length_of(errors)
     return Finding(
         witness=name,
         points=len(pixels),
         worst_pixels=largest(pixels),
         median_pixels=float(np.median(pixels)) if len(pixels) else 0.0,
-        bound_pixels=largest(bound_pixels) + own[0],
+        bound_pixels=largest(bound_pixels) + margin[0],
         worst_radians=largest(angles),
         median_radians=float(np.median(angles)) if len(angles) else 0.0,
-        bound_radians=largest(bound_radians) + own[1],
+        bound_radians=largest(bound_radians) + margin[1],
     )
 
 

@@ -46,10 +46,10 @@ def verify(camera: CameraRays, witness: Witness | None = None, grid: int = GRID)
     of the round trip.
     """
     sample = Sample.of(camera, grid)
-    own, round_trip = _round_trip(camera, sample)
+    margin, round_trip = _round_trip(camera, sample)
     if witness is None:
         return [round_trip]
-    return [*findings_of(camera, sample, witness, own), round_trip]
+    return [*findings_of(camera, sample, witness, margin), round_trip]
 
 
 def _round_trip(camera: CameraRays, sample: Sample) -> tuple[tuple[Any, Any], Finding]:
@@ -74,10 +74,10 @@ def _round_trip(camera: CameraRays, sample: Sample) -> tuple[tuple[Any, Any], Fi
     turned = np.fmax.reduce(turns) / STEP * bound + gamma(32)
     near = ENLARGED * moved + sample.distance * np.nan_to_num(turned)
     turned[np.isnan(turned)] = np.pi  # no neighbor has a ray: only the error in pixels counts
-    own = largest(bound), largest(turned)
+    margin = largest(bound), largest(turned)
     keep = ~_seen_elsewhere(camera, pixels, points, back, near)
     errors, angles = (back - pixels)[keep], angles_between(again, directions)[keep]
-    return own, finding("round trip", errors, angles, bound[keep], turned[keep], (0.0, 0.0))
+    return margin, finding("round trip", errors, angles, bound[keep], turned[keep], (0.0, 0.0))
 
 
 def _seen_elsewhere(camera: CameraRays, pixels, points, back, near):
@@ -86,8 +86,8 @@ def _seen_elsewhere(camera: CameraRays, pixels, points, back, near):
     The other pixel is more than one pixel away, or a ray between the two pixels misses the point.
     """
 
-    def is_met(part: float):
-        rays = camera.rays_at(*(pixels + part * (back - pixels)).T)
+    def is_met(share: float):
+        rays = camera.rays_at(*(pixels + share * (back - pixels)).T)
         return length_of(np.cross(points - rays.origins, rays.directions)) <= near
 
     return is_met(1.0) & ((length_of(back - pixels) > 1) | ~is_met(PART))
@@ -96,4 +96,4 @@ def _seen_elsewhere(camera: CameraRays, pixels, points, back, near):
 def _moved(camera: CameraRays, sample: Sample):
     """Return the distance by which rounding may move each point, (n,)."""
     places = camera.pose.eye[None], sample.origins, sample.points
-    return gamma(32) * (sum(np.abs(place).sum(axis=1) for place in places) + camera.formula_reach)
+    return gamma(32) * (sum(np.abs(position).sum(axis=1) for position in places) + camera.formula_reach)

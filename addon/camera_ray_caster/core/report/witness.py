@@ -50,16 +50,17 @@ class Witness(Protocol):
         """Return the view coordinates of world points, (n, 3) each; NaN where Blender's arithmetic fails."""
 
 
-def findings_of(camera: CameraRays, sample: Sample, witness: Witness, own) -> list[Finding]:
+def findings_of(camera: CameraRays, sample: Sample, witness: Witness, margin) -> list[Finding]:
     """Return one finding on the rays for each of Blender's functions.
 
-    own: bounds of our own rounding in a round trip, in pixels and radians.
+    margin: bounds of our own rounding in a round trip, in pixels and radians.
     """
     with np.errstate(all="ignore"):  # a wrong ray may miss the frame's plane, or a bound exceed float64
         local = _Local.of(witness)
         if not local.is_carried:
             return [not_compared(name, NOT_CARRIED) for name in (FRAME, MATRIX, VIEW)]
-        return [_view_frame(camera, local, own), _matrix(sample, local, own), _view_coordinates(sample, local, own)]
+        of_sample = _matrix(sample, local, margin), _view_coordinates(sample, local, margin)
+        return [_view_frame(camera, local, margin), *of_sample]
 
 
 @dataclass(frozen=True)
@@ -129,22 +130,23 @@ class _Local:
         return self.condition * turn / self.depth / (x * x + y * y + z * z)
 
 
-def _view_frame(camera: CameraRays, local: _Local, own) -> Finding:
+def _view_frame(camera: CameraRays, local: _Local, margin) -> Finding:
     """Compare the rays through the corners, edge midpoints and center of the full frame with view_frame's corners."""
     u, v = (a.ravel() for a in np.meshgrid((0.0, 0.5, 1.0), (0.0, 0.5, 1.0)))
     rays = camera.rays_at(*(np.stack((u, v)) * local.size[:, None]))
     weights = np.stack((u * v, u * (1 - v), (1 - u) * (1 - v), (1 - u) * v), axis=1)
     expected = weights @ local.witness.frame
     origin, direction = local.rays(rays.origins, rays.directions)
-    found = origin + direction * ((expected[:, 2:] - origin[:, 2:]) / direction[:, 2:])
-    errors = (found - expected)[:, :2] / local.pitch
+    met = origin + direction * ((expected[:, 2:] - origin[:, 2:]) / direction[:, 2:])
+    errors = (met - expected)[:, :2] / local.pitch
     rounding = gamma(6, EPS32) * local.reach
     aim = np.broadcast_to((0.0, 0.0, -1.0), expected.shape) if local.parallel else expected
     turned = local.direction_bound(aim, rounding)
-    return finding(FRAME, errors, local.angles(rays.directions, aim), np.hypot(*(rounding / local.pitch)), turned, own)
+    angles = local.angles(rays.directions, aim)
+    return finding(FRAME, errors, angles, np.hypot(*(rounding / local.pitch)), turned, margin)
 
 
-def _matrix(sample: Sample, local: _Local, own) -> Finding:
+def _matrix(sample: Sample, local: _Local, margin) -> Finding:
     """Compare the rays with the projection matrix: the pixels of their points, and the matrix's own rays of pixels."""
     matrix = local.witness.matrix
     origin, direction = local.rays(sample.origins, sample.directions)
@@ -156,10 +158,10 @@ def _matrix(sample: Sample, local: _Local, own) -> Finding:
     rounding = gamma(18, EPS32) * local.reach
     turned = local.direction_bound(expected, rounding)
     angles = local.angles(sample.directions, expected)
-    return finding(MATRIX, errors, angles, np.hypot(*(rounding / local.pitch)), turned, own)
+    return finding(MATRIX, errors, angles, np.hypot(*(rounding / local.pitch)), turned, margin)
 
 
-def _view_coordinates(sample: Sample, local: _Local, own) -> Finding:
+def _view_coordinates(sample: Sample, local: _Local, margin) -> Finding:
     """Compare points along the rays, and for parallel rays also their origins, with world_to_camera_view."""
     pixels, path, lost, lost_pixels = _view(local, sample.points)
     errors = pixels - sample.pixels
@@ -171,7 +173,7 @@ def _view_coordinates(sample: Sample, local: _Local, own) -> Finding:
     turned = local.condition * length_of(lost) / length_of(path)
     if (np.isfinite(sample.points).all(axis=1) & ~(answered & np.isfinite(turned))).any():
         return not_compared(VIEW, NOT_CARRIED)
-    return finding(VIEW, errors, local.angles(sample.directions, path), length_of(lost_pixels), turned, own)
+    return finding(VIEW, errors, local.angles(sample.directions, path), length_of(lost_pixels), turned, margin)
 
 
 def _view(local: _Local, points):

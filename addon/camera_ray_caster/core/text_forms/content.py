@@ -94,7 +94,7 @@ def entries_of(text: str, path: str, check: Check | None = None) -> dict:
         raise InputError(f"calibration file {path!r} is empty")
     if isinstance(entries, list) and len(entries) > MOST_LISTED:
         raise InputError(f"calibration file {path!r} is a list of {len(entries)} entries, too many for cameras")
-    return entries if isinstance(entries, dict) else {str(number): one for number, one in enumerate(entries)}
+    return entries if isinstance(entries, dict) else {str(number): entry for number, entry in enumerate(entries)}
 
 
 def element_of(text: str, path: str, check: Check) -> Element:
@@ -131,7 +131,7 @@ def _json(text: str, path: str, check: Check) -> dict | list:
                     return [_loaded(line) for line in lines]
                 except json.JSONDecodeError:
                     pass
-            if not any(one in text for one in BEYOND_JSON):
+            if not any(word in text for word in BEYOND_JSON):
                 raise
 
             def plain(token: re.Match) -> str:
@@ -147,23 +147,23 @@ def _json(text: str, path: str, check: Check) -> dict | list:
 
 
 def _loaded(text: str) -> Any:
-    found = json.loads(text, parse_int=float, object_pairs_hook=_once)  # integers may have any number of digits
+    value = json.loads(text, parse_int=float, object_pairs_hook=_once)  # integers may have any number of digits
     if HALF.search(text):
         try:
-            json.dumps(found, ensure_ascii=False).encode()
+            json.dumps(value, ensure_ascii=False).encode()
         except UnicodeEncodeError as error:
             raise ValueError("a name has half of a character (a lone surrogate)") from error
-    return found
+    return value
 
 
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """Return an object of JSON; ValueError where it has a name twice."""
-    found: dict[str, Any] = {}
+    result: dict[str, Any] = {}
     for name, value in pairs:
-        if name in found:
+        if name in result:
             raise ValueError(f"it has {name!r} twice")
-        found[name] = value
-    return found
+        result[name] = value
+    return result
 
 
 def content_of(path: str) -> bytes:

@@ -37,16 +37,16 @@ class Element:
 
     def child(self, name: str) -> Element | None:
         """Return the first element of a name directly in it."""
-        return next((one for one in self.children if one.name == name), None)
+        return next((element for element in self.children if element.name == name), None)
 
     def all(self, name: str) -> list[Element]:
         """Return the elements of a name, in any depth."""
-        own = [self] if self.name == name else []
-        return own + [one for child in self.children for one in child.all(name)]
+        matching = [self] if self.name == name else []
+        return matching + [element for child in self.children for element in child.all(name)]
 
     def texts(self) -> dict[str, str]:
         """Return the texts of the elements directly in it, by name."""
-        return {one.name: one.text for one in self.children}
+        return {element.name: element.text for element in self.children}
 
 
 def tree(text: str, check: Callable[[], None] = lambda: None) -> Element:

@@ -89,27 +89,27 @@ def parse(text: str, check: Callable[[], None] = lambda: None) -> dict[str, Valu
         if isinstance(level.node, list):
             level.node.append("")
             entry: tuple[dict | list, str | int, int] = level.node, len(level.node) - 1, column
-            rest = content[1:].lstrip()
-            inner = column + len(content) - len(rest)
-            while rest == "-" or rest.startswith("- "):  # a sequence that begins behind the dash
+            remainder = content[1:].lstrip()
+            inner = column + len(content) - len(remainder)
+            while remainder == "-" or remainder.startswith("- "):  # a sequence that begins behind the dash
                 entry[0][entry[1]] = node = [""]  # type: ignore[index]
                 _open(levels, inner, node, number)
-                entry, behind = (node, 0, inner), rest[1:].lstrip()
-                inner, rest = inner + len(rest) - len(behind), behind
-            if _key(rest):  # a mapping that begins behind the dash
+                entry, behind = (node, 0, inner), remainder[1:].lstrip()
+                inner, remainder = inner + len(remainder) - len(behind), behind
+            if _key(remainder):  # a mapping that begins behind the dash
                 entry[0][entry[1]] = node = {}  # type: ignore[index]
                 _open(levels, inner, node, number)
-                entry, rest = _entry(node, rest, inner, number)
+                entry, remainder = _entry(node, remainder, inner, number)
         else:
-            entry, rest = _entry(level.node, content, column, number)
-        rest = TAG.sub("", rest, count=1) if rest.startswith("!") else rest
-        if rest[:1] in ("[", "{"):
-            value, at = _flow(lines, at, rest, number, check)
+            entry, remainder = _entry(level.node, content, column, number)
+        remainder = TAG.sub("", remainder, count=1) if remainder.startswith("!") else remainder
+        if remainder[:1] in ("[", "{"):
+            value, at = _flow(lines, at, remainder, number, check)
             entry[0][entry[1]] = value  # type: ignore[index]
-        elif rest[:1] in ("|", ">", "&", "*"):
-            raise YamlError(f"line {number} has a value that is not read: {rest[:20]!r}")
-        elif rest:
-            entry[0][entry[1]] = _scalar(rest)  # type: ignore[index]
+        elif remainder[:1] in ("|", ">", "&", "*"):
+            raise YamlError(f"line {number} has a value that is not read: {remainder[:20]!r}")
+        elif remainder:
+            entry[0][entry[1]] = _scalar(remainder)  # type: ignore[index]
         else:
             waiting = entry
     return root
@@ -124,14 +124,14 @@ def _open(levels: list[_Level], column: int, node: list | dict, number: int) -> 
 
 def _entry(node: dict, content: str, column: int, number: int):
     """Return where the value of a line's entry goes, and the text behind its colon."""
-    found = _key(content)
-    if found is None:
+    entry = _key(content)
+    if entry is None:
         raise YamlError(f"line {number} is not an entry of the form name: value")
-    key, rest = found
+    key, remainder = entry
     if key in node:
         raise YamlError(f"line {number} repeats {key!r}")
     node[key] = ""
-    return (node, key, column), rest
+    return (node, key, column), remainder
 
 
 def _key(content: str) -> tuple[str, str] | None:
@@ -150,7 +150,7 @@ def _without_comment(line: str) -> str:
     """Return a line up to its comment: a # at its begin or behind a space, outside of quotes."""
     if "#" not in line:
         return line
-    return next((line[: found.start()] for found in COMMENT.finditer(line) if found[0] == "#"), line)
+    return next((line[: match.start()] for match in COMMENT.finditer(line) if match[0] == "#"), line)
 
 
 def _flow(lines: list[str], at: int, first: str, number: int, check: Callable[[], None]) -> tuple[Value, int]:
