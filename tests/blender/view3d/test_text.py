@@ -29,9 +29,9 @@ def region(kind, x, width):
 def test_a_toolbar_and_a_sidebar_over_the_view_leave_less_of_it(sidebar, expected):
     view = region("WINDOW", 50, 1200)
     regions = [region("HEADER", 50, 1200), region("TOOLS", 50, 40), view, region("UI", *sidebar)]
-    assert text.visible(SimpleNamespace(region=view, area=SimpleNamespace(regions=regions))) == expected
+    assert text.uncovered(SimpleNamespace(region=view, area=SimpleNamespace(regions=regions))) == expected
     regions[1] = region("TOOLS", 10, 40)  # beside the view
-    assert text.visible(SimpleNamespace(region=view, area=SimpleNamespace(regions=regions)))[1] == expected[1]
+    assert text.uncovered(SimpleNamespace(region=view, area=SimpleNamespace(regions=regions)))[1] == expected[1]
 
 
 SENTENCE = "Every pixel is shown at frame 5; in a render, each pixel has its own time, from frame 1.024 to 24.98"
@@ -53,7 +53,7 @@ def test_the_notice_is_wrapped_and_stays_in_the_view(left, right, interface, mon
     written = []
     monkeypatch.setattr(notice, "bpy", SimpleNamespace(context=interface))
     monkeypatch.setattr(notice, "_sentences", lambda context: iter([SENTENCE]))
-    monkeypatch.setattr(text, "visible", lambda context: (left, right))
+    monkeypatch.setattr(text, "uncovered", lambda context: (left, right))
     monkeypatch.setattr(text, "write", lambda context, lines, place: written.append((lines, place)))
     notice.draw()
     ((lines, place),) = written
@@ -72,7 +72,7 @@ def test_the_text_at_the_mouse_is_of_the_ray_alone_and_in_the_view(mouse, side, 
     context = SimpleNamespace(**vars(interface), scene=camera_scene)
     monkeypatch.setattr(mouse_gizmo, "cached_scene", lambda context: scene)
     monkeypatch.setattr(mouse_gizmo, "picture_frame", lambda context: (0, 0, 800, 600))
-    monkeypatch.setattr(text, "visible", lambda context: (40, 800))
+    monkeypatch.setattr(text, "uncovered", lambda context: (40, 800))
     monkeypatch.setattr(text, "write", lambda context, lines, place: written.append((lines, place)))
     mouse_gizmo.RayUnderMouse.draw(SimpleNamespace(mouse=(mouse, 300)), context)
     ((lines, place),) = written

@@ -56,7 +56,7 @@ def command_parser(prog: str, purpose: str, example: str, result: str, ends: str
         "--model",
         type=str.upper,
         choices=READING,
-        help="model that the calibration file is for; needed for four coefficients of OpenCV without the model's name",
+        help="model of the calibration file; needed if an OpenCV file has four coefficients and no model name",
     )
     parser.add_argument("--resolution", type=picture_size, metavar="WxH", help="size of pictures; default: the file's")
     parser.set_defaults(prog=prog)

@@ -27,7 +27,7 @@ class SeeThroughHere(bpy.types.Gizmo):
     def draw(self, context):
         """Write the line at the top of the region."""
         camera, scale = context.scene.camera.data, context.preferences.system.ui_scale
-        own, (left, right) = getattr(camera, GROUP).model, text.visible(context)
+        own, (left, right) = getattr(camera, GROUP).model, text.uncovered(context)
         model = label_of(own if own != BLENDERS_OWN else blender_type(camera))
         lines = text.wrapped(context, f"Blender's own view, not {model}: click here to see through the camera",
                              right - left - 4 * ROOM * scale)  # fmt: skip

@@ -79,7 +79,7 @@ def _lines(context, found: Probe) -> list[tuple[str, str]]:
 
 def _write(context, mouse, lines) -> None:
     """Write lines next to the mouse, on the side where they fit, and not past the left edge."""
-    margin, (left, right) = MARGIN * context.preferences.system.ui_scale, text.visible(context)
+    margin, (left, right) = MARGIN * context.preferences.system.ui_scale, text.uncovered(context)
 
     def place(width, height):
         x = mouse[0] + 2 * margin

@@ -26,7 +26,7 @@ def draw() -> None:
     context = bpy.context
     sentences = list(_sentences(context))
     if sentences:
-        margin, (left, right) = MARGIN * context.preferences.system.ui_scale, text.visible(context)
+        margin, (left, right) = MARGIN * context.preferences.system.ui_scale, text.uncovered(context)
         lines = [("", line) for one in sentences for line in text.wrapped(context, one, right - left - 2 * margin)]
         text.write(context, lines, lambda width, height: ((left + right - width) / 2, height + margin))
 

@@ -42,7 +42,7 @@ def wrapped(context, sentence: str, width: float) -> list[str]:
     return lines
 
 
-def visible(context) -> tuple[int, int]:
+def uncovered(context) -> tuple[int, int]:
     """Return the left and right of the region's visible part in pixels: the toolbar and the sidebar may cover it."""
     region = context.region
     left, right = 0, region.width

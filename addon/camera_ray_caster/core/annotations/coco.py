@@ -109,7 +109,7 @@ def document(
             "segmentation_whole": mask(one.alone, one.whole[0], one.whole[2]),
         }  # fmt: skip
 
-    def visible(name: str, one: Silhouette, ends: Box) -> Document:
+    def annotation(name: str, one: Silhouette, ends: Box) -> Document:
         is_own = not (shapes.instanced and shapes.instanced[shapes.name_index[one.row]])
         own = {seen.point.name: _triple(sheet, seen) for seen in points if is_own and seen.point.owner == name}
         return whole(name, one) | {
@@ -118,7 +118,7 @@ def document(
         }  # fmt: skip
 
     each = list(zip(names, found, strict=True))
-    shown = [visible(name, one, one.visible) for name, one in each if one.visible is not None]
+    shown = [annotation(name, one, one.visible) for name, one in each if one.visible is not None]
     return {
         "info": {"description": "Made by Camera Ray Caster", "version": VERSION},
         "images": [{"id": 1, **image, "width": sheet.width, "height": sheet.height}],

@@ -87,7 +87,7 @@ def export(
 ) -> Exported:
     """Write cameras to a file or a folder, for another program; return the paths and remarks.
 
-    data: a camera, or several. Those of one name are one camera at several frames: see ``name`` and ``frame`` of
+    data: a camera, or several. Those with the same name are one camera that moves: see ``name`` and ``frame`` of
         ``crc.camera``.
     path: a file, whose ending tells the format, or with ``format`` a folder.
     format: KEYS.

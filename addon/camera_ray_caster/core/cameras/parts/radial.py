@@ -38,12 +38,12 @@ FISHEYE_LENS = Number(
 )  # fmt: skip
 
 ROUND_PLANE = Step(
-    "Pixel on the plane, the nearer sides at 1, pixels p times as high as wide",
+    "Point on the plane, shorter side from -1 to 1 (p: pixel height / width)",
     "a = (2 x/W - 1 + 2 shift_x) W / w, b = (2 y/H - 1 + 2 shift_y) p H / w, w = min(W, p H)",
 )
 WHOLE_PLANE = Step("Pixel on the plane, the frame's sides at 1", "a = 2 x/W - 1 + 2 shift_x, b = 2 y/H - 1 + 2 shift_y")
 SENSOR_PLANE = Step(
-    "Pixel on the sensor, mm, pixels p times as high as wide",
+    "Point on the sensor, mm (p: pixel height / width)",
     "a = (x - W/2 + shift_x W) sensor / V, b = (y - H/2 + shift_y H) p sensor / V",
 )
 COORDINATES = Step(
