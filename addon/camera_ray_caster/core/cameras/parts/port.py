@@ -36,8 +36,8 @@ APART = 0.7
 
 
 def indices_of(raw: BlenderCamera) -> tuple:
-    """Return the indices of a record's glass and medium, relative to that inside."""
-    inside = INSIDE.read(raw)
+    """Return the indices of a record's glass and medium, relative to that inside; older files have air there."""
+    inside = INSIDE.read(raw) if INSIDE.name in raw.settings else INSIDE.default
     return GLASS.read(raw) / inside, MEDIUM.read(raw) / inside
 
 
