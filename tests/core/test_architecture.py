@@ -103,9 +103,9 @@ again.
 """
 OUTSIDE = {
     "core": {"numpy"},
-    "core.programs.parts.openexr": {"numpy", "OpenImageIO"},  # imported where an EXR image is read
     "core.sets.set_reader": {"numpy", "OpenImageIO"},  # a program of its own, which is copied into sets
     "blender": {"numpy"} | BLENDER,
+    "blender.read.openexr": {"numpy", "OpenImageIO"} | BLENDER,
     "blender.cycles": {"numpy"} | BLENDER | CYCLES,
     "blender.terminal.farm": BLENDER | DASK,
     "": set(),

@@ -1,17 +1,16 @@
 """Tables of rays in EXR images, which Blender reads."""
 
-import subprocess
 import sys
 
 import numpy as np
 import pytest
 
 import camera_ray_caster as crc
+from camera_ray_caster.blender.read.openexr import openimageio
 from camera_ray_caster.core.exports.exr import exr
-from camera_ray_caster.core.programs.parts.openexr import openimageio
+from camera_ray_caster.core.programs.parts import ray_exr
 
 from ...core.cameras.table_examples import fisheye, pinhole, without_eye
-from ..processes import SOURCE
 
 
 def has_openimageio():
@@ -54,15 +53,6 @@ def test_red_green_and_blue_are_directions(tmp_path):
 
 
 @reads_exr
-def test_an_image_is_read_before_bpy_is_imported(tmp_path):
-    (tmp_path / "rays.exr").write_bytes(exr(np.float32(pinhole(5, 4))))
-    program = (f"import sys; sys.path.insert(0, {str(SOURCE.parent)!r}); import camera_ray_caster as crc; "
-               "print(crc.load_calibration('rays.exr').raster.size, 'bpy' in sys.modules)")  # fmt: skip
-    done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, timeout=120)
-    assert (done.stdout, done.stderr) == ("(5, 4) False\n", "")
-
-
-@reads_exr
 def test_channels_with_names_are_origins_and_directions(tmp_path):
     origins, directions = without_eye()
     for ahead, eye in (("ray_direction.", "ray_origin."), ("View Layer.Ray Direction.", "View Layer.Ray Origin.")):
@@ -99,3 +89,11 @@ def test_a_blender_without_openimageio_says_so(tmp_path, monkeypatch):
     with pytest.raises(crc.InputError, match=r"rays.exr.*has no OpenImageIO: use a build") as caught:
         crc.load_calibration(path)
     assert "\n" not in str(caught.value)
+
+
+def test_where_blender_is_not_they_are_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(ray_exr, "decoder", None)
+    path = tmp_path / "other.exr"
+    path.write_bytes(exr(np.float32(pinhole(5, 5))))
+    with pytest.raises(crc.InputError, match="which Blender reads"):
+        crc.load_calibration(path)

@@ -116,7 +116,7 @@ def test_an_stmap_is_no_table_of_rays(tmp_path, monkeypatch):
     v, u = np.mgrid[0.95:0.05:9j, 0.05:0.95:13j].astype(np.float32)
     for blue, says in ((np.ones_like(u), "it is an STMap"), (u - v, "")):
         channels = dict(zip("RGB", (u, v, blue), strict=True))
-        monkeypatch.setattr(ray_exr, "channels_of", lambda path, channels=channels: channels)
+        monkeypatch.setattr(ray_exr, "decoder", lambda path, channels=channels: channels)
         if says:
             with pytest.raises(InputError, match=says):
                 lenses_of(str(tmp_path / "map.exr"))

@@ -11,10 +11,10 @@ import bpy
 import numpy as np
 
 from ...core.exports.exr import exr
-from ...core.programs.parts.openexr import openimageio
 from ...core.records import InputError
 from ...core.shaders.camera_shader import CameraShader
 from ..read.camera import shader_mark
+from ..read.openexr import openimageio
 from .animation import remove_keyframes
 
 CUSTOM = "CUSTOM"

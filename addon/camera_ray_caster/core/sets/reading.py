@@ -204,8 +204,8 @@ def _opened(view: View) -> Mapping[str, np.ndarray]:
     path = view.file
     try:
         return channels.passes_of(path, view.facts) if path.suffix == ".exr" else np.load(path)
-    except InputError as error:
-        raise InputError(f"{str(path)!r} cannot be read: {error}; or make the set with --format NPZ") from error
+    except InputError:
+        raise
     except DAMAGED as error:
         raise InputError(f"{str(path)!r} cannot be read: make the set with --format NPZ or EXR") from error
 

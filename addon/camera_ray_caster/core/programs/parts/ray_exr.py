@@ -2,18 +2,17 @@
 
 Names are as the passes of renders have them: the last part is X, Y, Z or R, G, B, and what stands before it has the
 word direction or origin. The rays are in the camera's frame; a direction of NaN or 0 is no ray. Numbers have to be
-float32: half floats turn rays by up to 2.4e-4 radians.
+float32: half floats turn rays by up to 2.4e-4 radians. The files are read by Blender, which sets ``decoder``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
 from .document import Document
 from .lens import Lens
-from .openexr import channels_of
 from .ray_arrays import table
 
 MAGIC = b"\x76\x2f\x31\x01"
@@ -21,6 +20,11 @@ AXES = "xyz", "rgb"
 
 OFF_MIDDLE = 0.3
 """How far the middle of an STMap may be from the picture's, as a part of its sides."""
+
+decoder: Callable[[str], Mapping[str, np.ndarray]] | None = None
+"""Returns the channels of a file by name, (rows, columns) from the top: float16 those of half floats, else float32.
+Raises ValueError with the reason, in one line, for a file that cannot be read.
+"""
 
 
 def looks(document: Document) -> bool:
@@ -30,8 +34,10 @@ def looks(document: Document) -> bool:
 
 def lens_of(document: Document) -> Lens:
     """Return the lens of an image. Raises InputError."""
+    if decoder is None:
+        raise document.refusal("it is an EXR image, which Blender reads: load it there, or save its arrays as NPZ")
     try:
-        channels = channels_of(document.path)
+        channels = decoder(document.path)
     except ValueError as error:
         raise document.refusal(str(error)) from error
     if any(values.dtype == np.float16 for values in channels.values()):

@@ -1,35 +1,28 @@
-"""EXR images by OpenImageIO, which Blender has: all channels with their numbers, where Blender's images have four.
-
-It is imported where an image is read, and nothing else of core needs it.
-"""
-
-from __future__ import annotations
+"""EXR images by Blender's own OpenImageIO: all channels with their numbers, where Blender's images have four."""
 
 import sys
-from importlib.util import find_spec
 from pathlib import Path
 
+import bpy
 import numpy as np
 
-from ... import memory
-from ...records import InputError
-
-PACKAGES = "python/lib/python*/site-packages"
-"""Packages of Blender's Python, in the folder of its version."""
+from ...core import memory
+from ...core.programs.parts import ray_exr
+from ...core.records import InputError
 
 
 def openimageio():
-    """Return OpenImageIO: Blender's where there is a bpy, whose Python does not search its folder and may have another.
+    """Return Blender's OpenImageIO. A Python that imports bpy does not search its folder, and may have another one.
 
-    Raises InputError if there is none, as in builds by others than Blender's makers, or if another was imported before.
+    Raises InputError if this Blender has none, as builds by others than its makers, or if another was imported before.
     """
     before = list(sys.path)
-    folders = _packages_of_blender()
+    folders = list(Path(bpy.utils.system_resource("PYTHON")).glob("lib/python*/site-packages"))
     sys.path[:0] = map(str, folders)
     try:
         import OpenImageIO
     except ModuleNotFoundError as error:
-        raise InputError("this Python has no OpenImageIO: use a build of Blender from blender.org or bpy") from error
+        raise InputError("this build of Blender has no OpenImageIO: use a build from blender.org") from error
     finally:
         sys.path[:] = before
     taken = Path(OpenImageIO.__file__)
@@ -40,22 +33,8 @@ def openimageio():
     return OpenImageIO
 
 
-def _packages_of_blender() -> list[Path]:
-    """Return the folders of packages of the Blender that bpy is of; none without bpy. Its file is
-    bpy/VERSION/scripts/modules/bpy/__init__.py where it is imported, and bpy/__init__.* of pip's before.
-    """
-    spec = find_spec("bpy")
-    if spec is None or spec.origin is None:
-        return []
-    file = Path(spec.origin)
-    return [folder for root in (*file.parents[3:4], *file.parent.glob("*")) for folder in root.glob(PACKAGES)]
-
-
 def channels_of(path: str) -> dict[str, np.ndarray]:
-    """Return the channels of a file by name, (rows, columns) from the top: float16 those of half floats, else float32.
-
-    Raises InputError without OpenImageIO, and ValueError with the reason, in one line, for a file that cannot be read.
-    """
+    """Return the channels of a file by name, (rows, columns) from the top; see ``ray_exr.decoder``."""
     library = openimageio()
     file = library.ImageInput.open(path)
     if file is None:
@@ -79,3 +58,6 @@ def channels_of(path: str) -> dict[str, np.ndarray]:
 
 def _line(text: str) -> str:
     return " ".join(text.split())
+
+
+ray_exr.decoder = channels_of
