@@ -110,7 +110,7 @@ WIDE_CELL, WIDE_TILES, WIDE_PIXELS = 96, 64, 1 << 25
 """If the bounds of triangles with more pixels than four squares of WIDE_CELL have more than WIDE_TILES times the pixels
 of their tile, these triangles are looked for in such squares first, as many at once as have WIDE_PIXELS in their
 bounds. Processor time of a street of 325 meshes with 16 samples at 640 x 400, by cross-slit cameras with slits in the
-scene and at the camera: never: 3.3 and 1.0 to 1.1 times; of a room by the latter 1.1 to 1.4. Not tuned beyond that.
+scene and at the camera: never: 3.3 and 0.9 to 1.1 times; of a room by the latter 1.1 to 1.4. Not tuned beyond that.
 """
 
 TRACED_PIXELS = 1 << 17
