@@ -27,12 +27,12 @@ def drawing(blender):
         pytest.skip(str(error))
     if hasattr(gpu, "init"):
         gpu.init()
-    else:  # before 5.2 a render makes the context
-        render = blender.context.scene.render
-        render.engine, render.resolution_x, render.resolution_y = "BLENDER_WORKBENCH", 8, 8
-        blender.ops.object.camera_add()
-        blender.context.scene.camera = blender.context.object
-        blender.ops.render.render()
+    # before 5.2 a render makes the context; in 5.2 it is the current one again after a render of another engine
+    render = blender.context.scene.render
+    render.engine, render.resolution_x, render.resolution_y = "BLENDER_WORKBENCH", 8, 8
+    blender.ops.object.camera_add()
+    blender.context.scene.camera = blender.context.object
+    blender.ops.render.render()
     yield
     forget()
 
