@@ -191,4 +191,25 @@ def examples(user, scenes):
     assert bpy.context.scene.camera.data.camera_ray_caster.slit_2 is not None
 
 
-LESSON_SCENARIOS = (step_through, step_through_image, lens_in_view, examples)
+def lecture(user, scenes):
+    """A lecture shows the formula large on the picture; Page Down and Page Up change the step."""
+    yield from load(user, scenes, "toys")
+    lesson, place = addon("view3d.lesson"), bpy.context.window_manager.camera_ray_caster_place
+    user.area().spaces.active.region_3d.view_perspective = "CAMERA"
+    lesson.pixels[:] = [(150, 120)]
+    yield from user.wait(0.7)
+    off = user.cut(user.picture("lecture_off"), user.region("WINDOW"))
+    place.lecture = True
+    yield from user.wait(0.7)
+    on = user.cut(user.picture("lecture_formula"), user.region("WINDOW"))
+    assert np.count_nonzero(np.abs(on - off).max(axis=2) > 0.1) > 5000
+    yield from user.point(*place_of(user, 300, 200))
+    for key, step in (("Next", 1), ("Next", 2), ("Prior", 1)):
+        yield from user.key(key)
+        yield from user.until(lambda step=step: place.step == step, f"{key} shows step {step}")
+    user.picture("lecture_numbers")
+    place.lecture, place.step = False, 0
+    lesson.forget()
+
+
+LESSON_SCENARIOS = (step_through, step_through_image, lecture, lens_in_view, examples)

@@ -192,7 +192,8 @@ def test_step_through_gives_every_window_its_cursor_back(blender, scene, monkeyp
 
     restored = []
     windows = [SimpleNamespace(cursor_modal_restore=partial(restored.append, i)) for i in range(2)]
-    context = SimpleNamespace(window_manager=SimpleNamespace(windows=windows), scene=scene)
+    keys = SimpleNamespace(addon=None)
+    context = SimpleNamespace(window_manager=SimpleNamespace(windows=windows, keyconfigs=keys), scene=scene)
     monkeypatch.setattr(lesson_operators, "bpy", SimpleNamespace(
         data=blender.data, context=context, types=SimpleNamespace(WindowManager=type("WindowManager", (), {})),
     ))  # fmt: skip

@@ -3,8 +3,9 @@
 from math import floor
 
 import bpy
-from bpy.props import FloatProperty, IntProperty, PointerProperty
+from bpy.props import BoolProperty, FloatProperty, IntProperty, PointerProperty
 
+from ...core.lesson.lecture import screens
 from ..read.scene_cache import cached_scene
 from ..view3d import lesson
 from ..view3d.camera_frame import frame_in
@@ -171,7 +172,9 @@ def _set(axis: int, is_view: bool):
 
 
 class Place(bpy.types.PropertyGroup):
-    """The type of ``window_manager.camera_ray_caster_place``: where the latest pixel is. Setting it moves the pixel."""
+    """The type of ``window_manager.camera_ray_caster_place``: where the latest pixel is, and the step of a lecture.
+    Setting the place moves the pixel.
+    """
 
     column: IntProperty(name="Column", description="Column of the pixel, from the left", min=0,
                         get=_get(0, False), set=_set(0, False))  # fmt: skip
@@ -181,6 +184,11 @@ class Place(bpy.types.PropertyGroup):
                      precision=4, get=_get(0, True), set=_set(0, True))  # fmt: skip
     y: FloatProperty(name="y", description="View coordinate of the pixel's center, -1 below to 1 above", min=-1, max=1,
                      precision=4, get=_get(1, True), set=_set(1, True))  # fmt: skip
+    lecture: BoolProperty(name="Lecture", description="Show a step of the latest pixel large on the camera's picture. "
+                          "Page Down and Page Up show the next and the previous step",
+                          update=lambda self, context: redraw(context))  # fmt: skip
+    step: IntProperty(name="Step", description="Step that a lecture shows, counted from 0", min=0,
+                      update=lambda self, context: redraw(context))  # fmt: skip
 
 
 class OfLesson:
@@ -221,7 +229,29 @@ class ClearSteps(OfLesson, bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (Place, StepThrough, CopySteps, ClearSteps)
+class LectureStep(bpy.types.Operator):
+    """Show the next or the previous step of the lecture"""
+
+    bl_idname = "camera_ray_caster.lecture_step"
+    bl_label = "Lecture Step"
+    bl_options = {"REGISTER"}
+    by: IntProperty(name="By", description="Number of steps, negative for previous ones", default=1)
+
+    @classmethod
+    def poll(cls, context):
+        """Leave the keys to Blender without a lecture."""
+        cls.poll_message_set("First click a pixel with Step Through, and switch on Lecture")
+        return context.window_manager.camera_ray_caster_place.lecture and bool(lesson.lessons(context))
+
+    def execute(self, context):
+        """Change the step, within those of the latest pixel."""
+        place, (*_, latest) = context.window_manager.camera_ray_caster_place, lesson.lessons(context).values()
+        last = len(screens(latest)) - 1
+        place.step = min(max(min(place.step, last) + self.by, 0), last)
+        return {"FINISHED"}
+
+
+CLASSES = (Place, StepThrough, CopySteps, ClearSteps, LectureStep)
 
 
 def register(undo) -> None:
@@ -229,3 +259,10 @@ def register(undo) -> None:
     bpy.types.WindowManager.camera_ray_caster_place = PointerProperty(type=Place)
     undo.callback(delattr, bpy.types.WindowManager, "camera_ray_caster_place")
     undo.callback(end)
+    keys = bpy.context.window_manager.keyconfigs.addon
+    for name, space in (("3D View", "VIEW_3D"), ("Image", "IMAGE_EDITOR")) if keys else ():  # None in background
+        keymap = keys.keymaps.new(name, space_type=space)
+        for key, by in (("PAGE_DOWN", 1), ("PAGE_UP", -1)):
+            item = keymap.keymap_items.new(LectureStep.bl_idname, key, "PRESS", repeat=True)
+            item.properties.by = by
+            undo.callback(keymap.keymap_items.remove, item)

@@ -10,7 +10,7 @@ from ..view3d import lens_icon
 from ..view3d.camera_frame import is_picture
 from ..view3d.lesson import lessons
 from .drawing import Sidebar, draw_message
-from .lesson_operators import ClearSteps, CopySteps, StepThrough
+from .lesson_operators import ClearSteps, CopySteps, LectureStep, StepThrough
 from .open_lesson import OpenLesson
 from .point_operators import EmptyAtHit, PixelOfPoint
 
@@ -42,6 +42,10 @@ class Steps:
         row = layout.row(align=True)
         row.operator(CopySteps.bl_idname, icon="COPYDOWN")
         row.operator(ClearSteps.bl_idname, icon="X")
+        row = layout.row(align=True)
+        row.prop(context.window_manager.camera_ray_caster_place, "lecture", toggle=True)
+        for icon, by in (("TRIA_LEFT", -1), ("TRIA_RIGHT", 1)):
+            row.operator(LectureStep.bl_idname, icon=icon, text="").by = by
         draw_place(layout, context)
         *others, latest = found.values()
         if others:

@@ -22,6 +22,7 @@ from ..properties.declared import SHADING
 from ..read.scene_cache import CachedScene, cached_scene
 from .camera_frame import frame_in, in_pixels
 from .glass import draw_lens, forget_lens, parts_of_paths
+from .lecture import write_step
 from .overlay import batch_of, draw_batch
 from .shown import picture_frame
 
@@ -152,6 +153,9 @@ def _draw_marks(context, shown) -> None:
         blf.position(0, x[1] + MARK * scale, middle[1] - TEXT * scale / 3, 0)
         blf.draw(0, f"{pixel[0]}, {pixel[1]}")
         blf.disable(0, blf.SHADOW)
+    place = context.window_manager.camera_ray_caster_place
+    if place.lecture and pixels[-1] in found:
+        write_step(context, found[pixels[-1]], place.step)
 
 
 @persistent

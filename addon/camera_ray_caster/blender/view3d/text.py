@@ -14,9 +14,17 @@ SIZE = 12
 """Font size in pixels at interface scale 1."""
 
 
-def write(context, lines: Sequence[tuple[str, str]], place: Callable[[float, float], tuple[float, float]]) -> None:
-    """Write (name, text) lines; ``place(width, height)`` returns the left and top of the text in the region."""
-    size = _set_size(context)
+def write(
+    context,
+    lines: Sequence[tuple[str, str]],
+    place: Callable[[float, float], tuple[float, float]],
+    size: float | None = None,
+) -> None:
+    """Write (name, text) lines; ``place(width, height)`` returns the left and top of the text in the region.
+
+    size: of the font in pixels; None for that of notices.
+    """
+    size = _set_size(context, size)
     longest = max(_width(name) for name, _ in lines)
     names = longest + size if longest else 0.0
     width, step = names + max(_width(text) for _, text in lines), 1.5 * size
@@ -30,9 +38,9 @@ def write(context, lines: Sequence[tuple[str, str]], place: Callable[[float, flo
             blf.draw(FONT, word)
 
 
-def wrapped(context, sentence: str, width: float) -> list[str]:
+def wrapped(context, sentence: str, width: float, size: float | None = None) -> list[str]:
     """Return a sentence as lines that are at most ``width`` pixels wide; a word that is wider has its own line."""
-    _set_size(context)
+    _set_size(context, size)
     lines: list[str] = []
     for word in sentence.split():
         if lines and _width(f"{lines[-1]} {word}") <= width:
@@ -53,9 +61,9 @@ def uncovered(context) -> tuple[int, int]:
     return left, right
 
 
-def _set_size(context) -> float:
-    """Set the font's size for this interface; return it in pixels."""
-    size = SIZE * context.preferences.system.ui_scale
+def _set_size(context, size: float | None) -> float:
+    """Set the font's size in pixels, None for that of notices in this interface; return it."""
+    size = size or SIZE * context.preferences.system.ui_scale
     blf.size(FONT, size)
     return size
 
