@@ -4,6 +4,7 @@ from time import perf_counter, sleep
 from types import SimpleNamespace
 
 import bpy
+import numpy as np
 import pytest
 from mathutils import Matrix
 
@@ -132,3 +133,11 @@ def test_means_of_samples_follow_and_the_last_picture_is_that_of_all_samples(vie
         wanted = viewport.cast(camera, shapes, passes="combined", samples=count)["combined"]
         assert (array == wanted).all(), count
     assert not (view.arrays[-1] == view.arrays[-5]).all()
+
+
+def test_a_mean_of_more_samples_takes_the_place_of_one_that_was_not_shown():
+    target, means = SimpleNamespace(camera=lambda step: SimpleNamespace(raster=None), rectangle=lambda raster: 0), []
+    for samples in (0, 1, 2):
+        viewport._keep(means, target, np.full((1, 1, 4), samples), slice(0, 1), samples)
+    viewport._news.clear()
+    assert [image["combined"].max() for image, _ in means] == [2]

@@ -88,7 +88,7 @@ class Viewport:
     _samples = 1
     """Number of rays per pixel of the last picture."""
     _means: list[tuple] = []
-    """Pictures of the samples so far, not yet shown, with their rectangles."""
+    """The picture of the samples so far with its rectangle, if it was not yet shown; else empty."""
     _worker: Worker | None = None
     _is_first = True
     """Whether the worker casts the first picture of a view."""
@@ -219,9 +219,9 @@ def _cast(target: Target, shapes, shown: dict[str, Any], step: int, spare: Image
 
 
 def _keep(means: list[tuple], target: Target, combined: np.ndarray, rows: slice, samples: int) -> None:
-    """Keep a copy of the mean of some samples, to be shown by the next redraw. This runs in a thread."""
+    """Keep a copy of the mean of some samples, in place of one of fewer that was not shown. This runs in a thread."""
     if samples:  # a coarse picture is worse than the one that is shown
-        means.append(({"combined": combined.copy()}, target.rectangle(target.camera(1).raster)))
+        means[:] = [({"combined": combined.copy()}, target.rectangle(target.camera(1).raster))]
         _news.set()
 
 

@@ -68,13 +68,13 @@ def compared(camera: Camera, shift: tuple[float, float], ends_of) -> Finding:
     if not (decided & rays.valid).any():
         return not_compared(CYCLES, "float32 cannot represent these rays")
     differs = decided & (rays.valid == np.isnan(ends[..., 0]))
-    compared = decided & (rays.valid | differs)
-    pixels = np.stack(np.broadcast_arrays(x, y), axis=-1)[compared]
-    path = (ends - rays.origins)[compared]
+    is_compared = decided & (rays.valid | differs)
+    pixels = np.stack(np.broadcast_arrays(x, y), axis=-1)[is_compared]
+    path = (ends - rays.origins)[is_compared]
     distance = length_of(path)
-    angles = angles_between(path / distance[:, None], rays.directions[compared])
-    bound = bounds.direction[compared] + (bounds.origin[compared] + STORED * half) / distance
-    turned = _turned(camera, pixels, rays.origins[compared], rays.directions[compared], distance)
+    angles = angles_between(path / distance[:, None], rays.directions[is_compared])
+    bound = bounds.direction[is_compared] + (bounds.origin[is_compared] + STORED * half) / distance
+    turned = _turned(camera, pixels, rays.origins[is_compared], rays.directions[is_compared], distance)
     worst = np.argmax(np.where(np.isnan(angles), np.inf, angles / bound))
     selected = slice(None) if angles[worst] <= bound[worst] else [worst]  # each pixel has its own bound
     errors = np.stack((angles / turned, np.zeros_like(angles)), axis=1)[selected]

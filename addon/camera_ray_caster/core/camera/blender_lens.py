@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from math import cos, sin
 from typing import Any
 
 import numpy as np
@@ -24,6 +23,7 @@ from ..cameras.parts.pitched import Pitched
 from ..cameras.parts.pose import pose_from
 from ..cameras.parts.radial import FISHEYE_FOV, Radial
 from ..cameras.perspective import Perspective
+from ..maths.rotations import rotation
 from ..records import BlenderCamera, InputError
 from .build import camera_from
 from .camera import Camera
@@ -114,14 +114,9 @@ def _level(camera: Camera) -> tuple[Camera, float]:
         return camera, 0.0
     elevation = camera.model.elevation
     matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = camera.pose.basis @ _turned_up(elevation), camera.pose.eye
+    matrix[:3, :3], matrix[:3, 3] = camera.pose.basis @ rotation(np.array([(elevation, 0.0, 0.0)]))[0], camera.pose.eye
     record = replace(camera.record, matrix_world=matrix)
     return replace(camera, model=replace(camera.model, elevation=0.0), pose=pose_from(record), record=record), elevation
-
-
-def _turned_up(angle: float) -> np.ndarray:
-    """Return the rotation about the X axis by an angle in radians, (3, 3)."""
-    return np.array([(1.0, 0.0, 0.0), (0.0, cos(angle), -sin(angle)), (0.0, sin(angle), cos(angle))])
 
 
 def _orthographic(camera: Camera, pixels, points) -> BlenderLens | None:

@@ -1,6 +1,6 @@
 """Fisheye624 of Project Aria: Kannala and Brandt's model with 6 radial, 2 tangential and 4 thin prism coefficients.
 
-It is RAD_TAN_THIN_PRISM_FISHEYE, too. Aria's k0 .. k5 and s0 .. s3 are k1 .. k6 and s1 .. s4 here. Its p0 and p1
+Others call it RAD_TAN_THIN_PRISM_FISHEYE. Aria's k0 .. k5 and s0 .. s3 are k1 .. k6 and s1 .. s4 here. Its p0 and p1
 are p2 and p1 in OpenCV's naming, which is used here.
 Assumption: the radius is an odd polynomial of the angle from the axis, and the resulting picture is distorted further.
 Formula: r = theta (1 + k1 theta^2 + ... + k6 theta^12), in focal lengths, then the tangential and thin prism terms of

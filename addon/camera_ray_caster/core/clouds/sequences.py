@@ -3,7 +3,7 @@
 poses.txt has the poses of a camera at the scanner, x right, y down, z ahead, relative to that of the first frame, in
 meters.
 calib.txt has Tr, the transformation from the scanner to that camera, and no lenses.
-Reference: A. Geiger et al., Are we ready for Autonomous Driving?, CVPR 2012.
+Reference: see ``programs.kitti``.
 """
 
 from __future__ import annotations

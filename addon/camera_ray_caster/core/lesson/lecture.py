@@ -9,16 +9,13 @@ from .lesson import Lesson
 
 NUMBER = re.compile(r"\d+\.\d+(e[-+]?\d+)?")
 
-NUMBERS = " ", "with ", "on the image plane", "in the camera's frame"
-"""How the lines of the step "Model" begin that have the pixel's numbers."""
-
 
 def rounded(line: str) -> str:
     """Return a line with its decimal fractions rounded to four digits; those below ``NOISE`` are 0."""
 
-    def short(found: re.Match) -> str:
-        number = float(found.group())
-        if number >= 1000 and not found[1]:
+    def short(match: re.Match) -> str:
+        number = float(match[0])
+        if number >= 1000 and not match[1]:
             return f"{number:.0f}"
         return "0" if number < NOISE else f"{number:.4g}"
 
@@ -27,6 +24,5 @@ def rounded(line: str) -> str:
 
 def screens(lesson: Lesson) -> list[tuple[str, tuple[str, ...]]]:
     """Return pairs (title, lines): the model's formula in symbols, then the steps, in which it has its numbers."""
-    label, *lines = dict(lesson.steps)["Model"]
-    formulas = (line.rpartition(": ")[2] for line in lines if ": " in line and not line.startswith(NUMBERS))
-    return [(label, tuple(formulas)), *((title, tuple(map(rounded, texts))) for title, texts in lesson.steps)]
+    steps = ((title, tuple(map(rounded, texts))) for title, texts in lesson.steps)
+    return [(lesson.label, lesson.formula), *steps]

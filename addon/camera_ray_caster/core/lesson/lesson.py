@@ -50,6 +50,9 @@ class Lesson:
     normal: np.ndarray | None = None
     color: np.ndarray | None = None
     """The pixel's linear RGBA in the picture, (4,); None if it is the mean of too many rays."""
+    label: str = ""
+    formula: tuple[str, ...] = ()
+    """The model's name and its formula in symbols."""
 
     def lines(self) -> list[str]:
         """Return all steps as lines of text."""
@@ -146,7 +149,8 @@ def lesson(
     steps.append(("Color", tuple(lines)))
     if seen.shape_index < 0:
         point = normal = None
-    return Lesson(seen, tuple(steps), tuple(met), point, normal, mean)
+    formula = tuple(step.symbols for step in camera.model.steps)
+    return Lesson(seen, tuple(steps), tuple(met), point, normal, mean, camera.model.label, formula)
 
 
 def _seen(seen: Probe, point: np.ndarray, normal: np.ndarray, depth: float) -> tuple[str, ...]:

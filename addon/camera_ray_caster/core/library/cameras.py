@@ -96,8 +96,8 @@ def camera(model: str, size, pose=None, **settings: Any) -> Camera:
 def load_calibration(
     path: str | os.PathLike[str], camera: str | None = None, *, size=None, pose=None, model: str = ""
 ) -> Camera:
-    """Return a camera with the lens of a calibration file, of any program that the table of models
-    lists.
+    """Return a camera with the lens of a calibration file, of any program that the table
+    of models lists.
 
     camera: name of the camera in the file; default the only one.
     size: (width, height) of the picture; default that of the calibrated picture, which is scaled to another size.

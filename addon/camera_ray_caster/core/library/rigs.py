@@ -53,8 +53,8 @@ class RigCamera(Camera):
 def load_rig(
     path: str | os.PathLike[str], size=None, *, model: str = "", frame_rate: float = 24.0
 ) -> dict[str, RigCamera]:
-    """Return the cameras of a file or folder by name, each with its lens and its pose at its frames: of any
-    program that the table of programs lists.
+    """Return the cameras of a file or folder by name, each with its lens and its pose at its frames: of any program
+    that the table of programs lists.
 
     A camera that moves is the camera at its first frame; ``camera.frames`` are all of them, ``camera.at(frame)`` is the
     camera at another one, and ``for one in camera`` goes through them. Blender units are meters; the world is the

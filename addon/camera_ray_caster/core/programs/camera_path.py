@@ -2,7 +2,7 @@
 
 camera_to_world is of a camera like Blender's, by rows; fov is the vertical field of view in degrees, and the center the
 middle of the picture. A fisheye is equidistant with the same focal length.
-Reference: the program's own reader, cameras/camera_paths.py: get_path_from_json.
+Reference: the viewer's source, cameras/camera_paths.py: get_path_from_json.
 """
 
 from __future__ import annotations

@@ -31,7 +31,7 @@ POSE, POSES = re.compile("T_|R_|t_"), ("T_cam_imu", "T_imu_cam", "T_cn_cnm1")
 MODELS = {
     f"{kind}-{bend}": (model, (*SHAPES[kind][1], *terms))
     for (kind, bend), (model, terms) in DISTORTIONS.items()
-    if bend != "radialtangential8"  # of files that share the words
+    if bend != "radialtangential8"  # a word of other programs only
 } | {f"{kind}-none": SHAPES[kind] for kind in ("omni", "eucm", "ds")}
 
 

@@ -1,7 +1,7 @@
 """Agisoft Metashape's XML: the calibration of one camera, or the sensors and cameras of a project.
 
 f is in pixels, cx and cy are measured from the middle of the picture; b1 and b2 are affinity and skew. With p1 and p2
-swapped its distortion is OpenCV's; a fisheye's is the same of the angle, which is THIN_PRISM_FISHEYE.
+swapped its distortion is OpenCV's; a fisheye's is the same of the angle, which is the model THIN_PRISM_FISHEYE.
 A sensor of a label that others have is named LABEL 1, LABEL 2, ...
 A camera's transform leads from it, y down and z ahead, to its chunk; that of its component, or of the chunk, with a
 scale, to the world. The world of a georeferenced chunk is that of the Earth's center: here it is a frame of east,

@@ -20,7 +20,7 @@ from .parts.lens import Lens
 from .parts.program import ProgramFiles
 
 BEGIN, COMMENT = re.compile(r"\d+\s+[-+.\d]"), "#polynomial"
-"""Pattern of the first line, and what the toolbox writes before it. Others begin with numbers, too."""
+"""Pattern of the first line, and what the toolbox writes before it. Files of poses begin with numbers, too."""
 
 
 def looks(document: Document) -> bool:

@@ -123,12 +123,12 @@ def accuracy(camera: Camera, shapes: Shapes, plan: Plan) -> Accuracy:
     x, y = sample(camera.raster)
     if camera.pixel_time is None:
         return _at(plan, x, y)
-    accuracy = Accuracy()
+    total = Accuracy()
     moments = list(groups(camera.pixel_time, x, y))
     for frame, rows, columns, where in moments[:: -(-len(moments) // MOMENTS)]:
         moment_plan = make_plan(camera.at(frame), shapes.at(frame), plan.request)
-        accuracy += _at(moment_plan, x[:, columns], y[rows], where)
-    return accuracy
+        total += _at(moment_plan, x[:, columns], y[rows], where)
+    return total
 
 
 def sample(raster: Raster) -> tuple[np.ndarray, np.ndarray]:
