@@ -57,7 +57,9 @@ class CubemapFace(WindowModel):
         x and y are pixel coordinates of broadcastable shapes. Each component is right to some EPS.
         """
         tangent_x, tangent_y = (np.tan(angle) for angle in self.window.plane_from_pixels(x, y))
-        tangent_x, tangent_y = (np.where(np.abs(one) < STEEPEST, one, np.nan) for one in (tangent_x, tangent_y))
+        tangent_x, tangent_y = (
+            np.where(np.abs(tangent) < STEEPEST, tangent, np.nan) for tangent in (tangent_x, tangent_y)
+        )
         scale = 1 / np.sqrt(tangent_x * tangent_x + (tangent_y * tangent_y + 1))
         return (0.0, 0.0, 0.0), (tangent_x * scale, tangent_y * scale, -scale)
 

@@ -54,5 +54,7 @@ class Fisheye624(KannalaBrandt):
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Fisheye624:
         """Build the camera from its settings. Raises InputError for an invalid setting."""
         calibration = Calibration.from_blender(raw, raster, (*RADIAL, *REST))
-        radial, rest = ({one.name: calibration.coefficients[one.name] for one in part} for part in (RADIAL, REST))
-        return cls.of(calibration, raster, list(radial.values()), RadialTangential(**rest))
+        radial, others = (
+            {number.name: calibration.coefficients[number.name] for number in group} for group in (RADIAL, REST)
+        )
+        return cls.of(calibration, raster, list(radial.values()), RadialTangential(**others))

@@ -98,8 +98,8 @@ class FisheyePolynomial(Radial):
         """The radius in mm up to which there is an inverse: where theta turns back, or else where it leaves the field
         of view, but not less than the corner of the frame.
         """
-        start, *rest = self.coefficients
-        ends = [np.polynomial.Polynomial((start - end, *rest)) for end in (-self.half_fov, self.half_fov)]
+        start, *higher = self.coefficients
+        ends = [np.polynomial.Polynomial((start - end, *higher)) for end in (-self.half_fov, self.half_fov)]
         beyond = [BEYOND * r for end in ends for r in positive_roots(end).tolist() if r > self._corner]
         reach = min(beyond, default=self._corner)
         return float(min([reach, *_turns(self.coefficients, reach)]))
@@ -143,7 +143,7 @@ class FisheyePolynomial(Radial):
     def radius(self, theta):
         """See Radial; r is negative if theta is seen on the other side of the axis."""
         start, sign = self.coefficients[0], self._sign
-        same, across = (sign * start + _turned(sign * (one - start)) for one in (theta, -theta))
+        same, across = (sign * start + _turned(sign * (angle - start)) for angle in (theta, -theta))
         target = np.minimum(same, across)
         r = self._inverse(np.sign(target) * up_to(self.half_fov, np.abs(target)))
         return np.where(same <= across, r, -r)

@@ -120,9 +120,9 @@ class FTheta(Calibrated):
     def steps(self) -> tuple[Step, ...]:
         """See Model: with the polynomial of these settings."""
         *before, forward, backward, ray = self.FORMULA
-        given, found = ("theta", "rho") if self.forward else ("rho", "theta")
+        variable, result = ("theta", "rho") if self.forward else ("rho", "theta")
         words = (forward if self.forward else backward).words
-        return (*before, Step(words, f"{found} = {in_words('k', 1, self.polynomial, given)}"), ray)
+        return (*before, Step(words, f"{result} = {in_words('k', 1, self.polynomial, variable)}"), ray)
 
     def formula_values(self, x, y):
         """See Model: the coefficients, and the angle that is found by iteration."""
@@ -139,7 +139,7 @@ class FTheta(Calibrated):
 
         Raises InputError for an invalid setting, and for a polynomial that does not start at 0 and grow there.
         """
-        reference, (c, d, e) = REFERENCE.read(raw), (one.read(raw) for one in (C, D, E))
+        reference, (c, d, e) = REFERENCE.read(raw), (setting.read(raw) for setting in (C, D, E))
         if not c - d * e > 0:
             raise C.refusal(raw, f"{c:.6g}", f"above ftheta_d times ftheta_e, {d * e:.6g}")
         setting = POLYNOMIALS[reference]

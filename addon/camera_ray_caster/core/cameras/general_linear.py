@@ -162,7 +162,7 @@ def classify(three) -> str:
     size_s, size_d = np.abs(s).max(), np.abs(d).max()
     if size_d <= RAY_ROUNDING * np.abs(three).max():
         return "orthographic"
-    c, a = (one[0, 0] * one[1, 1] - one[0, 1] * one[1, 0] for one in (s, d))
+    c, a = (differences[0, 0] * differences[1, 1] - differences[0, 1] * differences[1, 0] for differences in (s, d))
     b = s[0, 0] * d[1, 1] + d[0, 0] * s[1, 1] - s[0, 1] * d[1, 0] - d[0, 1] * s[1, 0]
     if abs(a) <= RAY_ROUNDING * size_d**2:
         if abs(b) > RAY_ROUNDING * size_s * size_d:

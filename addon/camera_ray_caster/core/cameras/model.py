@@ -113,7 +113,7 @@ class Model(ABC):
         return cls(raster.size, *(setting.read(raw) for setting in cls.SETTINGS))
 
     @classmethod
-    def following(cls, given: Mapping[str, Any]) -> dict[str, Any]:
+    def following(cls, settings: Mapping[str, Any]) -> dict[str, Any]:
         """Return the values of settings that, in Python, follow from those given if they are left out; default none."""
         return {}
 

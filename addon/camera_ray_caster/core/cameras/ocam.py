@@ -92,7 +92,7 @@ class OCam(Calibrated):
 
         Raises InputError for an invalid setting, and for a polynomial that is not below 0 on the axis.
         """
-        c, d, e = (one.read(raw) for one in (C, D, E))
+        c, d, e = (setting.read(raw) for setting in (C, D, E))
         if not c - d * e > 0:
             raise C.refusal(raw, f"{c:.6g}", f"above ocam_d times ocam_e, {d * e:.6g}")
         coefficients = POLYNOMIAL.read(raw)

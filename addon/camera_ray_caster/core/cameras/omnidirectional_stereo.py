@@ -88,8 +88,8 @@ class OmnidirectionalStereo(WindowModel):
         """Return the record of the eye with this name. Raises InputError for a picture that shows both eyes."""
         first, second = EYES[EYE.read(raw)]
         if first != second:
-            both = f"camera {raw.name!r} has both eyes in one picture"
-            raise InputError(f"{both}: choose one eye, or disable Stereoscopy")
+            problem = f"camera {raw.name!r} has both eyes in one picture"
+            raise InputError(f"{problem}: choose one eye, or disable Stereoscopy")
         return replace(raw, settings={**raw.settings, EYE.name: view.upper()})
 
     @property
@@ -153,11 +153,11 @@ class OmnidirectionalStereo(WindowModel):
         first, second = EYES[self.eyes]
         if first == second:
             return x, y, first
-        length, place = (self.frame[1], y) if self.eyes == "TOP_BOTTOM" else (self.frame[0], x)
-        later = place >= length / 2
-        place = 2 * (place - np.where(later, length / 2, 0.0))
+        length, position = (self.frame[1], y) if self.eyes == "TOP_BOTTOM" else (self.frame[0], x)
+        later = position >= length / 2
+        position = 2 * (position - np.where(later, length / 2, 0.0))
         side = np.where(later, second, first)
-        return (x, place, side) if self.eyes == "TOP_BOTTOM" else (place, y, side)
+        return (x, position, side) if self.eyes == "TOP_BOTTOM" else (position, y, side)
 
     def _in_frame(self, x, y, later):
         """Return the frame's pixel coordinates of a place in one eye's frame, which is its second half if ``later``."""

@@ -96,7 +96,8 @@ class Pencil(WindowModel):
         beside, rise, ahead = ((centers - self.point) @ self.axes.T).T
         side = np.where(ahead < 0, -1.0, 1.0)  # a line through the slit has the same m on both sides of it
         m, tangent = (
-            Interval(*pinhole_interval(side * part, side * ahead, radii, through=True)) for part in (rise, beside)
+            Interval(*pinhole_interval(side * component, side * ahead, radii, through=True))
+            for component in (rise, beside)
         )
         depth = Interval.around(ahead, radii)
         lag = m * self.slide

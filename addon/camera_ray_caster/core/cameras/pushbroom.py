@@ -87,10 +87,12 @@ class Pushbroom(WindowModel):
     def project(self, points):
         """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN at and behind the eye's plane."""
         point = components(np.asarray(points, np.float64))
-        place = dot(self.along, point)
-        beside = difference(point, point_along(self.start, self.step, place))
+        position = dot(self.along, point)
+        beside = difference(point, point_along(self.start, self.step, position))
         depth = np.where(beside[2] < 0, -beside[2], np.nan)
-        return np.stack(self.window.pixels_from_plane(*self._plane(place, dot(self.across, beside) / depth)), axis=-1)
+        return np.stack(
+            self.window.pixels_from_plane(*self._plane(position, dot(self.across, beside) / depth)), axis=-1
+        )
 
     def bounds(self, centers, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
@@ -103,8 +105,8 @@ class Pushbroom(WindowModel):
         bounds[np.isnan(slope[0])] = np.nan
         return bounds
 
-    def _plane(self, place, slope):
+    def _plane(self, position, slope):
         """Return the image-plane X, Y of places along the slit and slopes across it, numbers or intervals."""
         a, n = self.along, self.across
-        place = place * (1 / self.stretch)
-        return place * a[0] + slope * n[0], place * a[1] + slope * n[1]
+        position = position * (1 / self.stretch)
+        return position * a[0] + slope * n[0], position * a[1] + slope * n[1]

@@ -114,9 +114,9 @@ class RayTable(Model):
     @property
     def steps(self):
         """See Model: a table with straight lines has other weights, and one with origins a sum of them."""
-        place, rest, weights, direction = self.FORMULA
+        position, entry, weights, direction = self.FORMULA
         weights = self.LINES if self.grid.kind == LINEAR else weights
-        return place, rest, weights, direction, *([] if self.central else [self.ORIGIN])
+        return position, entry, weights, direction, *([] if self.central else [self.ORIGIN])
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> RayTable:
@@ -156,7 +156,7 @@ class RayTable(Model):
         inside, total = self._sums(x, y)
         length = norm(total[:3])
         length = np.where(inside & (length > 0), length, np.nan)
-        return tuple(total[3:]) or (0.0, 0.0, 0.0), tuple(part / length for part in total[:3])
+        return tuple(total[3:]) or (0.0, 0.0, 0.0), tuple(component / length for component in total[:3])
 
     def _sums(self, x, y):
         """Return whether there are entries at pixels, and the interpolated components: 3, or 6 with an origin.
@@ -164,7 +164,7 @@ class RayTable(Model):
         They are sums of differences from one entry, so that derivatives lose no digits where entries differ little.
         """
         grid, (rows, columns) = self.grid, self.grid.shape
-        u, v = (place * scale + shift for place, scale, shift in zip((x, y), self.scale, self.shift, strict=True))
+        u, v = (pixel * scale + shift for pixel, scale, shift in zip((x, y), self.scale, self.shift, strict=True))
         margin = 1.0 if grid.kind == SPLINE else -0.5
         in_u, in_v = _is_within(u, columns, margin), _is_within(v, rows, margin)
         u, v, inside = np.where(in_u, u, margin + 0.25), np.where(in_v, v, margin + 0.25), in_u & in_v
@@ -176,10 +176,10 @@ class RayTable(Model):
         column, spread = _shared(column, row)
         first, wide = AROUND - (grid.kind != LINEAR), columns + 2 * AROUND
         corner, taps = _whole((row + first) * wide + (column + first)), range(len(across))
-        own = corner + (AROUND - first) * (wide + 1)
+        index = corner + (AROUND - first) * (wide + 1)
         total = []
         for entries in grid.columns:
-            base = look_up(entries, own)
+            base = look_up(entries, index)
             beside = (_sum(up, (look_up(entries, corner + (k * wide + i)) - base for k in taps)) for i in taps)
             total.append(spread(base) + _sum(across, map(spread, beside)))
         return inside, total
@@ -218,10 +218,10 @@ class RayTable(Model):
     def formula_values(self, x, y):
         """See Model: the numbers of the table's place in the frame, the entry, and the weighted sums."""
         (a, c), (g, h) = self.scale, self.shift
-        sums = [plain(part) for part in self._sums(x, y)[1]]
-        given = {"a": a, "g": g, "c": c, "h": h, "i": np.floor(x * a + g), "j": np.floor(y * c + h)}
-        given |= {"m": vector(*sums[:3]), "n": plain(norm(sums[:3]))}
-        return given | ({} if self.central else {"q": vector(*sums[3:])})
+        sums = [plain(component) for component in self._sums(x, y)[1]]
+        values = {"a": a, "g": g, "c": c, "h": h, "i": np.floor(x * a + g), "j": np.floor(y * c + h)}
+        values |= {"m": vector(*sums[:3]), "n": plain(norm(sums[:3]))}
+        return values | ({} if self.central else {"q": vector(*sums[3:])})
 
     def facts(self) -> dict[str, object]:
         """See Model: the size of the table, the number of entries without rays, and the estimated errors between
@@ -229,16 +229,16 @@ class RayTable(Model):
         """
         angle, distance = self.grid.errors
         rows, columns = self.grid.shape
-        said: dict[str, object] = {
+        facts: dict[str, object] = {
             "table": [columns, rows],
             "entries_without_ray": int((~self.grid.known).sum()),
             "interpolation_error": angle,
         }
-        return said if self.central else said | {"interpolation_error_of_origins": distance}
+        return facts if self.central else facts | {"interpolation_error_of_origins": distance}
 
 
-def _is_within(place, count: int, margin: float):
-    return (place >= margin - BESIDE) & (place <= count - 1 - margin + BESIDE)
+def _is_within(position, count: int, margin: float):
+    return (position >= margin - BESIDE) & (position <= count - 1 - margin + BESIDE)
 
 
 def _shared(column, row) -> tuple[Any, Callable]:
@@ -247,8 +247,8 @@ def _shared(column, row) -> tuple[Any, Callable]:
     """
     if is_recorded(column, row) or np.ndim(column) != 2 or not is_grid(column, row):
         return column, lambda values: values
-    some, place = np.unique(column, return_inverse=True)
-    return some[None], lambda values: taken(values, place.ravel())
+    cells, inverse = np.unique(column, return_inverse=True)
+    return cells[None], lambda values: taken(values, inverse.ravel())
 
 
 def _whole(number):

@@ -24,7 +24,7 @@ from ..maths.speed import lazy
 from ..maths.vector import components
 from ..records import BlenderCamera, Raster
 from .model import Firing, Model, Step
-from .parts import scanners as own
+from .parts import scanners
 from .parts.beams import MICRO, Beams
 from .parts.calibration import FROM_FILE
 from .parts.devices import DEVICE, DEVICES, Device
@@ -58,8 +58,8 @@ class Scanner(Model):
     guarded = False
     smooth = False
     differentiable = False
-    BESIDE_FILE = (*FROM_FILE, own.RATE, own.START)
-    SETTINGS = (*FROM_FILE, DEVICE, own.RATE, own.START, *own.OF_DEVICE)
+    BESIDE_FILE = (*FROM_FILE, scanners.RATE, scanners.START)
+    SETTINGS = (*FROM_FILE, DEVICE, scanners.RATE, scanners.START, *scanners.OF_DEVICE)
     FORMULA = (
         Step("Azimuth of the column and the row, clockwise", "a = start + (columns x/W - 1/2) step + azimuth"),
         Step("Elevation, linear between the beams", "e = elevation"),
@@ -74,31 +74,31 @@ class Scanner(Model):
         """
         device = DEVICES.get(DEVICE.read(raw))
         if device is not None:
-            given = {one.name: one.default for one in own.OF_DEVICE} | device.settings
-            raw = replace(raw, settings={**raw.settings, **given})
-        elevations = np.radians(own.ELEVATIONS.read(raw))
+            values = {setting.name: setting.default for setting in scanners.OF_DEVICE} | device.settings
+            raw = replace(raw, settings={**raw.settings, **values})
+        elevations = np.radians(scanners.ELEVATIONS.read(raw))
         if not len(elevations):
-            elevations = np.linspace(own.LOW.read(raw), own.HIGH.read(raw), raster.height)
-        rate, sweep = own.RATE.read(raw), own.SWEEP.read(raw)
-        period, columns = MICRO * own.PERIOD.read(raw), int(own.COLUMNS.read(raw)) or raster.width
+            elevations = np.linspace(scanners.LOW.read(raw), scanners.HIGH.read(raw), raster.height)
+        rate, sweep = scanners.RATE.read(raw), scanners.SWEEP.read(raw)
+        period, columns = MICRO * scanners.PERIOD.read(raw), int(scanners.COLUMNS.read(raw)) or raster.width
         if period:
             columns = int(1 / (rate * period) + 1e-9)  # what fits in but for rounding
             if not columns:
-                raise own.PERIOD.refusal(raw, "longer than a sweep", f"up to {1e6 / rate:.6g} microseconds")
+                raise scanners.PERIOD.refusal(raw, "longer than a sweep", f"up to {1e6 / rate:.6g} microseconds")
         else:
             period = 1 / (rate * columns)
-        speed = sweep * rate * (1.0 if own.DIRECTION.read(raw) == own.CLOCKWISE else -1.0)
-        row_time = own.ROW_SHARE.read(raw) * period / len(elevations)
+        speed = sweep * rate * (1.0 if scanners.DIRECTION.read(raw) == scanners.CLOCKWISE else -1.0)
+        row_time = scanners.ROW_SHARE.read(raw) * period / len(elevations)
         beams = Beams.of(raw, elevations, row_time, speed, abs(speed * period))
         if np.abs(beams.delay).max() * rate > 1:
-            raise own.DELAYS.refusal(raw, "longer than a sweep", f"up to {1e6 / rate:.6g} microseconds")
-        limits = own.NEAREST.read(raw), own.FARTHEST.read(raw) or inf
-        return cls(raster.size, beams, own.START.read(raw), speed * period, columns, period, limits, device)
+            raise scanners.DELAYS.refusal(raw, "longer than a sweep", f"up to {1e6 / rate:.6g} microseconds")
+        limits = scanners.NEAREST.read(raw), scanners.FARTHEST.read(raw) or inf
+        return cls(raster.size, beams, scanners.START.read(raw), speed * period, columns, period, limits, device)
 
     @property
     def central(self) -> bool:  # type: ignore[override]
         """See Model: unless a beam has an origin of its own."""
-        return not self.beams.place.any()
+        return not self.beams.offsets.any()
 
     @property
     def limits(self) -> tuple[float, float]:
@@ -170,9 +170,9 @@ class Scanner(Model):
         middle = (up.min() + up.max()) / 2
         beside = np.sqrt(ahead * ahead + right * right + (up - middle) ** 2).max()
         (left, right), elevations = longitude_latitude(centers - (0.0, middle, 0.0), radii + beside)
-        low, high, least, most = self.beams.covering(*elevations)
+        low, high, least, greatest = self.beams.covering(*elevations)
         ends = sorted((self.start - self.step / 2, self.start + (self.columns - 0.5) * self.step))
-        heads = turned((left - most, right - least), ends, FULL_TURN)
+        heads = turned((left - greatest, right - least), ends, FULL_TURN)
         heads = heads if self.step > 0 else heads[::-1]
         x0, x1 = (((head - self.start) / self.step + 0.5) / self._across for head in heads)
         margin_x, margin_y = MARGIN / min(1.0, self._across), MARGIN / min(1.0, self._down)
@@ -191,7 +191,7 @@ class Scanner(Model):
 
     def formula_rounding(self, x, y):
         """See Model: that of the origin's parts, which may cancel."""
-        return gamma(32) * float(np.abs(self.beams.place).max()), 0.0
+        return gamma(32) * float(np.abs(self.beams.offsets).max()), 0.0
 
     @lazy
     def _across(self) -> float:

@@ -89,13 +89,13 @@ class Strip(Model):
 
     def formula_values(self, x, y):
         """See Model: the stretch of the path on which the column is."""
-        k, found = self._stretch(x), dict[str, Any]()
+        k, values = self._stretch(x), dict[str, Any]()
         for end, at in (("A", k), ("B", k + 1)):
             column, *eye, normal_x, normal_z = (
                 plain(look_up(table, at)) for table in (self.columns, *self.eyes.T, *self.normals.T)
             )
-            found |= {f"x_{end}": column, end: vector(*eye), f"n_{end}": vector(normal_x, 0.0, normal_z)}
-        return found
+            values |= {f"x_{end}": column, end: vector(*eye), f"n_{end}": vector(normal_x, 0.0, normal_z)}
+        return values
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Strip:
@@ -141,10 +141,10 @@ class Strip(Model):
         points = np.asarray(points, np.float64)
         x, least = np.full(points.shape[:-1], np.nan), np.full(points.shape[:-1], np.inf)
         for k in reversed(range(len(self.columns) - 1)):
-            part, beyond = self._first_on_stretch(points, k)
-            seen = ~np.isnan(part) & (beyond <= least)
+            share, beyond = self._first_on_stretch(points, k)
+            seen = ~np.isnan(share) & (beyond <= least)
             least[seen] = beyond[seen]
-            x[seen] = self.columns[k] + part[seen] * (self.columns[k + 1] - self.columns[k])
+            x[seen] = self.columns[k] + share[seen] * (self.columns[k + 1] - self.columns[k])
         eye, ahead_x, ahead_z = self._at(x)
         depth = (points[..., 0] - eye[0]) * ahead_x + (points[..., 2] - eye[2]) * ahead_z
         slope = (points[..., 1] - eye[1]) / np.where(depth > 0, depth, np.nan)
@@ -193,9 +193,9 @@ class Strip(Model):
         """Return the eye and the horizontal unit direction (x, z) of columns; NaN beyond the path."""
         k = self._stretch(x)
         start = look_up(self.columns, k)
-        part = (x - start) / (look_up(self.columns, k + 1) - start)
-        part = np.where((x >= 0) & (x <= self.columns[-1]), part, np.nan)
-        between = lambda c: look_up(c, k) + part * (look_up(c, k + 1) - look_up(c, k))  # noqa: E731
+        share = (x - start) / (look_up(self.columns, k + 1) - start)
+        share = np.where((x >= 0) & (x <= self.columns[-1]), share, np.nan)
+        between = lambda c: look_up(c, k) + share * (look_up(c, k + 1) - look_up(c, k))  # noqa: E731
         eye = tuple(between(c) for c in self.eyes.T)
         normal_x, normal_z = (between(c) for c in self.normals.T)
         size = np.hypot(normal_x, normal_z)
@@ -212,14 +212,14 @@ class Strip(Model):
         first, beyond = np.full(points.shape[:-1], np.nan), np.full(points.shape[:-1], np.inf)
         with np.errstate(invalid="ignore", divide="ignore"):  # no root, or a root at infinity: NaN and inf are valid
             root = -(b + np.copysign(np.sqrt(b * b - 4 * a * c), b)) / 2
-            for place in (root / a, c / root):
-                free, place = place, np.clip(place, 0.0, 1.0)
-                off = np.abs(free - place)
-                beside_x, _, beside_z = components(points - (eye + place[..., None] * step))
-                ahead = (normal[1] + place * turn[1]) * beside_x - (normal[0] + place * turn[0]) * beside_z
-                lower = (off < beyond) | ((off == beyond) & (place < first))
+            for share in (root / a, c / root):
+                free, share = share, np.clip(share, 0.0, 1.0)
+                off = np.abs(free - share)
+                beside_x, _, beside_z = components(points - (eye + share[..., None] * step))
+                ahead = (normal[1] + share * turn[1]) * beside_x - (normal[0] + share * turn[0]) * beside_z
+                lower = (off < beyond) | ((off == beyond) & (share < first))
                 better = (off <= BESIDE) & (ahead > 0) & lower
-                first, beyond = np.where(better, place, first), np.where(better, off, beyond)
+                first, beyond = np.where(better, share, first), np.where(better, off, beyond)
         return first, beyond
 
 

@@ -41,14 +41,14 @@ class AffineWindow(Window):
         xx, xy, yx, yy = self._inverse
         terms = (_times(interval_x, xx), _times(interval_y, xy)), (_times(interval_x, yx), _times(interval_y, yy))
         return tuple(
-            (center + one[0] + other[0], center + one[1] + other[1])
-            for center, (one, other) in zip((self.center_x, self.center_y), terms, strict=True)
+            (center + from_x[0] + from_y[0], center + from_x[1] + from_y[1])
+            for center, (from_x, from_y) in zip((self.center_x, self.center_y), terms, strict=True)
         )
 
     def rounding(self, x, y, frame):
         """See Window."""
-        xx, xy, yx, yy = (abs(part) for part in self._inverse)
-        across, up = (part * 4 / 3 for part in super().rounding(x, y, frame))  # of eight operations, not six
+        xx, xy, yx, yy = (abs(entry) for entry in self._inverse)
+        across, up = (shift * 4 / 3 for shift in super().rounding(x, y, frame))  # of eight operations, not six
         plane_x = across * abs(self.pitch_x) + up * abs(self.shear_x)
         plane_y = across * abs(self.shear_y) + up * abs(self.pitch_y)
         return plane_x * xx + plane_y * xy, plane_x * yx + plane_y * yy

@@ -38,7 +38,7 @@ class Beams:
     """Ascending, radians."""
     azimuth: np.ndarray
     """Clockwise from the head's when the column begins to the beam's when it fires, radians."""
-    place: np.ndarray
+    offsets: np.ndarray
     """(b, 3): origins ahead, to the right and up, in the azimuth of the beam."""
     delay: np.ndarray
     """Seconds from the column's begin until the beam fires."""
@@ -64,11 +64,11 @@ class Beams:
                 f"{np.degrees(highest):.6g} degrees: they must differ, between -90 and 90"
             )
         delay = MICRO * delay + row_time * np.arange(count)
-        place = np.stack((ahead, right, up), axis=1)
+        positions = np.stack((ahead, right, up), axis=1)
         azimuth = np.radians(azimuth)
         if delay.any():
             azimuth = azimuth + speed * delay
-        return cls(elevations[order], azimuth, place, delay, _rings(elevations)[order], height)
+        return cls(elevations[order], azimuth, positions, delay, _rings(elevations)[order], height)
 
     def __len__(self) -> int:
         return len(self.elevation)
@@ -76,10 +76,10 @@ class Beams:
     def between(self, row):
         """Return elevation, azimuth, and origin ahead, to the right and up at places in the rows."""
         beam = np.searchsorted(np.arange(1.5, len(self)), row, side="right")
-        part = row - (beam + 0.5)
+        share = row - (beam + 0.5)
         return [
-            look_up(own, beam) + part * look_up(step, beam) if step.any() else look_up(own, beam)
-            for own, step in zip(self.numbers, self.steps, strict=True)
+            look_up(values, beam) + share * look_up(step, beam) if step.any() else look_up(values, beam)
+            for values, step in zip(self.numbers, self.steps, strict=True)
         ]
 
     def towards(self, across: np.ndarray, up: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -89,8 +89,8 @@ class Beams:
 
         Where all beams have one origin, the place is linear in the elevation; else Newton's method finds it.
         """
-        beam, part, last = np.zeros(across.shape, int), np.zeros(across.shape), len(self) - 1
-        is_linear = not np.ptp(self.place, axis=0).any()
+        beam, share, last = np.zeros(across.shape, int), np.zeros(across.shape), len(self) - 1
+        is_linear = not np.ptp(self.offsets, axis=0).any()
         if is_linear:
             seen = self._looks(0, 0.0, across, up)[0] + self.elevation[0]
             beam = np.maximum(np.searchsorted(self.elevation, seen, side="right") - 1, 0)
@@ -99,18 +99,18 @@ class Beams:
                 beam[self._looks(k, 0.0, across, up)[0] >= 0] = k
         low, high = np.where(beam == 0, -np.inf, 0.0), np.where(beam == last, np.inf, 1.0)
         for _ in range(1 if is_linear else STEPS):
-            above, slope, _ = self._looks(beam, part, across, up)
-            part = np.clip(part - above / slope, low, high)
-        above, slope, past = self._looks(beam, part, across, up)
+            above, slope, _ = self._looks(beam, share, across, up)
+            share = np.clip(share - above / slope, low, high)
+        above, slope, past = self._looks(beam, share, across, up)
         met = np.abs(above) <= MISSED * np.abs(slope)
-        return np.where(met, beam + 0.5 + part, np.nan), past + self.azimuth[beam] + part * self.steps[1][beam]
+        return np.where(met, beam + 0.5 + share, np.nan), past + self.azimuth[beam] + share * self.steps[1][beam]
 
-    def _looks(self, beam, part, across, up):
+    def _looks(self, beam, share, across, up):
         """Return the elevation of points beside that of the ray that passes them at a place between two beams, its
         derivative by that place, and the azimuth of the points beside the ray's.
         """
         steps = [step[beam] for step in self.steps]
-        numbers = [own[beam] + part * step for own, step in zip(self.numbers, steps, strict=True)]
+        numbers = [values[beam] + share * step for values, step in zip(self.numbers, steps, strict=True)]
         elevation, _, ahead, right, high = numbers
         way = np.sqrt(np.where(across >= np.abs(right), (across - right) * (across + right), np.nan))
         length, rise = way - ahead, up - high
@@ -134,14 +134,14 @@ class Beams:
     @lazy
     def numbers(self) -> tuple[np.ndarray, ...]:
         """Elevation, azimuth, and origin ahead, to the right and up, (b,) each."""
-        return self.elevation, self.azimuth, *self.place.T.copy()
+        return self.elevation, self.azimuth, *self.offsets.T.copy()
 
     @lazy
     def steps(self) -> tuple[np.ndarray, ...]:
         """What ``numbers`` change by from each beam to the next, and from the last as from the one before it."""
         if len(self) == 1:
             return np.array([self.height]), *(np.zeros(1) for _ in range(4))
-        steps = [np.diff(np.append(own, 2 * own[-1] - own[-2])) for own in self.numbers]
+        steps = [np.diff(np.append(values, 2 * values[-1] - values[-2])) for values in self.numbers]
         steps[0][-1] = steps[0][-1] or steps[0].max()  # the two highest may look at one elevation
         return tuple(steps)
 
@@ -149,8 +149,8 @@ class Beams:
     def ends(self) -> tuple[np.ndarray, ...]:
         """``numbers`` with those of the lower and the upper edge of the frame, (b + 2,) each."""
         return tuple(
-            np.concatenate((own[:1] - step[:1] / 2, own, own[-1:] + step[-1:] / 2))
-            for own, step in zip(self.numbers, self.steps, strict=True)
+            np.concatenate((values[:1] - step[:1] / 2, values, values[-1:] + step[-1:] / 2))
+            for values, step in zip(self.numbers, self.steps, strict=True)
         )
 
     @lazy

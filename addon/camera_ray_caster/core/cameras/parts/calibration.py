@@ -155,7 +155,9 @@ class Calibration:
                 fx = fy = LENS.read(raw)
         else:
             width, height, cx, cy = (setting.read(raw, high=FARTHEST_PIXELS) for setting in (*SIZE, *CENTER))
-            width, height = (side if side > 0 else own for side, own in zip((width, height), raster.size, strict=True))
+            width, height = (
+                side if side > 0 else pixels for side, pixels in zip((width, height), raster.size, strict=True)
+            )
             scale = raster.width / width, raster.height / height
             center = (cx + 0.5) * scale[0], (height - (cy + 0.5)) * scale[1]
             if SKEW in settings:

@@ -68,7 +68,7 @@ def ouster(altitudes: Sequence[float], azimuths: Sequence[float], radius: float,
 
 
 def _pairs(first: Sequence[float], second: Sequence[float]) -> list[float]:
-    return [value for both in zip(first, second, strict=True) for value in both]
+    return [value for pair in zip(first, second, strict=True) for value in pair]
 
 
 LOWER_16, UPPER_16 = range(-15, 0, 2), range(1, 16, 2)

@@ -18,23 +18,23 @@ def varied_by(function: Callable[..., tuple[float, ...]], *numbers: float) -> tu
     values = function(*map(float, numbers))
     slopes: list[dict[int, float]] = [{} for _ in values]
     count = 0
-    for place, number in enumerate(numbers):
+    for index, number in enumerate(numbers):
         if not isinstance(number, Varied):
             continue
         count = len(number.slopes)
         step = STEP * (abs(float(number)) or 1.0)
         total = [0.0] * len(values)
         for steps, weight in WEIGHTS:
-            moved = [float(other) + (steps * step if k == place else 0.0) for k, other in enumerate(numbers)]
+            moved = [float(other) + (steps * step if k == index else 0.0) for k, other in enumerate(numbers)]
             for k, value in enumerate(function(*moved)):
                 total[k] += weight * value / step
-        for own, by_number in zip(slopes, total, strict=True):
+        for derivatives, by_number in zip(slopes, total, strict=True):
             for parameter, slope in enumerate(number.slopes):
                 if slope is not None:
-                    own[parameter] = own.get(parameter, 0.0) + by_number * slope
+                    derivatives[parameter] = derivatives.get(parameter, 0.0) + by_number * slope
     if not count:
         return values
     return tuple(
-        Varied(value, tuple(own.get(parameter) for parameter in range(count)))
-        for value, own in zip(values, slopes, strict=True)
+        Varied(value, tuple(derivatives.get(parameter) for parameter in range(count)))
+        for value, derivatives in zip(values, slopes, strict=True)
     )

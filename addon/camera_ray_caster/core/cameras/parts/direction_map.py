@@ -76,7 +76,7 @@ class DirectionMap:
         for face in self._faces.values() if large.size else ():
             beside, radius = centers[large], radii[large]
             depth = face.sign * beside[:, face.axis]
-            first, second = (pinhole_interval(beside[:, place], depth, radius) for place in _across(face.axis))
+            first, second = (pinhole_interval(beside[:, axis], depth, radius) for axis in _across(face.axis))
             _look_up(face, large, np.array((first[0], second[0])), np.array((first[1], second[1])), bounds)
         bounds[:, 1::2] *= -1
         bounds[np.isinf(bounds).any(axis=1)] = np.nan
@@ -94,8 +94,8 @@ def _face(axis: int, sign: int, low: np.ndarray, high: np.ndarray, parts: np.nda
     ends = (low[axis], high[axis]) if sign > 0 else (-high[axis], -low[axis])
     near, far = (np.maximum(end, 0.0) for end in ends)
     with np.errstate(all="ignore"):
-        slopes = np.array([(np.where(least < 0, least / near, least / far), np.where(most > 0, most / near, most / far))
-                           for least, most in ((low[k], high[k]) for k in _across(axis))])  # fmt: skip
+        slopes = np.array([(np.where(a < 0, a / near, a / far), np.where(b > 0, b / near, b / far))
+                           for a, b in ((low[k], high[k]) for k in _across(axis))])  # fmt: skip
     slopes = np.where(np.isnan(slopes), np.array((-np.inf, np.inf))[:, None], slopes)
     here = (far > 0) & (slopes[:, 0] <= REACH).all(axis=0) & (slopes[:, 1] >= -REACH).all(axis=0)
     if not here.any():
@@ -106,10 +106,10 @@ def _face(axis: int, sign: int, low: np.ndarray, high: np.ndarray, parts: np.nda
     scale = CELLS / np.maximum(slopes[:, 1].max(axis=1) - start, 1e-6)
     face = CubeFace(axis, sign, start, scale, np.full((FIRST[-1], 4), np.inf, np.float32))
     _, cells = _cells(face, slopes[:, 0], slopes[:, 1])
-    cell, part = np.concatenate(cells), np.tile(parts[here], (len(cells), 1))
+    cell, bounds = np.concatenate(cells), np.tile(parts[here], (len(cells), 1))
     order = np.argsort(cell, kind="stable")
     starts = np.flatnonzero(np.diff(cell[order], prepend=-1))
-    face.parts[cell[order][starts]] = np.minimum.reduceat(part[order], starts, axis=0)
+    face.parts[cell[order][starts]] = np.minimum.reduceat(bounds[order], starts, axis=0)
     levels = [face.parts[first:last].reshape(CELLS >> level, CELLS >> level, 4)
               for level, (first, last) in enumerate(pairwise(FIRST))]  # fmt: skip
     for above, below in pairwise(levels[::-1]):
@@ -129,7 +129,7 @@ def _cells(face: CubeFace, low: np.ndarray, high: np.ndarray) -> tuple[np.ndarra
     level = taken(LEVEL_OF, (last - first).max(axis=0))
     first, last = first >> level, last >> level
     base, wide = taken(FIRST, level), CELLS >> level
-    rows = [base + place * wide for place in (first[0], last[0])]
+    rows = [base + row * wide for row in (first[0], last[0])]
     return here, [row + column for row in rows for column in (first[1], last[1])]
 
 

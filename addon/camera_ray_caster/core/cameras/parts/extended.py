@@ -45,13 +45,13 @@ def extended(values: np.ndarray, known: np.ndarray, degree: int) -> np.ndarray:
         if not len(row):
             break
         total, weight = np.zeros((len(row), values.shape[2])), np.zeros((len(row), 1))
-        most = 1 + (degree if step < BY_CURVE else 1)
+        count = 1 + (degree if step < BY_CURVE else 1)
         for down, right in WAYS:
             places = [(row + k * down, column + k * right) for k in range(1, 5)]
-            order = np.minimum(np.logical_and.accumulate([known[place] for place in places]).sum(axis=0), most)
+            order = np.minimum(np.logical_and.accumulate([known[index] for index in places]).sum(axis=0), count)
             factors = np.take(CONTINUED, order - 1, axis=0)
-            found = sum(values[place] * factor[:, None] for place, factor in zip(places, factors.T, strict=True))
-            total, weight = total + WEIGHTS[order, None] * found, weight + WEIGHTS[order, None]
+            estimate = sum(values[index] * factor[:, None] for index, factor in zip(places, factors.T, strict=True))
+            total, weight = total + WEIGHTS[order, None] * estimate, weight + WEIGHTS[order, None]
         values[row, column], known[row, column] = total / weight, True
     _carry(values, known)
     return values[4:-4, 4:-4]
@@ -82,10 +82,10 @@ def control_points(values: np.ndarray) -> np.ndarray:
 
 def _along_first(values: np.ndarray) -> np.ndarray:
     """Solve the tridiagonal equations along the first axis by Thomas's method; the two ends are values themselves."""
-    found, ratio = values.copy(), np.zeros(len(values))
+    solution, ratio = values.copy(), np.zeros(len(values))
     for i in range(1, len(values) - 1):
         ratio[i] = 1 / (4 - ratio[i - 1])
-        found[i] = (6 * values[i] - found[i - 1]) * ratio[i]
+        solution[i] = (6 * values[i] - solution[i - 1]) * ratio[i]
     for i in range(len(values) - 2, 0, -1):
-        found[i] -= ratio[i] * found[i + 1]
-    return found
+        solution[i] -= ratio[i] * solution[i + 1]
+    return solution

@@ -144,12 +144,12 @@ def farthest_from_one(numbers: dict[str, float]) -> str:
     return f"{name} is {value:.6g}"
 
 
-def check_slope(raw: BlenderCamera, slope: float, numbers: Iterable[Number], most: float = STEEPEST) -> None:
-    """Raise InputError, which names the number that is farthest from 1, for a ray's slope beyond ``most``."""
-    if not slope <= most:
-        said = farthest_from_one({one.name: one.read(raw) for one in (*numbers, *SHIFT)})
+def check_slope(raw: BlenderCamera, slope: float, numbers: Iterable[Number], limit: float = STEEPEST) -> None:
+    """Raise InputError, which names the number that is farthest from 1, for a ray's slope beyond ``limit``."""
+    if not slope <= limit:
+        cause = farthest_from_one({number.name: number.read(raw) for number in (*numbers, *SHIFT)})
         raise InputError(
-            f"the frame of camera {raw.name!r} looks along the image plane, to {slope:.3g} times the depth: {said}, "
+            f"the frame of camera {raw.name!r} looks along the image plane, to {slope:.3g} times the depth: {cause}, "
             "too large or too small for the rest"
         )
 
@@ -276,8 +276,8 @@ class Window:
         """
         places = (x, self.center_x, frame[0] / 2), (y, self.center_y, frame[1] / 2)
         across, up = (
-            gamma(6) * np.abs(place - center) + gamma(3) * (abs(center) if center != middle else 0.0)
-            for place, center, middle in places
+            gamma(6) * np.abs(coordinate - center) + gamma(3) * (abs(center) if center != middle else 0.0)
+            for coordinate, center, middle in places
         )
         return across, up
 
@@ -292,4 +292,4 @@ class Window:
     def pixel_intervals(self, interval_x, interval_y):
         """Return the intervals in x and in y that hold the pixels of all points of the intervals on the plane."""
         ends = zip(*(self.pixels_from_plane(*end) for end in zip(interval_x, interval_y, strict=True)), strict=True)
-        return tuple((np.minimum(one, other), np.maximum(one, other)) for one, other in ends)
+        return tuple((np.minimum(first, second), np.maximum(first, second)) for first, second in ends)

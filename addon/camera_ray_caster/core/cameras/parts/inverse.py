@@ -49,21 +49,21 @@ def pixels_of(rays: Callable, frame: tuple[int, int], points, start=None) -> np.
     flat = points.reshape(-1, 3)
     starts = None if start is None else np.asarray(start, np.float64).reshape(-1, 1, 2)
     parts = [slice(first, first + AT_ONCE) for first in range(0, len(flat), AT_ONCE)]
-    found = [_sought(rays, frame, flat[part], None if starts is None else starts[part]) for part in parts]
-    return np.concatenate([np.zeros((0, 2)), *found]).reshape(*points.shape[:-1], 2)
+    pixels = [_sought(rays, frame, flat[block], None if starts is None else starts[block]) for block in parts]
+    return np.concatenate([np.zeros((0, 2)), *pixels]).reshape(*points.shape[:-1], 2)
 
 
 def _sought(rays, frame, points, start) -> np.ndarray:
     """Return the pixels (n, 2) of points (n, 3), sought from ``start``: pixels (n, k, 2), or None for the lattice."""
     with np.errstate(all="ignore"):  # NaN and inf are valid results: no ray
         start = _starts(rays, frame, points) if start is None else start
-        place = np.repeat(points[:, None], start.shape[1], axis=1)
-        off, limit = _off(rays, start, place)
+        targets = np.repeat(points[:, None], start.shape[1], axis=1)
+        off, limit = _off(rays, start, targets)
         for _ in range(STEPS):
-            step = _step(rays, start, place, off)
+            step = _step(rays, start, targets, off)
             share = np.where(np.isfinite(step).all(axis=-1), 1.0, 0.0)[..., None]
             for _ in range(HALVINGS):
-                near, _ = _off(rays, start - share * step, place)
+                near, _ = _off(rays, start - share * step, targets)
                 worse = ~(_length(near) < _length(off))
                 if not worse.any():
                     break
@@ -73,7 +73,7 @@ def _sought(rays, frame, points, start) -> np.ndarray:
             start, off = start - moved, np.where(better, near, off)
             if not (_length(moved) > 2 * EPS * _length(start)).any():
                 break
-        limit = _off(rays, start, place)[1]
+        limit = _off(rays, start, targets)[1]
         middle = np.array(frame) / 2
         away = np.where(_length(off) <= limit, _length(start - middle), np.inf)
         best = np.argmin(away, axis=1)[:, None]
@@ -99,7 +99,7 @@ def _off(rays, pixels, points):
     origin, direction = rays(pixels[..., 0], pixels[..., 1])
     shape = pixels.shape[:-1]
     origin, direction = (
-        np.stack([np.broadcast_to(part, shape) for part in vector], axis=-1) for vector in (origin, direction)
+        np.stack([np.broadcast_to(component, shape) for component in vector], axis=-1) for vector in (origin, direction)
     )
     towards = points - origin
     distance = _length(towards)[..., None]
@@ -113,9 +113,9 @@ def _step(rays, pixels, points, off):
     slopes = []
     for axis in np.eye(2):
         ahead, behind = (_off(rays, pixels + side * STEP * axis, points)[0] for side in (1, -1))
-        both = (ahead - behind) / (2 * STEP)
-        one = np.where(np.isnan(ahead), off - behind, ahead - off) / STEP  # at the rim only one side has rays
-        slopes.append(np.where(np.isnan(both), one, both))
+        central = (ahead - behind) / (2 * STEP)
+        one_sided = np.where(np.isnan(ahead), off - behind, ahead - off) / STEP  # at the rim only one side has rays
+        slopes.append(np.where(np.isnan(central), one_sided, central))
     (a, b), d = ([_dot(slope, slopes[0]) for slope in slopes]), _dot(slopes[1], slopes[1])
     right = [_dot(slope, off) for slope in slopes]
     volume = a * d - b * b

@@ -43,14 +43,14 @@ def points_in_camera(raw: BlenderCamera, line: Line, choose: str) -> np.ndarray:
     Raises InputError if there is no object (the message asks to choose ``choose``), and for an object whose place is
     not finite or too far away for its size.
     """
-    given: Any = line.given(raw)
-    if given is None:
+    line_data: Any = line.given(raw)
+    if line_data is None:
         raise InputError(
             f"{line.name} of camera {raw.name!r} is not set, or its object is deleted or disabled: choose {choose} "
             "that is in the view layer (to make a line invisible, hide it with H)"
         )
     pose = pose_from(raw)
-    points, matrix = (np.asarray(part, np.float64) for part in given[:2])
+    points, matrix = (np.asarray(array, np.float64) for array in line_data[:2])
     if not (np.isfinite(points).all() and np.isfinite(matrix).all()):
         raise InputError(f"{line.name} of camera {raw.name!r} has no finite place: clear its object's transform")
     points, away = points @ matrix[:3, :3].T, matrix[:3, 3] - pose.eye
@@ -98,8 +98,8 @@ def path_from(raw: BlenderCamera, path: Line) -> tuple[np.ndarray, bool]:
     The path is the chain of edges from the first point on. Raises InputError if it has no length.
     """
     points = points_in_camera(raw, path, "a curve")
-    given: Any = path.given(raw)
-    edges = {tuple(edge) for edge in np.asarray(given[2]).reshape(-1, 2).tolist()}
+    path_data: Any = path.given(raw)
+    edges = {tuple(edge) for edge in np.asarray(path_data[2]).reshape(-1, 2).tolist()}
     last = 0
     while (last, last + 1) in edges:
         last += 1

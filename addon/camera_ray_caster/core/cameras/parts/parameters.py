@@ -26,9 +26,8 @@ def parameters_of(settings: Iterable[Setting], raw: BlenderCamera) -> dict[str, 
 
 def varied(settings: Iterable[Setting], raw: BlenderCamera, names: Sequence[str]) -> BlenderCamera:
     """Return the record in which the parameters of these names are varied numbers, by themselves in this order."""
-    place = {name: place for place, name in enumerate(names)}
     numbers = (
-        Varied(number, tuple(1.0 if k == place[name] else None for k in range(len(names)))) if name in place else number
+        Varied(number, tuple(1.0 if name == k else None for k in names)) if name in names else number
         for name, number in parameters_of(settings, raw).items()
     )
     return with_parameters(settings, raw, numbers)
@@ -36,14 +35,14 @@ def varied(settings: Iterable[Setting], raw: BlenderCamera, names: Sequence[str]
 
 def with_parameters(settings: Iterable[Setting], raw: BlenderCamera, numbers: Iterable[float]) -> BlenderCamera:
     """Return the record with these numbers in place of those of ``parameters_of``."""
-    rest = iter(numbers)
+    remaining = iter(numbers)
     fields: dict[str, Any] = {}
-    others: dict[str, Any] = {}
+    in_settings: dict[str, Any] = {}
     for setting in settings:
-        own = tuple(next(rest) for _ in _named(setting, raw))
-        if own:
-            (fields if setting.name in RECORD_FIELDS else others)[setting.name] = _value(setting, own)
-    return replace(raw, **fields, settings={**raw.settings, **others})
+        values = tuple(next(remaining) for _ in _named(setting, raw))
+        if values:
+            (fields if setting.name in RECORD_FIELDS else in_settings)[setting.name] = _value(setting, values)
+    return replace(raw, **fields, settings={**raw.settings, **in_settings})
 
 
 def _named(setting: Setting, raw: BlenderCamera) -> dict[str, float]:
@@ -51,7 +50,7 @@ def _named(setting: Setting, raw: BlenderCamera) -> dict[str, float]:
         return {} if isinstance(setting, Whole) else {setting.name: float(setting.given(raw))}
     several = setting.numbers(raw) if isinstance(setting, Coefficients) else ()
     several = setting.given(raw) if isinstance(setting, Numbers) else several
-    return {f"{setting.name}[{place}]": float(number) for place, number in enumerate(several)}
+    return {f"{setting.name}[{index}]": float(number) for index, number in enumerate(several)}
 
 
 def _value(setting: Setting, numbers: tuple[float, ...]) -> Any:

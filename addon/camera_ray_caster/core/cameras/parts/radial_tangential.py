@@ -60,7 +60,7 @@ class RadialTangential:
     @property
     def bends(self) -> bool:
         """Whether there is any distortion."""
-        return any(getattr(self, one.name) for one in fields(self))
+        return any(getattr(self, coefficient.name) for coefficient in fields(self))
 
     def gain(self, r_squared):
         """Return g and its derivative by r^2."""
@@ -78,8 +78,8 @@ class RadialTangential:
         """
         s, k = r_squared, self
         terms = ((k.k1, k.k2, k.k3, k.r8), (k.k4, k.k5, k.k6))
-        parts = (((1.0, *own), (1.0, *map(abs, own))) for own in terms)
-        return sum(horner(s, larger) / np.abs(horner(s, own)) for own, larger in parts)
+        parts = (((1.0, *coefficients), (1.0, *map(abs, coefficients))) for coefficients in terms)
+        return sum(horner(s, larger) / np.abs(horner(s, coefficients)) for coefficients, larger in parts)
 
     def distort(self, x, y):
         """Return the distorted coordinates (x', y') of undistorted ones."""
@@ -139,8 +139,8 @@ class RadialTangential:
         if self.limit == inf:
             return Edge.circle(inf)
         second = self.limit * abs(self.gain(self.limit**2)[0]) + 8 * self.limit**2 * hypot(self.p1, self.p2)
-        own = Edge.around(lambda x, y: self.distort(self.limit * x, self.limit * y), second)
-        return own or Edge.circle(self.farthest(self.limit))
+        curve = Edge.around(lambda x, y: self.distort(self.limit * x, self.limit * y), second)
+        return curve or Edge.circle(self.farthest(self.limit))
 
     @cached_property
     def _radius(self):
@@ -160,7 +160,7 @@ class RadialTangential:
         distorted radius, times the inverse of the Jacobian.
         """
         if not self.bends:
-            return tuple(np.array(part) for part in np.broadcast_arrays(u, v))
+            return tuple(np.array(coordinate) for coordinate in np.broadcast_arrays(u, v))
         u, v = np.broadcast_arrays(u, v)
         radial = not any((self.p1, self.p2, self.s1, self.s2, self.s3, self.s4))
         if is_recorded(u, v) and not radial:
@@ -227,8 +227,8 @@ class RadialTangential:
         x, y = np.zeros_like(u), np.zeros_like(v)
         with np.errstate(over="ignore", invalid="ignore"):
             x, y, _, *off, _, _ = loop(step, (x, y, np.ones_like(u), *self._off(x, y, u, v), u, v), STEPS)
-            found = np.hypot(*off) <= 4 * goal(x, y, u, v)
-        return np.where(found, x, np.nan), np.where(found, y, np.nan)
+            converged = np.hypot(*off) <= 4 * goal(x, y, u, v)
+        return np.where(converged, x, np.nan), np.where(converged, y, np.nan)
 
     def _off(self, x, y, u, v):
         there = self.distort(x, y)

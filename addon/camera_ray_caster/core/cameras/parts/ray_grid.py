@@ -143,22 +143,22 @@ class RayGrid:
             if min(known.shape) < 2 or not known.any():
                 continue
             row, column = (np.arange(side) / 2 - first / 2 for side in self.shape)
-            found = between(nodes_of(half, known, self.kind), row[:, None], column, self.kind)
-            near = known[np.ix_(*(np.clip(np.floor(place + 0.5).astype(int), 0, side - 1)
-                                  for place, side in zip((row, column), known.shape, strict=True)))]  # fmt: skip
-            worst.append(self._off(found, near & self.known))
+            interpolated = between(nodes_of(half, known, self.kind), row[:, None], column, self.kind)
+            near = known[np.ix_(*(np.clip(np.floor(positions + 0.5).astype(int), 0, side - 1)
+                                  for positions, side in zip((row, column), known.shape, strict=True)))]  # fmt: skip
+            worst.append(self._off(interpolated, near & self.known))
         order = 2 if self.kind == LINEAR else 4
         angle, distance = np.max(worst, axis=0) / 2**order
         return float(angle), float(distance)
 
-    def _off(self, found: np.ndarray, counts: np.ndarray) -> tuple[float, float]:
+    def _off(self, rays: np.ndarray, counts: np.ndarray) -> tuple[float, float]:
         """Return the largest angle between the table's directions and others, and distance of its origins."""
         if not counts.any():
             return 0.0, 0.0
-        found, own = found[counts], self.values[counts]
-        ahead = found[:, :3] / np.linalg.norm(found[:, :3], axis=1, keepdims=True)
-        angle = 2 * np.arcsin(np.minimum(np.linalg.norm(ahead - own[:, :3], axis=1) / 2, 1))
-        return angle.max(), np.linalg.norm(found[:, 3:] - own[:, 3:], axis=1).max(initial=0.0)
+        rays, entries = rays[counts], self.values[counts]
+        ahead = rays[:, :3] / np.linalg.norm(rays[:, :3], axis=1, keepdims=True)
+        angle = 2 * np.arcsin(np.minimum(np.linalg.norm(ahead - entries[:, :3], axis=1) / 2, 1))
+        return angle.max(), np.linalg.norm(rays[:, 3:] - entries[:, 3:], axis=1).max(initial=0.0)
 
     @lazy
     def seen_parts(self) -> SeenParts:
@@ -180,8 +180,8 @@ class RayGrid:
             scales.append(0.5**finer)
             nodes, known = nodes.swapaxes(0, 1), (known[1:] | known[:-1]).repeat(1 << finer, axis=0).swapaxes(0, 1)
         low, high = (_blocks(end, nodes, known, places) for end in (np.fmin, np.fmax))
-        v, u = (np.stack((place[:-1], place[1:]), axis=1) * scale - 1
-                for place, scale in zip(places, scales, strict=True))  # fmt: skip
+        v, u = (np.stack((ends[:-1], ends[1:]), axis=1) * scale - 1
+                for ends, scale in zip(places, scales, strict=True))  # fmt: skip
         return SeenParts(low, high, np.concatenate(np.broadcast_arrays(u[None], v[:, None]), axis=2))
 
 
@@ -205,14 +205,14 @@ def _finer(nodes: np.ndarray, kind: str) -> np.ndarray:
 
 def _blocks(end: np.ufunc, nodes: np.ndarray, known: np.ndarray, places: list[np.ndarray]) -> np.ndarray:
     """Return the least or largest components of what blocks of cells read; NaN for blocks without rays."""
-    for axis, place in enumerate(places):
+    for axis, starts in enumerate(places):
         turned = nodes.swapaxes(0, axis)
-        width = len(turned) - place[-1] + 1
+        width = len(turned) - starts[-1] + 1
         turned = end.reduce([turned[k : len(turned) - width + 1 + k] for k in range(width)])
         nodes = turned.swapaxes(0, axis)
     nodes = np.where(known[..., None], nodes, np.nan)
-    for axis, place in enumerate(places):
-        nodes = end.reduceat(nodes, place[:-1], axis=axis)
+    for axis, starts in enumerate(places):
+        nodes = end.reduceat(nodes, starts[:-1], axis=axis)
     return nodes
 
 
@@ -226,10 +226,10 @@ def weights_of(t, kind: str) -> tuple:
 
 def between(nodes: np.ndarray, row: np.ndarray, column: np.ndarray, kind: str) -> np.ndarray:
     """Return the interpolated vectors (rows, columns, k) of ``nodes_of`` at places (rows, 1) and (columns,)."""
-    for place in (row[:, 0], column):
-        cell = np.floor(place).astype(int)
+    for positions in (row[:, 0], column):
+        cell = np.floor(positions).astype(int)
         first = cell + AROUND - (kind != LINEAR)
-        weights = weights_of(place - cell, kind)
+        weights = weights_of(positions - cell, kind)
         nodes = sum(nodes[first + k] * weight[:, None, None] for k, weight in enumerate(weights)).swapaxes(0, 1)
     return nodes
 
@@ -238,8 +238,8 @@ def _check_neighbors(directions: np.ndarray, origins: np.ndarray | None) -> None
     """Raise InputError for neighbors more than 90 degrees apart, and if the table folds: if the rays of some of its
     cells turn the other way round than those of most.
     """
-    for one, other in ((directions[:-1], directions[1:]), (directions[:, :-1], directions[:, 1:])):
-        _refuse((one * other).sum(axis=2) < 0, "is more than 90 degrees away from its neighbor's ray: give a finer "
+    for first, second in ((directions[:-1], directions[1:]), (directions[:, :-1], directions[:, 1:])):
+        _refuse((first * second).sum(axis=2) < 0, "is more than 90 degrees away from its neighbor's ray: give a finer "
                 "table, or NaN between parts of the picture that do not belong together")  # fmt: skip
     ways = _turns(directions, directions)
     if not any(way.any() for way in ways) and origins is not None:  # the rays are parallel

@@ -40,46 +40,46 @@ def places_of(grid: RayGrid, points: np.ndarray) -> np.ndarray:
     """Return the places u, v (n, 2) in entries whose rays pass through points (n, 3); NaN where none was found. A place
     may be in a hole of the table or beyond it. If several rays pass through a point, it is one of them.
     """
-    found, starts = np.full((len(points), 2), np.nan), _Starts(grid)
+    places, starts = np.full((len(points), 2), np.nan), _Starts(grid)
     for first in range(0, len(points), AT_ONCE):
-        part = points[first : first + AT_ONCE]
-        own = found[first : first + AT_ONCE]
-        near = starts.nearest(part)
-        own[:] = _search(grid, part, near[0])
+        block = points[first : first + AT_ONCE]
+        block_places = places[first : first + AT_ONCE]
+        near = starts.nearest(block)
+        block_places[:] = _search(grid, block, near[0])
         for start in near[1:TRIES]:
-            lost = np.flatnonzero(np.isnan(own[:, 0]))
-            lost = lost[~np.isnan(grid.seen_parts.bounds(part[lost], np.zeros(len(lost)))[:, 0])]
+            lost = np.flatnonzero(np.isnan(block_places[:, 0]))
+            lost = lost[~np.isnan(grid.seen_parts.bounds(block[lost], np.zeros(len(lost)))[:, 0])]
             if not len(lost):
                 break
-            own[lost] = _search(grid, part[lost], start[lost])
-    return found
+            block_places[lost] = _search(grid, block[lost], start[lost])
+    return places
 
 
-def _search(grid: RayGrid, points: np.ndarray, place: np.ndarray) -> np.ndarray:
+def _search(grid: RayGrid, points: np.ndarray, places: np.ndarray) -> np.ndarray:
     active, ends = np.arange(len(points)), np.array(grid.shape[::-1], np.float64)
     for count in range(STEPS):
-        beside, step, _ = _missed(grid, points[active], place[active])
+        beside, step, _ = _missed(grid, points[active], places[active])
         size = np.abs(step).max(axis=1)
         step *= np.minimum(1.0, np.maximum(ends.max() / STARTS, 1.0) / size)[:, None]
         step = np.where(np.isfinite(step), step, 0.0)
-        moved = np.clip(place[active] + (step if count < FULL else step / 2), -1.0, ends)
-        still = np.abs(moved - place[active]).max(axis=1) <= 2 * EPS * ends.max()
-        place[active] = moved
+        moved = np.clip(places[active] + (step if count < FULL else step / 2), -1.0, ends)
+        still = np.abs(moved - places[active]).max(axis=1) <= 2 * EPS * ends.max()
+        places[active] = moved
         active = active[~still]
         if not len(active):
             break
-    beside, _, missed = _missed(grid, points, place)
+    beside, _, missed = _missed(grid, points, places)
     reach = np.sqrt((points * points).sum(axis=1)) + grid.farthest
     distance = np.sqrt((beside * beside).sum(axis=1))
-    return np.where((missed <= SLACK * EPS * (distance + reach))[:, None], place, np.nan)
+    return np.where((missed <= SLACK * EPS * (distance + reach))[:, None], places, np.nan)
 
 
-def _missed(grid: RayGrid, points: np.ndarray, place: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _missed(grid: RayGrid, points: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the way (n, 3) from the rays' origins to points, Newton's steps (n, 2), and the distance (n,) by which the
     rays miss the points; infinity for points behind the origins.
     """
-    value, by_u, by_v = _derivatives(grid, place)
-    m, m_u, m_v = (part[:, :3] for part in (value, by_u, by_v))
+    value, by_u, by_v = _derivatives(grid, places)
+    m, m_u, m_v = (values[:, :3] for values in (value, by_u, by_v))
     beside = points if grid.origins is None else points - value[:, 3:]
     t = (_dot(beside, m) / _dot(m, m))[:, None]
     r = beside - t * m
@@ -91,15 +91,15 @@ def _missed(grid: RayGrid, points: np.ndarray, place: np.ndarray) -> tuple[np.nd
     return beside, step, np.where(t[:, 0] > 0, np.sqrt(_dot(r, r)), np.inf)
 
 
-def _derivatives(grid: RayGrid, place: np.ndarray) -> list[np.ndarray]:
+def _derivatives(grid: RayGrid, places: np.ndarray) -> list[np.ndarray]:
     """Return the interpolated vectors at places (n, 2), and their derivatives by u and by v, each (n, 3 or 6)."""
-    cell = np.clip(np.floor(place), -1, np.array(grid.shape[::-1]) - 1)
-    (across, across_by), (up, up_by) = (_weights(place[:, k] - cell[:, k], grid.kind) for k in (0, 1))
+    cell = np.clip(np.floor(places), -1, np.array(grid.shape[::-1]) - 1)
+    (across, across_by), (up, up_by) = (_weights(places[:, k] - cell[:, k], grid.kind) for k in (0, 1))
     first, taps = cell.astype(np.intp) + AROUND - (grid.kind != LINEAR), np.arange(across.shape[1])
     read = grid.nodes[first[:, 1, None, None] + taps[:, None], first[:, 0, None, None] + taps]
     rows, rows_by = ((read * weights[:, :, None, None]).sum(axis=1) for weights in (up, up_by))
-    each = (rows, across), (rows, across_by), (rows_by, across)
-    return [(lines * weights[:, :, None]).sum(axis=1) for lines, weights in each]
+    pairs = (rows, across), (rows, across_by), (rows_by, across)
+    return [(lines * weights[:, :, None]).sum(axis=1) for lines, weights in pairs]
 
 
 def _weights(t: np.ndarray, kind: str) -> tuple[np.ndarray, np.ndarray]:
@@ -115,11 +115,11 @@ class _Starts:
     """Entries of a table, some on each axis, in REGIONS x REGIONS regions."""
 
     def __init__(self, grid: RayGrid):
-        some = np.ix_(*(np.unique(np.linspace(0, side - 1, STARTS).round().astype(int)) for side in grid.shape))
-        if not grid.known[some].any():
-            some = np.ix_(*map(np.arange, grid.shape))
-        known = grid.known[some]
-        row, column = (np.broadcast_to(axis, known.shape)[known] for axis in some)
+        entries = np.ix_(*(np.unique(np.linspace(0, side - 1, STARTS).round().astype(int)) for side in grid.shape))
+        if not grid.known[entries].any():
+            entries = np.ix_(*map(np.arange, grid.shape))
+        known = grid.known[entries]
+        row, column = (np.broadcast_to(axis, known.shape)[known] for axis in entries)
         regions = row * REGIONS // grid.shape[0] * REGIONS + column * REGIONS // grid.shape[1]
         order = np.argsort(regions, kind="stable")
         self.places = np.stack((column, row), axis=1)[order].astype(np.float64)
@@ -138,7 +138,7 @@ class _Starts:
             along /= np.sqrt(np.maximum(away, np.finfo(float).tiny))
         along = np.where(np.isnan(along), -np.inf, along)
         ends = (*self.first[1:].tolist(), len(self.places))
-        best = [part + along[:, part:end].argmax(axis=1) for part, end in zip(self.first, ends, strict=True)]
+        best = [start + along[:, start:end].argmax(axis=1) for start, end in zip(self.first, ends, strict=True)]
         chosen = np.stack(best, axis=1)
         order = np.argsort(-np.take_along_axis(along, chosen, axis=1), axis=1, kind="stable")
         return self.places[np.take_along_axis(chosen, order, axis=1).T]

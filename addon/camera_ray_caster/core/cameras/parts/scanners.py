@@ -13,7 +13,7 @@ from .settings import ABOVE_ZERO, FULL_TURN, LARGEST_ANGLE, Choice, Coefficients
 class Table(Coefficients):
     """A number for each beam, in the order of the device's channels; one number holds for all beams."""
 
-    most = 4096
+    limit = 4096
     order = ""
 
     def read(self, raw: BlenderCamera) -> tuple[float, ...]:

@@ -37,18 +37,18 @@ class SeenParts:
             ways = [_groups(low, high, 1 << k, MAPS >> k) for k in range(MAPS.bit_length())]
             groups = min(ways, key=lambda way: max((reach for _, reach, _ in way), default=0.0))
         self._maps = []
-        for middle, reach, some in groups:
-            least, most = (end[some][..., :3].reshape(-1, 3).T for end in (low, high))
-            self._maps.append((middle, reach, DirectionMap(least, most, parts[some].reshape(-1, 4))))
+        for middle, reach, group in groups:
+            least, greatest = (end[group][..., :3].reshape(-1, 3).T for end in (low, high))
+            self._maps.append((middle, reach, DirectionMap(least, greatest, parts[group].reshape(-1, 4))))
 
     def bounds(self, centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
         """Return x0, x1, y0, y1 (n, 4): parts outside of which no ray meets the balls, by centers (n, 3) and radii
         (n,); NaN where no part's rays do, -inf and inf for a ball near origins.
         """
-        turn, found = np.array((1, -1, 1, -1)), np.full((len(radii), 4), np.nan)
+        turn, bounds = np.array((1, -1, 1, -1)), np.full((len(radii), 4), np.nan)
         for middle, reach, directions in self._maps:
-            np.fmin(found, directions.bounds(centers - middle, radii + reach) * turn, out=found)
-        return found * turn
+            np.fmin(bounds, directions.bounds(centers - middle, radii + reach) * turn, out=bounds)
+        return bounds * turn
 
 
 def parts_of(formula: Callable[[], Record], frame: tuple[int, int], central: bool) -> SeenParts:
@@ -58,11 +58,13 @@ def parts_of(formula: Callable[[], Record], frame: tuple[int, int], central: boo
     side = max(2, math.ceil(max(frame) / PARTS))
     x, y = np.meshgrid(*(np.arange(-1.0, math.ceil(length / side) * side + 1, side) for length in frame))
     try:
-        found = ranges(formula(), ((x - MARGIN, x + side + MARGIN), (y - MARGIN, y + side + MARGIN)))
+        intervals = ranges(formula(), ((x - MARGIN, x + side + MARGIN), (y - MARGIN, y + side + MARGIN)))
     except NotRecordable:
-        found = (ANY,) * 6
-    components = found[3:] if central else found[3:] + found[:3]
-    low, high = (np.stack([np.broadcast_to(each[end], x.shape) for each in components], axis=2) for end in (0, 1))
+        intervals = (ANY,) * 6
+    components = intervals[3:] if central else intervals[3:] + intervals[:3]
+    low, high = (
+        np.stack([np.broadcast_to(component[end], x.shape) for component in components], axis=2) for end in (0, 1)
+    )
     return SeenParts(low, high, np.stack((x, x + side, y, y + side), axis=2))
 
 
@@ -73,11 +75,11 @@ def _groups(low: np.ndarray, high: np.ndarray, rows: int, columns: int) -> list[
         np.linspace(0, side, count + 1).astype(int) for side, count in zip(low.shape[:2], (rows, columns), strict=True)
     ]
     for row, column in product(*map(pairwise, cuts)):
-        some = slice(*row), slice(*column)
-        ends = [end[some].reshape(-1, 6) for end in (low, high)]
+        group = slice(*row), slice(*column)
+        ends = [end[group].reshape(-1, 6) for end in (low, high)]
         has_ray = ~np.isnan(ends[0]).any(axis=1)
         if has_ray.any():
-            least, most = ends[0][has_ray, 3:].min(axis=0), ends[1][has_ray, 3:].max(axis=0)
-            reach = math.sqrt(((most - least) ** 2).sum()) / 2
-            groups.append((least / 2 + most / 2 if reach < math.inf else np.zeros(3), reach, some))
+            least, greatest = ends[0][has_ray, 3:].min(axis=0), ends[1][has_ray, 3:].max(axis=0)
+            reach = math.sqrt(((greatest - least) ** 2).sum()) / 2
+            groups.append((least / 2 + greatest / 2 if reach < math.inf else np.zeros(3), reach, group))
     return groups

@@ -127,10 +127,10 @@ class Number(Setting):
         """Return the words for a range in a message."""
         if (low, high) == (-LARGEST, LARGEST):
             return "a finite number"
-        least, most = self.in_words(low), self.in_words(high)
+        lowest, highest = self.in_words(low), self.in_words(high)
         if low == ABOVE_ZERO:
-            return "above 0" + f", up to {most}" * bool(high != LARGEST)
-        return f"{least} or more" if high == LARGEST else f"from {least} to {most}"
+            return "above 0" + f", up to {highest}" * bool(high != LARGEST)
+        return f"{lowest} or more" if high == LARGEST else f"from {lowest} to {highest}"
 
 
 @dataclass(frozen=True)
@@ -192,7 +192,7 @@ class Numbers(Setting):
         values, count = tuple(self.given(raw)), len(self.default)
         if is_recorded(*values):
             return values
-        if len(values) != count or not all(isinstance(part, int | float) and abs(part) <= LARGEST for part in values):
+        if len(values) != count or not all(isinstance(v, int | float) and abs(v) <= LARGEST for v in values):
             raise self.refusal(raw, f"{values}", f"{count} finite numbers")
         return values
 
@@ -215,7 +215,7 @@ class Coefficients(Text):
     grows: tuple[int, int] = (0, 0)
     """(p, q) if the coefficient of the power i is in proportion to size^(p + q i) in pictures of one field of view."""
 
-    most: ClassVar[int] = 64
+    limit: ClassVar[int] = 64
     order: ClassVar[str] = ", from the constant up"
 
     def read(self, raw: BlenderCamera) -> tuple[float, ...]:
@@ -226,17 +226,17 @@ class Coefficients(Text):
         numbers = self.numbers(raw)
         if is_recorded(*numbers):
             return numbers
-        if not (0 < len(numbers) <= self.most and all(abs(number) <= LARGEST for number in numbers)):
-            raise self.refusal(raw, shortened(str(self.given(raw))), f"1 to {self.most} finite numbers{self.order}")
+        if not (0 < len(numbers) <= self.limit and all(abs(number) <= LARGEST for number in numbers)):
+            raise self.refusal(raw, shortened(str(self.given(raw))), f"1 to {self.limit} finite numbers{self.order}")
         return numbers
 
     def numbers(self, raw: BlenderCamera) -> tuple[float, ...]:
         """Return the numbers as they are given; none for text that has anything else."""
-        given = self.given(raw)
-        if isinstance(given, tuple):
-            return given
+        value = self.given(raw)
+        if isinstance(value, tuple):
+            return value
         try:
-            return tuple(map(float, str(given).strip(" []()").replace(",", " ").split()))
+            return tuple(map(float, str(value).strip(" []()").replace(",", " ").split()))
         except ValueError:
             return ()
 
@@ -267,10 +267,10 @@ class Line(Setting):
 
     def reported(self, raw: BlenderCamera) -> Any:
         """Return the first and the last point in the world, (2, 3) as lists; None without a line."""
-        given: Any = self.given(raw)
-        if given is None or not len(given[0]):
+        line_data: Any = self.given(raw)
+        if line_data is None or not len(line_data[0]):
             return None
-        points, matrix = (np.asarray(part, np.float64) for part in given[:2])
+        points, matrix = (np.asarray(array, np.float64) for array in line_data[:2])
         return (points[[0, -1]] @ matrix[:3, :3].T + matrix[:3, 3]).tolist()
 
 
@@ -297,4 +297,4 @@ def span(
 def _plain(value):
     if isinstance(value, np.ndarray | np.generic):
         return value.tolist()
-    return [_plain(part) for part in value] if isinstance(value, list | tuple) else value
+    return [_plain(item) for item in value] if isinstance(value, list | tuple) else value

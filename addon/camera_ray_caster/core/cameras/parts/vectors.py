@@ -20,11 +20,11 @@ class Vectors(Setting):
 
     def read(self, raw: BlenderCamera) -> np.ndarray | None:
         """Return the table as float64. Raises InputError, which names the setting, for rows of unequal length."""
-        given = self.given(raw)
+        table = self.given(raw)
         try:
-            return None if given is None else np.asarray(given, np.float64)
+            return None if table is None else np.asarray(table, np.float64)
         except (TypeError, ValueError) as error:
-            raise self.refusal(raw, shown(given), "rows of equal length, of three numbers each entry") from error
+            raise self.refusal(raw, shown(table), "rows of equal length, of three numbers each entry") from error
 
     def reported(self, raw: BlenderCamera) -> Any:
         """Return the shape of the table for a report, which would be too long with all numbers; None without one."""
