@@ -81,7 +81,7 @@ class FitLens(OfCamera, bpy.types.Operator):
         for name, value in lens.settings.items():
             setattr(scene.render if name.startswith("pixel_aspect") else item.data, name, value)
         setattr(getattr(item.data, GROUP), MODEL.name, BLENDERS_OWN)
-        self.report({"INFO"}, lens.said)
+        self.report({"INFO"}, lens.message)
         return {"FINISHED"}
 
 

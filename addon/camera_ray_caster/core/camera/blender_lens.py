@@ -63,7 +63,7 @@ class BlenderLens:
     """Part of the picture that the lens shows and the camera does not."""
 
     @property
-    def said(self) -> str:
+    def message(self) -> str:
         """Return the lens, its errors and what renders it, in one line."""
         errors = f"at most {self.worst:.2g} and in the mean {self.mean:.2g} pixels from the model's rays"
         beyond = f"; {100 * self.beyond:.2g} % of the picture, black before, shows the scene" if self.beyond else ""
@@ -78,10 +78,11 @@ def blender_lens(camera: Camera) -> BlenderLens:
     camera, elevation = _level(camera)
     width, height = camera.raster.size
     x, y = (np.unique(np.linspace(0, side - 1, min(side, SAMPLED)).round()) + 0.5 for side in (width, height))
-    x, y = (part.ravel() for part in np.meshgrid(x, y))
+    x, y = (coordinate.ravel() for coordinate in np.meshgrid(x, y))
     with np.errstate(all="ignore"):  # NaN means no ray
         places, rays = (
-            np.stack(np.broadcast_arrays(*part, x)[:3], axis=-1).astype(np.float64) for part in camera.model.rays(x, y)
+            np.stack(np.broadcast_arrays(*vector, x)[:3], axis=-1).astype(np.float64)
+            for vector in camera.model.rays(x, y)
         )
     parallel = bool((np.abs(rays[:, :2]) <= PARALLEL * np.abs(rays[:, 2:])).all() and (rays[:, 2] < 0).all())
     if camera.pixel_time is not None or not (camera.model.central or parallel):
@@ -96,12 +97,13 @@ def blender_lens(camera: Camera) -> BlenderLens:
     if not there.any():
         raise InputError(f"camera {camera.name!r} has no ray in its frame: there is nothing to fit")
     pixels, rays = np.stack((x, y), axis=-1)[there], rays[there]
-    found = [lens for raw, settings in _nearest(camera, pixels, rays) if (lens := _judged(raw, settings, pixels, rays))]
-    nearest = min(found, key=lambda lens: lens.worst, default=None)
+    candidates = (_judged(raw, settings, pixels, rays) for raw, settings in _nearest(camera, pixels, rays))
+    lenses = [lens for lens in candidates if lens]
+    nearest = min(lenses, key=lambda lens: lens.worst, default=None)
     if nearest is None or nearest.worst > FAR * max(width, height):
         error = "" if nearest is None else f"; the nearest errs by {nearest.worst:.2g} pixels"
         raise InputError(f"no lens of Blender is like that of camera {camera.name!r}{error}: {remedy}")
-    straight = (lens for lens in found if lens.camera.model.key == Perspective.key and lens.worst <= GOOD)
+    straight = (lens for lens in lenses if lens.camera.model.key == Perspective.key and lens.worst <= GOOD)
     lens = next(straight, nearest)
     with np.errstate(all="ignore"):  # NaN means no ray
         seen = np.isfinite(lens.camera.model.rays(x, y)[1][0])
@@ -139,9 +141,7 @@ def _nearest(camera: Camera, pixels, rays) -> Iterator[tuple[BlenderCamera, dict
     sensor = raw.sensor_height if raw.sensor_fit == "VERTICAL" else raw.sensor_width
     width, height = camera.raster.size
     if (rays[:, 2] < 0).all():
-        (fx, cx), (fy, cy) = (
-            np.polyfit(rays[:, axis] / -rays[:, 2], pixels[:, axis], 1) for axis in (0, 1)
-        )
+        (fx, cx), (fy, cy) = (np.polyfit(rays[:, axis] / -rays[:, 2], pixels[:, axis], 1) for axis in (0, 1))
         if min(fx, fy) > 0:
             fitted = _fitted(raw, fx / fy, width, height)
             yield _record(raw, "PERSP", fx / fy, {
@@ -164,7 +164,7 @@ def _nearest(camera: Camera, pixels, rays) -> Iterator[tuple[BlenderCamera, dict
     k = np.linalg.lstsq(powers, theta, rcond=None)[0] / scale ** np.arange(1, 5)
     rim = max(float(theta.max()), camera.model.widest if isinstance(camera.model, Radial) else 0.0)
     yield _record(raw, FisheyePolynomial.key, aspect, {
-        **{one.name: -value for one, value in zip(COEFFICIENTS, (0.0, *k), strict=True)},
+        **{setting.name: -value for setting, value in zip(COEFFICIENTS, (0.0, *k), strict=True)},
         FISHEYE_FOV.name: min(2 * rim * (1 + 1e-6), 2 * np.pi),
         "shift_x": 0.5 - ahead[0] / width, "shift_y": 0.5 - ahead[1] / height,
     })  # fmt: skip
@@ -176,16 +176,16 @@ def _fitted(raw: BlenderCamera, aspect: float, width: int, height: int) -> float
     return width if horizontal else aspect * height
 
 
-def _record(raw: BlenderCamera, kind: str, aspect: float, given: dict[str, float]):
+def _record(raw: BlenderCamera, kind: str, aspect: float, values: dict[str, float]):
     """Return the record of a camera of Blender's type with these settings, and the settings, rounded to float32."""
     if abs(aspect / (raw.pixel_aspect_y / raw.pixel_aspect_x) - 1) > 1e-6:
-        given |= {"pixel_aspect_x": max(1.0, 1 / aspect), "pixel_aspect_y": max(1.0, aspect)}
-    settings = {name: float(np.float32(value)) for name, value in given.items()}
+        values |= {"pixel_aspect_x": max(1.0, 1 / aspect), "pixel_aspect_y": max(1.0, aspect)}
+    settings = {name: float(np.float32(value)) for name, value in values.items()}
     fields: dict[str, Any] = {name: value for name, value in settings.items() if hasattr(raw, name)}
     others = {name: value for name, value in settings.items() if name not in fields}
-    own = kind in (Perspective.key, Orthographic.key)
-    panorama = {} if own else {"panorama_type": kind}
-    new = replace(raw, type=kind if own else "PANO", model="", **fields,
+    is_plain = kind in (Perspective.key, Orthographic.key)
+    panorama = {} if is_plain else {"panorama_type": kind}
+    new = replace(raw, type=kind if is_plain else "PANO", model="", **fields,
                   settings={**raw.settings, **panorama, **others})  # fmt: skip
     return new, settings
 

@@ -52,11 +52,11 @@ def camera_from(raw: BlenderCamera) -> Camera:
         raise InputError(
             f"clip start {raw.clip_start}, clip end {raw.clip_end} of camera {raw.name!r} leave no range of depths"
         )
-    given, raw = raw, with_file(raw, kind, raster)
+    original, raw = raw, with_file(raw, kind, raster)
     try:
         lens, pose = kind.from_blender(raw, raster), pose_from(raw)
     except InputError as error:
-        if raw is given:
+        if raw is original:
             raise
         raise InputError(f"{error}; calibration file {FILE.read(raw)!r}") from error
     _check_apart(raw, lens, pose)
@@ -93,10 +93,10 @@ def _check_apart(raw: BlenderCamera, model: Model, pose: Pose) -> None:
     x, y = model.frame[0] / 2 + half[None, :], model.frame[1] / 2 + half[:, None]
     with np.errstate(all="ignore"):
         origin, direction = (
-            pose.basis @ np.stack(np.broadcast_arrays(*part, x + y)[:3]).reshape(3, -1) for part in model.rays(x, y)
+            pose.basis @ np.stack(np.broadcast_arrays(*vector, x + y)[:3]).reshape(3, -1) for vector in model.rays(x, y)
         )
         places = pose.eye[:, None] + origin + raw.clip_start * direction
-        same = [2 * np.ptp(part, axis=1) <= APART * np.abs(part).max(axis=1) for part in (direction, places)]
+        same = [2 * np.ptp(vector, axis=1) <= APART * np.abs(vector).max(axis=1) for vector in (direction, places)]
     if not np.all(same):
         return
     raise InputError(
@@ -115,19 +115,19 @@ def _check_inverse(raw: BlenderCamera, model: Model, pose: Pose) -> None:
         )
     if not model.smooth:
         return
-    x, y = (part.ravel() for part in np.meshgrid(*(0.5 + PLACES * (side - 1) for side in model.frame)))
+    x, y = (coordinate.ravel() for coordinate in np.meshgrid(*(0.5 + PLACES * (side - 1) for side in model.frame)))
     with np.errstate(all="ignore"):
-        own = [np.stack(np.broadcast_arrays(*part, x)[:3], axis=-1) for part in model.rays(x, y)]
-        _check_lengths(model, own[1])
-        origin, direction = (part @ pose.basis.T for part in own)
+        local_rays = [np.stack(np.broadcast_arrays(*vector, x)[:3], axis=-1) for vector in model.rays(x, y)]
+        _check_lengths(model, local_rays[1])
+        origin, direction = (vectors @ pose.basis.T for vectors in local_rays)
         origin = origin + pose.eye
         far = (1 + NEAR * np.linalg.norm(origin, axis=1)) * np.linspace(1, 2, len(x))  # each has a rounding of its own
         points = origin + far[:, None] * direction
         local = (points - pose.eye) @ inverse(pose.basis).T
         back = model.project(local)
         is_back = np.abs(back - np.stack((x, y), axis=-1)).max(axis=1) <= SAME_PIXEL
-        found = checked(model, local, back, always=True)
-    lost = np.flatnonzero(np.isfinite(local).all(axis=1) & np.isnan(found).any(axis=1) & ~is_back)
+        pixels = checked(model, local, back, always=True)
+    lost = np.flatnonzero(np.isfinite(local).all(axis=1) & np.isnan(pixels).any(axis=1) & ~is_back)
     if lost.size:
         raise InputError(
             f"a point on the ray of pixel ({x[lost[0]]:g}, {y[lost[0]]:g}) of camera {raw.name!r} does not project "
@@ -146,9 +146,9 @@ def _check_lengths(model: Model, direction: np.ndarray) -> None:
 
 def _cause(raw: BlenderCamera, model: Model, pose: Pose) -> str:
     """Return the words for the number of a camera that is farthest from 1; if it has none, for its rays."""
-    numbers = {one.name: one.given(raw) for one in model.SETTINGS if isinstance(one, Number)}
+    numbers = {setting.name: setting.given(raw) for setting in model.SETTINGS if isinstance(setting, Number)}
     if not numbers:
         return "its rays are the same or cross each other, or it is too far from the world's origin"
     numbers["its distance from the world's origin"] = float(np.abs(pose.eye).max())
-    said = farthest_from_one({name: number for name, number in numbers.items() if np.isfinite(number)})
-    return f"{said}, too large or too small for the rest"
+    cause = farthest_from_one({name: number for name, number in numbers.items() if np.isfinite(number)})
+    return f"{cause}, too large or too small for the rest"

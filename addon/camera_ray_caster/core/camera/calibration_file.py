@@ -32,10 +32,14 @@ def with_file(raw: BlenderCamera, model: type[Model], raster: Raster) -> Blender
         raise InputError(f"{path!r} is a calibration for {model_of(lens).label}, not {model.label}: choose that model")
     _check_shape(path, lens, raster)
     kept = model.BESIDE_FILE
-    given = {one.name: one.default for one in model.SETTINGS if one not in kept and one.name not in RECORD_FIELDS}
+    defaults = {
+        setting.name: setting.default
+        for setting in model.SETTINGS
+        if setting not in kept and setting.name not in RECORD_FIELDS
+    }
     fields = {name: value for name, value in lens.settings.items() if name in RECORD_FIELDS}
     settings = {name: value for name, value in lens.settings.items() if name not in RECORD_FIELDS}
-    return replace(raw, **fields, settings={**raw.settings, **given, **settings})
+    return replace(raw, **fields, settings={**raw.settings, **defaults, **settings})
 
 
 def _check_shape(path: str, lens: Lens, raster: Raster) -> None:
@@ -47,7 +51,7 @@ def _check_shape(path: str, lens: Lens, raster: Raster) -> None:
     if CENTER[0].name not in lens.settings:
         return
     width, height = (lens.settings[side.name] for side in SIZE)
-    x, y = (lens.settings[one.name] for one in CENTER)
+    x, y = (lens.settings[setting.name] for setting in CENTER)
     if not width and not (0 <= x < raster.width and 0 <= y < raster.height):
         raise InputError(
             f"cx and cy of calibration file {path!r}, which has no size, are {x:g} and {y:g}, outside the frame of "
@@ -82,13 +86,13 @@ def chosen_lens(path: str, key: str = "", name: str = "", frame: tuple[int, int]
     if len(chosen) != 1:
         names = [repr(lens.name)[1:-1] for lens in lenses]  # what is not printable is escaped
         if not names or len(set(names)) < len(names):
-            said = "two cameras of one name: give each its own" if names else "no camera: choose another file"
-            raise InputError(f"calibration file {path!r} has {said}")
+            problem = "two cameras of one name: give each its own" if names else "no camera: choose another file"
+            raise InputError(f"calibration file {path!r} has {problem}")
         names = names if len(names) <= MOST_NAMED else [*names[:MOST_NAMED], f"{len(names) - MOST_NAMED} more"]
-        said = f"no camera {name!r}" if name and not chosen else f"{len(chosen)} cameras"
+        problem = f"no camera {name!r}" if name and not chosen else f"{len(chosen)} cameras"
         setting = f"{FILE_CAMERA.label} (--calibration-camera, in Python camera=)"
         remedy = f"set {setting} to one of {', '.join(names)}" if names != [""] else f"leave {setting} empty"
-        raise InputError(f"calibration file {path!r} has {said}: {remedy}")
+        raise InputError(f"calibration file {path!r} has {problem}: {remedy}")
     if chosen[0].refusal is not None:
         raise chosen[0].refusal
     return chosen[0]

@@ -25,7 +25,7 @@ from .description import Description
 from .evaluation import pixels_of, rays_through
 from .jacobian import of_projection, of_rays, of_settings
 from .meeting import meeting
-from .pixels import by_time, given
+from .pixels import by_time, checked_pixels
 from .posed import posed
 from .sampling import sampled
 from .spherical_stereo import with_eye
@@ -77,8 +77,8 @@ class Camera(Description):
 
         with np.errstate(all="ignore"):  # NaN means no ray
             x, y = np.meshgrid(*(np.linspace(0, side, 5) for side in self.raster.size))
-            own, other = (sum(one.rays(x, y), ()) for one in (self.model, made(self.record)))
-            if not all(np.array_equal(*parts, equal_nan=True) for parts in zip(own, other, strict=True)):
+            numbers, others = (sum(model.rays(x, y), ()) for model in (self.model, made(self.record)))
+            if not all(np.array_equal(*parts, equal_nan=True) for parts in zip(numbers, others, strict=True)):
                 raise InputError(
                     f"the lens of camera {self.name!r} lies between two that were read, and no settings give it: ask a "
                     "camera that was read at its frame"
@@ -131,14 +131,14 @@ class Camera(Description):
         """Return the rays of a sample in the pixels with the centers x, y, in the form of ``camera_rays``. The sample
         has the same place in every pixel, and in each pixel another point of the aperture.
         """
-        place, point = sampled(self.aperture, x, y, sample)
-        chief = self.camera_rays(*place)
-        return chief if self.aperture is None else self.model.through(self.aperture, chief, *place, point)
+        pixel, point = sampled(self.aperture, x, y, sample)
+        chief = self.camera_rays(*pixel)
+        return chief if self.aperture is None else self.model.through(self.aperture, chief, *pixel, point)
 
     def sample_light(self, x, y, sample: int):
         """Return the light of the rays of ``sample_rays``; see ``Model.light``. None if all carry the same."""
-        place, point = sampled(self.aperture, x, y, sample)
-        return None if self.aperture is None else self.model.light(self.aperture, *place, point)
+        pixel, point = sampled(self.aperture, x, y, sample)
+        return None if self.aperture is None else self.model.light(self.aperture, *pixel, point)
 
     @property
     def parallel(self):
@@ -167,7 +167,7 @@ class Camera(Description):
         of its nearest edge. Raises InputError for values that are not numbers, for shapes that do not broadcast, and
         for rays that need more memory than is available.
         """
-        x, y, shape = given(x, y)
+        x, y, shape = checked_pixels(x, y)
         timed = self.pixel_time is not None
         require((57 if timed else 25 if self.model.central else 49) * math.prod(shape), of_pixels("the rays", shape))
         if isinstance(self.pixel_time, SweepTime):
@@ -189,13 +189,13 @@ class Camera(Description):
         pixel_time: Any = self.pixel_time
         first, last = pixel_time.span
         time = np.broadcast_to(pixel_time.frame_at(x, y), np.broadcast_shapes(x.shape, y.shape))
-        found = np.full((2, *time.shape, *axes), np.nan)
-        for frame, part_x, part_y, place, where in by_time(pixel_time, time, x, y):
+        vectors = np.full((2, *time.shape, *axes), np.nan)
+        for frame, part_x, part_y, block, where in by_time(pixel_time, time, x, y):
             there = self.at(min(max(frame, first), last))
-            part, where = ask(there, part_x, part_y), np.expand_dims(where, tuple(range(-len(axes), 0)))
-            for own, value in zip(found, (part.origins, part.directions), strict=True):
-                np.copyto(own[place], value, where=where)
-        return np.clip(time, first, last), found
+            answer, where = ask(there, part_x, part_y), np.expand_dims(where, tuple(range(-len(axes), 0)))
+            for array, value in zip(vectors, (answer.origins, answer.directions), strict=True):
+                np.copyto(array[block], value, where=where)
+        return np.clip(time, first, last), vectors
 
     def rays(self) -> Rays:
         """Return the chief rays of the render window: through its pixel centers, world frame, unit directions.
@@ -214,7 +214,7 @@ class Camera(Description):
         single beams, and for what ``rays_at`` refuses.
         """
         self._check_differentiable()
-        x, y, shape = given(x, y)
+        x, y, shape = checked_pixels(x, y)
         size = (96 if self._moves or not self.model.central else 48) * math.prod(shape)
         require(size, of_pixels("the derivatives of the rays", shape))
         if self._moves:
@@ -263,13 +263,13 @@ class Camera(Description):
             count = len(self.parameters) if by_settings else 3
             require((16 + 16 * count) * len(each), "the derivatives of the pixels", "project fewer points at once")
             pixels = self.project(points)
-            given = self.pose, each, pixels.reshape(-1, 2)
-            found = of_settings(self._varied, count, *given) if by_settings else of_projection(self.model, *given)
-            return pixels, found.reshape(*points.shape[:-1], 2, count)
+            seen = self.pose, each, pixels.reshape(-1, 2)
+            derivatives = of_settings(self._varied, count, *seen) if by_settings else of_projection(self.model, *seen)
+            return pixels, derivatives.reshape(*points.shape[:-1], 2, count)
         if self._moves:
             time: Any = self.pixel_time
             motion: Any = self.timeline.motion
-            sought = meeting(time, lambda frame, some: self.at(frame).project(each[some]), len(each), motion.cuts)
+            sought = meeting(time, lambda frame, indices: self.at(frame).project(each[indices]), len(each), motion.cuts)
             return sought.reshape(*points.shape[:-1], 2)
         return pixels_of(self, each).reshape(*points.shape[:-1], 2)
 

@@ -36,15 +36,15 @@ def changed(camera, settings: Mapping[str, Any]) -> BlenderCamera:
     lens = find_model(replace(raw, settings={**raw.settings, PORT.name: PORT.default}))
     kind = behind(lens, port)
     declared = declared_by(kind, mode)
-    given = checked(lens.key, declared, others)
+    explicit = checked(lens.key, declared, others)
     values = {name: setting.default for name, setting in declared.items() if name not in RECORD_FIELDS}
     values |= {**raw.settings, pixel_time.MODE.name: mode, "frame": frame, PORT.name: port}
     if values.get(FILE.name):
         values[FILE.name] = FILE.default
-    now = {name: getattr(raw, name) if name in RECORD_FIELDS else values[name] for name in declared} | given
-    for key in given:
+    now = {name: getattr(raw, name) if name in RECORD_FIELDS else values[name] for name in declared} | explicit
+    for key in explicit:
         if key in declared:
             check_effect(lens.key, declared, now, declared[key])
-    fields = {key: value for key, value in given.items() if key in RECORD_FIELDS}
-    values |= {key: value for key, value in given.items() if key not in RECORD_FIELDS}
+    fields = {key: value for key, value in explicit.items() if key in RECORD_FIELDS}
+    values |= {key: value for key, value in explicit.items() if key not in RECORD_FIELDS}
     return replace(raw, name=name, **fields, settings=values)

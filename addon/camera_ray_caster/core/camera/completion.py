@@ -17,58 +17,59 @@ Settings = Mapping[str, Setting]
 Values = Mapping[str, Any]
 
 
-def completed(model: str, declared: Settings, given: Values, frame: tuple[int, int]) -> dict[str, Any]:
+def completed(model: str, declared: Settings, explicit: Values, frame: tuple[int, int]) -> dict[str, Any]:
     """Return the settings that follow from those given, by name, for a picture of ``frame`` = (width, height) pixels.
 
     declared: the settings of the model, whose key is ``model``; given: values as records hold them. A calibrated
     picture of which no number is given is the declared one, scaled to the frame's longer side, with square pixels.
     Raises InputError for half of a pair that makes no sense alone, and for a setting that would have no effect.
     """
-    if given.get(FILE.name):
+    if explicit.get(FILE.name):
         return {}
     values: dict[str, Any] = {}
-    for name in given:
+    for name in explicit:
         if name in declared:
-            check_effect(model, declared, given, declared[name])
-    for one in declared.values():
-        if one.name in given or one.partner not in given or not _has_effect(declared, given, one):
+            check_effect(model, declared, explicit, declared[name])
+    for setting in declared.values():
+        if setting.name in explicit or setting.partner not in explicit or not _has_effect(declared, explicit, setting):
             continue
-        if one.left_out != SAME:
-            raise InputError(f"{model} has {one.partner} without {one.name}: give both")
-        values[one.name] = given[one.partner]
-    if SIZE[0].name not in declared or not _has_effect(declared, given, SIZE[0]):
+        if setting.left_out != SAME:
+            raise InputError(f"{model} has {setting.partner} without {setting.name}: give both")
+        values[setting.name] = explicit[setting.partner]
+    if SIZE[0].name not in declared or not _has_effect(declared, explicit, SIZE[0]):
         return values
     picture = {
-        name: one
-        for name, one in declared.items()
-        if (one.left_out != DECLARED or getattr(one, "unit", "") == "pixels") and _has_effect(declared, given, one)
+        name: setting
+        for name, setting in declared.items()
+        if (setting.left_out != DECLARED or getattr(setting, "unit", "") == "pixels")
+        and _has_effect(declared, explicit, setting)
     }
-    stated = [name for name in picture if name in given]
+    stated = [name for name in picture if name in explicit]
     if not stated:
         return _default_lens(picture, frame)
-    size = [given.get(side.name) or own for side, own in zip(SIZE, frame, strict=True)]
+    size = [explicit.get(side.name) or side_of_frame for side, side_of_frame in zip(SIZE, frame, strict=True)]
     middles = iter(size)
-    for name, one in picture.items():
-        if one.left_out in (SAME, NEEDED) and name not in given and name not in values:
+    for name, setting in picture.items():
+        if setting.left_out in (SAME, NEEDED) and name not in explicit and name not in values:
             raise InputError(f"{model} has {stated[0]} without {name}: give {name}, too")
-        if one.left_out == OF_FRAME:
-            values[name] = size[SIZE.index(one)]
-        elif one.left_out == MIDDLE:
+        if setting.left_out == OF_FRAME:
+            values[name] = size[SIZE.index(setting)]
+        elif setting.left_out == MIDDLE:
             values[name] = (next(middles) - 1) / 2
-    return {name: value for name, value in values.items() if name not in given}
+    return {name: value for name, value in values.items() if name not in explicit}
 
 
-def check_effect(model: str, declared: Settings, given: Values, setting: Setting) -> None:
+def check_effect(model: str, declared: Settings, values: Values, setting: Setting) -> None:
     """Raise InputError for a setting that has no effect, unless its value is the default."""
     for name, value in setting.used_with:
-        is_other = name in declared and given.get(name, declared[name].default) != value
-        if is_other and given[setting.name] != setting.default:
+        is_other = name in declared and values.get(name, declared[name].default) != value
+        if is_other and values[setting.name] != setting.default:
             raise InputError(f"{setting.name} of {model} has no effect unless {name} is {value!r}: change one of them")
 
 
-def _has_effect(declared: Settings, given: Values, setting: Setting) -> bool:
+def _has_effect(declared: Settings, values: Values, setting: Setting) -> bool:
     return all(
-        given.get(name, declared[name].default) == value for name, value in setting.used_with if name in declared
+        values.get(name, declared[name].default) == value for name, value in setting.used_with if name in declared
     )
 
 
@@ -80,15 +81,15 @@ def _default_lens(picture: Settings, frame: tuple[int, int]) -> dict[str, Any]:
     scale = max(frame) / max(declared)
     values: dict[str, Any] = {}
     middles = iter(frame)
-    for name, one in picture.items():
-        if one.left_out == OF_FRAME:
-            values[name] = frame[SIZE.index(one)]
-        elif one.left_out == MIDDLE:
+    for name, setting in picture.items():
+        if setting.left_out == OF_FRAME:
+            values[name] = frame[SIZE.index(setting)]
+        elif setting.left_out == MIDDLE:
             values[name] = (next(middles) - 1) / 2
-        elif isinstance(one, Coefficients):
-            first, each = one.grows
-            terms = enumerate(map(float, one.default.split()))
-            values[name] = " ".join(repr(term * scale ** (first + each * power)) for power, term in terms)
+        elif isinstance(setting, Coefficients):
+            first, step = setting.grows
+            terms = enumerate(map(float, setting.default.split()))
+            values[name] = " ".join(repr(term * scale ** (first + step * power)) for power, term in terms)
         else:
-            values[name] = one.default * scale
+            values[name] = setting.default * scale
     return values

@@ -96,8 +96,8 @@ class Description:
             for setting in kind.SETTINGS
             if not same(value := setting.reported(self.record), values_of([setting], _defaults(setting))[setting.name])
         ]
-        place = ", ".join(f"{part:.6g}" for part in self.pose.eye)
-        words = (repr(self.name), kind.key, f"{self.width} x {self.height}", *changed, f"at ({place})")
+        eye = ", ".join(f"{coordinate:.6g}" for coordinate in self.pose.eye)
+        words = (repr(self.name), kind.key, f"{self.width} x {self.height}", *changed, f"at ({eye})")
         return f"<Camera {', '.join(words)}>"
 
     if not TYPE_CHECKING:

@@ -25,6 +25,6 @@ def same(first: Any, second: Any) -> bool:
         return len(first) == len(second) and all(map(same, first, second))
     by_identity = all("__eq__" not in vars(base) for base in type(first).__mro__[:-1])
     if by_identity and hasattr(first, "__dict__") and not callable(first):
-        both = vars(first).keys() & vars(second).keys()  # what is computed at first use may be in one of them
-        return all(same(vars(first)[name], vars(second)[name]) for name in both)
+        shared = vars(first).keys() & vars(second).keys()  # what is computed at first use may be in one of them
+        return all(same(vars(first)[name], vars(second)[name]) for name in shared)
     return bool(first == second or (first != first and second != second))

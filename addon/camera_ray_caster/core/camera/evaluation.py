@@ -42,7 +42,7 @@ def rays_through(camera: Any, x, y, shape: tuple[int, ...]) -> Rays:
     """Return the world rays for pixel coordinates that broadcast to a shape; see ``Camera.rays_at``."""
     near = _is_near(x) and _is_near(y)
     if not (is_grid(x, y) and len(shape) == 2):
-        x, y = (np.broadcast_to(part, shape).reshape(-1, 1) for part in (x, y))
+        x, y = (np.broadcast_to(coordinate, shape).reshape(-1, 1) for coordinate in (x, y))
     picture = np.broadcast_shapes(x.shape, y.shape)
     directions, valid = np.empty((*picture, 3)), np.empty(picture, bool)
     central = camera.model.central
@@ -72,12 +72,12 @@ def pixels_of(camera: Any, points: np.ndarray) -> np.ndarray:
     near, camera_from_world = _is_near(points), inverse(camera.pose.basis)
     pixels = np.empty((len(points), 2))
 
-    def put(part: slice) -> None:
+    def put(block: slice) -> None:
         with _quiet(near):
-            beside = [axis - eye for axis, eye in zip(components(points[part]), camera.pose.eye.tolist(), strict=True)]
+            beside = [axis - eye for axis, eye in zip(components(points[block]), camera.pose.eye.tolist(), strict=True)]
             # not by BLAS, which rounds a single point otherwise
             seen = np.stack(matvec(camera_from_world, beside)).T
-            pixels[part] = checked(camera.model, seen, camera.model.project(seen))
+            pixels[block] = checked(camera.model, seen, camera.model.project(seen))
 
     in_blocks(put, (len(points), 1), BLOCK_POINTS)
     if not near:
@@ -93,7 +93,7 @@ def _write(camera: Any, x, y, origins, directions) -> None:
     """Write the world rays through pixel coordinates; the origins only if the rays do not all leave the eye."""
     if _by_polynomials(camera, x, y):
         parts = (directions,) if camera.model.central else (directions, origins)
-        out = [np.moveaxis(part, -1, 0) for part in parts]
+        out = [np.moveaxis(vectors, -1, 0) for vectors in parts]
         endless = replace(camera, model=camera.model.endless)
         on_raster(lambda x, y: _by_formula(endless, x, y), x, y, camera.model.disc, 3 * len(out), out)
     else:

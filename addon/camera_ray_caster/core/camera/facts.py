@@ -32,8 +32,8 @@ def camera_facts(camera: Camera) -> dict[str, object]:
     the model's settings by name (``Camera.settings``) and its formula, step by step.
     """
     raster, basis = camera.raster, camera.pose.basis
-    own = camera.model.facts()
-    own = own if "field_of_view" in own else _field_of_view(camera) | own
+    of_model = camera.model.facts()
+    of_model = of_model if "field_of_view" in of_model else _field_of_view(camera) | of_model
     return {
         "name": camera.name,
         "model": camera.model.label,
@@ -46,7 +46,7 @@ def camera_facts(camera: Camera) -> dict[str, object]:
         "window": [raster.x0, raster.x1, raster.y0, raster.y1],
         "pixel_aspect": raster.pixel_aspect,
         "clip": [camera.clip_start, camera.clip_end],
-        **own,
+        **of_model,
         **({} if camera.K is None else {"K": camera.K.tolist()}),
         **({"picture": _picture(camera)} if raster.size != raster.picture_size else {}),
         **({"plane_from_pixels": _plane(camera.model)} if isinstance(camera.model, WindowModel) else {}),

@@ -78,7 +78,7 @@ def fit_model(
     kind: type[Model],
     region: np.ndarray | None = None,
     free: Collection[str] | None = None,
-    given: Mapping[str, Any] | None = None,
+    explicit: Mapping[str, Any] | None = None,
 ) -> Fit:
     """Return the camera of a model nearest to a camera.
 
@@ -92,9 +92,9 @@ def fit_model(
         raise InputError(f"pixels of camera {camera.name!r} have their own times: fit that of one frame, at(frame)")
     if kind.key in LISTS:
         raise InputError(f"{kind.label} lists its {LISTS[kind.key]} and has no formula to fit: choose another model")
-    for model, what in ((camera.model, f"camera {camera.name!r}"), (kind, kind.label)):
+    for model, name in ((camera.model, f"camera {camera.name!r}"), (kind, kind.label)):
         if not (model.central or (model is camera.model and model.focused_at)):
-            raise InputError(f"the rays of {what} have no eye in common: only cameras with one eye can be fitted")
+            raise InputError(f"the rays of {name} have no eye in common: only cameras with one eye can be fitted")
     width, height = camera.raster.size
     require(64 * width * height, of_pixels("the residuals", (height, width)))
     region = np.ones((height, width), bool) if region is None else region
@@ -102,23 +102,25 @@ def fit_model(
     there = region & np.isfinite(rays).all(axis=-1)
     if not there.any():
         raise InputError(f"camera {camera.name!r} has no ray in the region: there is nothing to fit")
-    given = dict(given or {})
-    held = HELD | HELD_OF.get(kind.key, set()) | given.keys()
+    explicit = dict(explicit or {})
+    held = HELD | HELD_OF.get(kind.key, set()) | explicit.keys()
     rows, columns = (_even(there.any(axis=axis)) for axis in (1, 0))
-    some = np.zeros_like(there)
-    some[np.ix_(rows, columns)] = there[np.ix_(rows, columns)]
-    starts = guesses(camera, kind, given)
+    region_rays = np.zeros_like(there)
+    region_rays[np.ix_(rows, columns)] = there[np.ix_(rows, columns)]
+    starts = guesses(camera, kind, explicit)
     for setting in kind.SETTINGS:
-        if setting.name in given:
+        if setting.name in explicit:
             setting.read(starts[0])  # refuses a value out of its range, by name
-    searches = [Search.of(kind, start, camera.raster, _pixels(some), rays[some], free, held) for start in starts]
+    searches = [
+        Search.of(kind, start, camera.raster, _pixels(region_rays), rays[region_rays], free, held) for start in starts
+    ]
     search, values, converged, counted = _best(searches)
     if counted < LEFT:
-        angles, near = _angles(rays[some]), search.near()
+        angles, near = _angles(rays[region_rays]), search.near()
         edge = floor(10 * (angles.max() if near.all() else angles[~near].min())) / 10
         remedy = f"fit those within {degrees(edge):.0f} degrees of the viewing direction (within={edge:g}), or fewer"
-        said = f"{kind.label} sees fewer than half of the rays"
-        raise InputError(f"{said}: {remedy if edge else 'choose another region, or another model'}")
+        problem = f"{kind.label} sees fewer than half of the rays"
+        raise InputError(f"{problem}: {remedy if edge else 'choose another region, or another model'}")
     fitted = camera_from(search.record(values))
     residual = np.full((height, width, 2), np.nan)
     with np.errstate(all="ignore"):  # NaN means not seen
@@ -171,13 +173,15 @@ def _best(searches: list[Search]) -> tuple[Search, np.ndarray, bool, float]:
 
     Once one has ended at a minimum with all rays, those that begin with fewer are left out: they see no more.
     """
-    found: list[tuple[Search, np.ndarray, bool, float]] = []
+    results: list[tuple[Search, np.ndarray, bool, float]] = []
     for search in searches:
-        if not any(converged and counted == 1 for *_, converged, counted in found) or search.near().all():
-            found.append((search, *search.run()))
-    offs = [search.residual(values) for search, values, *_ in found]
-    best = min(range(len(found)), key=lambda k: (found[k][3] < LEFT, np.isnan(offs[k]).sum(), np.nansum(offs[k] ** 2)))
-    return found[best]
+        if not any(converged and counted == 1 for *_, converged, counted in results) or search.near().all():
+            results.append((search, *search.run()))
+    offs = [search.residual(values) for search, values, *_ in results]
+    best = min(
+        range(len(results)), key=lambda k: (results[k][3] < LEFT, np.isnan(offs[k]).sum(), np.nansum(offs[k] ** 2))
+    )
+    return results[best]
 
 
 def _rays(camera: Camera) -> np.ndarray:
@@ -189,7 +193,9 @@ def _rays(camera: Camera) -> np.ndarray:
         if not camera.model.central:
             t = ((camera.model.focused_at or 0.0) + origin[2]) / -direction[2]
             direction = tuple(o + np.where(t > 0, t, np.nan) * d for o, d in zip(origin, direction, strict=True))
-        rays = np.stack([np.broadcast_to(part, (height, width)) for part in direction], axis=-1).astype(np.float64)
+        rays = np.stack([np.broadcast_to(component, (height, width)) for component in direction], axis=-1).astype(
+            np.float64
+        )
         return rays / np.linalg.norm(rays, axis=-1, keepdims=True)
 
 

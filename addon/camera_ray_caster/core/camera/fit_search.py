@@ -77,7 +77,9 @@ class Search:
         seen = search.seen(values)
         if free is None and seen.any():
             moves = np.abs(search.derivatives(values, seen)).max(axis=0) > 0
-            search = replace(search, names=tuple(name for name, one in zip(names, moves, strict=True) if one))
+            search = replace(
+                search, names=tuple(name for name, is_moving in zip(names, moves, strict=True) if is_moving)
+            )
         if not search.names:
             raise InputError(f"{kind.label} has no parameter to fit: name some, or leave more of its settings open")
         if 2 * seen.sum() < len(search.names):
@@ -116,8 +118,8 @@ class Search:
         with np.errstate(all="ignore"):  # of limits that are infinite
             model = self.kind.from_blender(raw, self.raster)
         pixels = (self.residual(values) + self.pixels)[seen]
-        found = of_settings(model, len(self.names), STILL, self.rays[seen], pixels)
-        return np.nan_to_num(found.reshape(-1, len(self.names)), nan=0.0, posinf=0.0, neginf=0.0)
+        derivatives = of_settings(model, len(self.names), STILL, self.rays[seen], pixels)
+        return np.nan_to_num(derivatives.reshape(-1, len(self.names)), nan=0.0, posinf=0.0, neginf=0.0)
 
     def near(self) -> np.ndarray:
         """Return which rays are seen at the start, and no farther from their pixels than the picture is large."""

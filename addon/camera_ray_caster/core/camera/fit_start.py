@@ -21,23 +21,23 @@ AHEAD = np.array([(0.0, 0.0, -1.0)])
 STILL = Pose(np.zeros(3), np.eye(3))
 
 
-def guesses(camera: Camera, kind: type[Model], given: Mapping[str, Any]) -> list[BlenderCamera]:
+def guesses(camera: Camera, kind: type[Model], explicit: Mapping[str, Any]) -> list[BlenderCamera]:
     """Return records of cameras of a model at the same place, with the given settings, and with the scale and the
     center of a camera. Raises InputError for a camera without rays about its viewing direction.
     """
     raw = camera.record
-    settings = {one.name: one.default for one in kind.SETTINGS if one.name not in RECORD_FIELDS}
+    settings = {setting.name: setting.default for setting in kind.SETTINGS if setting.name not in RECORD_FIELDS}
     settings |= {name: value for name, value in raw.settings.items() if name not in (*settings, OFF_AXIS, PORT.name)}
     fx, fy, cx, cy = _matrix(camera)
     if UNIT in kind.SETTINGS:
         width, height = camera.raster.size
         numbers = (width, height, cx - 0.5, height - cy - 0.5, fx, fy)
-        settings |= dict(zip((one.name for one in (*SIZE, *CENTER, *FOCAL)), numbers, strict=True))
+        settings |= dict(zip((setting.name for setting in (*SIZE, *CENTER, *FOCAL)), numbers, strict=True))
     start = replace(raw, type="PERSP", model=kind.key, settings=settings, shift_x=0.0, shift_y=0.0)
     film = Film.from_blender(start, camera.raster)
     start = replace(start, lens=fx * film.size / film.fitted_pixels)
-    fields = {name: value for name, value in given.items() if name in RECORD_FIELDS}
-    others = {name: value for name, value in given.items() if name not in fields}
+    fields = {name: value for name, value in explicit.items() if name in RECORD_FIELDS}
+    others = {name: value for name, value in explicit.items() if name not in fields}
     shapes = _shapes(kind.key, fx, fy) if UNIT in kind.SETTINGS else [{}]
     return [replace(start, **fields, settings={**start.settings, **shape, **others}) for shape in shapes]
 
@@ -63,9 +63,9 @@ def _matrix(camera: Camera) -> tuple[float, float, float, float]:
     with np.errstate(all="ignore"):  # NaN means not seen
         pixel = camera.model.project(AHEAD)
         slopes = of_projection(camera.model, STILL, AHEAD, pixel)[0]
-    found = abs(slopes[0, 0]), abs(slopes[1, 1]), *pixel[0]
-    if not np.isfinite(found).all() or not min(found[:2]) > 0:
+    numbers = abs(slopes[0, 0]), abs(slopes[1, 1]), *pixel[0]
+    if not np.isfinite(numbers).all() or not min(numbers[:2]) > 0:
         raise InputError(
             f"camera {camera.name!r} does not see its own viewing direction, about which fits begin: turn the camera"
         )
-    return tuple(map(float, found))  # type: ignore[return-value]
+    return tuple(map(float, numbers))  # type: ignore[return-value]

@@ -46,8 +46,8 @@ def checked(model: Model, points: np.ndarray, pixels: np.ndarray, always: bool =
         wrong = ~_is_within_rounding(model, point, *pixel.T)
         if wrong.any():
             point = point[wrong]
-            found = _nearer(model, point, pixel[wrong])
-            pixel[wrong] = np.where(_is_within_rounding(model, point, *found.T)[:, None], found, np.nan)
+            better = _nearer(model, point, pixel[wrong])
+            pixel[wrong] = np.where(_is_within_rounding(model, point, *better.T)[:, None], better, np.nan)
         pixels[doubtful] = pixel
     return pixels
 
@@ -70,8 +70,8 @@ def _is_within_rounding(model: Model, points, x, y):
     """
     off, squared, origin = _miss(model, points, x, y)
     distance = np.sqrt(squared)
-    own = zip(model.pixel_rounding(x, y), (x, y), strict=True)
-    move_x, move_y = (MOVES * (rounding + EPS * np.abs(place)) for rounding, place in own)
+    roundings = zip(model.pixel_rounding(x, y), (x, y), strict=True)
+    move_x, move_y = (MOVES * (rounding + EPS * np.abs(coordinate)) for rounding, coordinate in roundings)
     moves = (move_x, 0.0), (-move_x, 0.0), (0.0, move_y), (0.0, -move_y)
     beside = [np.sqrt(_miss(model, points, x + across, y + up)[0]) for across, up in moves]
     turned = np.fmax.reduce([np.abs(other - np.sqrt(off)) for other in beside])
@@ -89,5 +89,5 @@ def _nearer(model: Model, points, pixels):
             rays = RayDerivatives(model, itself, x, y)
             beside = difference(point, rays.origin)
             off = along(beside, rays.direction, -dot(beside, rays.direction) / dot(rays.direction, rays.direction))
-            x, y = (place + dot(by, off) for place, by in zip((x, y), rays.by_point(point), strict=True))
+            x, y = (coordinate + dot(by, off) for coordinate, by in zip((x, y), rays.by_point(point), strict=True))
     return np.stack((x, y), axis=-1)

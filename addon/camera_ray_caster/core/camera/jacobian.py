@@ -56,9 +56,12 @@ class RayDerivatives:
         """Differentiate at x and y, arrays that broadcast, and by the parameters of a model of varied numbers."""
         numbers = differentiate(model.recorded, (x, y), parameters)
         self.pose = pose
-        self.origin, self.direction = (tuple(one.value for one in three) for three in (numbers[:3], numbers[3:]))
+        self.origin, self.direction = (tuple(number.value for number in three) for three in (numbers[:3], numbers[3:]))
         self.origin_by, self.direction_by = (
-            [tuple(0.0 if one.partials[k] is None else one.partials[k] for one in three) for k in range(2 + parameters)]
+            [
+                tuple(0.0 if number.partials[k] is None else number.partials[k] for number in three)
+                for k in range(2 + parameters)
+            ]
             for three in (numbers[:3], numbers[3:])
         )
 
@@ -74,14 +77,16 @@ class RayDerivatives:
     @property
     def origins(self) -> list[Any]:
         """The derivatives of the world's origins, by x and by y."""
-        return [matvec(self.pose.basis, one) for one in self.origin_by]
+        return [matvec(self.pose.basis, derivative) for derivative in self.origin_by]
 
     @property
     def directions(self) -> list[Any]:
         """The derivatives of the world's unit directions, by x and by y."""
-        turned = (matvec(cofactors(self.pose.basis), cross(self.direction, one)) for one in self.direction_by)
+        turned = (
+            matvec(cofactors(self.pose.basis), cross(self.direction, derivative)) for derivative in self.direction_by
+        )
         ahead = matvec(self.pose.basis, self.direction)
-        return [tuple(part / self._cube for part in cross(one, ahead)) for one in turned]
+        return [tuple(component / self._cube for component in cross(product, ahead)) for product in turned]
 
     @property
     def solid_angle(self) -> Any:
@@ -97,7 +102,7 @@ class RayDerivatives:
         by_x, by_y = self._at(self._place(point))[:2]
         to_x, to_y = cross(by_y, self.direction), cross(self.direction, by_x)
         volume = dot(by_x, to_x)
-        return tuple(part / volume for part in to_x), tuple(part / volume for part in to_y)
+        return tuple(component / volume for component in to_x), tuple(component / volume for component in to_y)
 
     def by_parameters(self, point: Any) -> list[list[Any]]:
         """Return the derivatives of the pixel's x and y by the parameters, two lists, where it sees the points."""
@@ -123,7 +128,7 @@ def of_rays(model: Model, pose: Pose, x, y, shape: tuple[int, ...]) -> RaysJacob
     directions = np.empty((*shape, 3, 2))
     origins = np.broadcast_to(0.0, directions.shape) if model.central else np.empty(directions.shape)
     if not (is_grid(x, y) and len(shape) == 2):
-        x, y = (np.broadcast_to(part, shape).reshape(-1, 1) for part in (x, y))
+        x, y = (np.broadcast_to(coordinate, shape).reshape(-1, 1) for coordinate in (x, y))
     picture = np.broadcast_shapes(x.shape, y.shape)
     lost = ~(np.isfinite(x) & np.isfinite(y))
 
@@ -135,11 +140,11 @@ def of_rays(model: Model, pose: Pose, x, y, shape: tuple[int, ...]) -> RaysJacob
             for result, vectors in ((directions, rays.directions), (origins, rays.origins)):
                 if result is origins and model.central:
                     continue
-                part = result.reshape(*picture, 3, 2)[rows]
+                block = result.reshape(*picture, 3, 2)[rows]
                 for k, vector in enumerate(vectors):
                     for axis, component in enumerate(vector):
-                        part[..., axis, k] = component
-                part[none] = np.nan
+                        block[..., axis, k] = component
+                block[none] = np.nan
 
     in_blocks(put, picture, BLOCK_PIXELS)
     return RaysJacobian(origins, directions)
@@ -153,13 +158,13 @@ def of_projection(model: Model, pose: Pose, points: np.ndarray, pixels: np.ndarr
     result = np.empty((len(points), 2, 3))
     camera_from_world = inverse(pose.basis)
 
-    def put(part: slice) -> None:
+    def put(block: slice) -> None:
         with np.errstate(all="ignore"):  # NaN means no pixel
-            local = components((points[part] - pose.eye) @ camera_from_world.T)
-            rays = RayDerivatives(model, pose, pixels[part, 0], pixels[part, 1])
+            local = components((points[block] - pose.eye) @ camera_from_world.T)
+            rays = RayDerivatives(model, pose, pixels[block, 0], pixels[block, 1])
             for row, gradient in enumerate(rays.by_point(local)):
                 for axis, component in enumerate(matvec(camera_from_world.T, gradient)):
-                    result[part, row, axis] = component
+                    result[block, row, axis] = component
 
     in_blocks(put, (len(points), 1), BLOCK_PIXELS)
     return result
@@ -174,14 +179,14 @@ def of_settings(varied: Model, count: int, pose: Pose, points: np.ndarray, pixel
     result = np.empty((len(points), 2, count))
     camera_from_world = inverse(pose.basis)
 
-    def put(part: slice) -> None:
+    def put(block: slice) -> None:
         with np.errstate(all="ignore"):  # NaN means no pixel
-            local = components((points[part] - pose.eye) @ camera_from_world.T)
-            rays = RayDerivatives(varied, pose, pixels[part, 0], pixels[part, 1], count)
+            local = components((points[block] - pose.eye) @ camera_from_world.T)
+            rays = RayDerivatives(varied, pose, pixels[block, 0], pixels[block, 1], count)
             for row, moves in enumerate(rays.by_parameters(local)):
-                for place, move in enumerate(moves):
-                    result[part, row, place] = move
-        result[part][np.isnan(pixels[part]).any(axis=1)] = np.nan
+                for parameter, move in enumerate(moves):
+                    result[block, row, parameter] = move
+        result[block][np.isnan(pixels[block]).any(axis=1)] = np.nan
 
     in_blocks(put, (len(points), 1), BLOCK_PIXELS // 4)
     return result

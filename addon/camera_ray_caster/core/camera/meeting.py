@@ -51,26 +51,26 @@ def meeting(
     point whose image agrees with the pixels' times twice within 1/64 of a piece may be missed. For an ImageTime the
     frames of the image are tried one by one.
     """
-    found, everyone = np.full((count, 2), np.nan), np.arange(count)
+    result, everyone = np.full((count, 2), np.nan), np.arange(count)
     with np.errstate(invalid="ignore"):  # NaN means not seen
         if isinstance(pixel_time, ImageTime):
             for frame in np.unique(pixel_time.frames).tolist():
-                left = everyone[np.isnan(found[:, 0])]
+                left = everyone[np.isnan(result[:, 0])]
                 pixels = project(frame, left)
                 seen = np.flatnonzero(~np.isnan(pixels).any(axis=1))
                 seen = seen[pixel_time.frame_at(*pixels[seen].T) == frame]
-                found[left[seen]] = pixels[seen]
-            return found
+                result[left[seen]] = pixels[seen]
+            return result
         first, last = pixel_time.span
         search = _Search(pixel_time, project, last - first)
         pieces = list(pairwise([first, *sorted({cut for cut in cuts if first < cut < last}), last]))
         if around is not None:
             pieces.sort(key=lambda ends: max(ends[0] - around, around - ends[1]))
         for a, b in pieces:
-            left = everyone[np.isnan(found[:, 0])]
+            left = everyone[np.isnan(result[:, 0])]
             if left.size:
-                found[left] = search.within(a, b, left)
-    return found
+                result[left] = search.within(a, b, left)
+    return result
 
 
 @dataclass(frozen=True)
@@ -80,33 +80,33 @@ class _Search:
     length: float
     """Length of the time range in frames."""
 
-    def within(self, a: float, b: float, some: np.ndarray) -> np.ndarray:
+    def within(self, a: float, b: float, indices: np.ndarray) -> np.ndarray:
         """Return the pixels (k, 2) of points whose images agree with the clock between two frames; else NaN."""
-        found = np.full((len(some), 2), np.nan)
+        result = np.full((len(indices), 2), np.nan)
         middle, half = (a + b) / 2, (b - a) / 2
-        pixels = np.stack([self.project(middle + half * node, some) for node in NODES.tolist()])
+        pixels = np.stack([self.project(middle + half * node, indices) for node in NODES.tolist()])
         series = np.tensordot(FIT, pixels - pixels[:1], 1)
         size = np.abs(pixels).max(axis=(0, 2))
         clear = np.abs(series[-2:]).max(axis=(0, 2)) <= RESOLVED[0] + RESOLVED[1] * size
         late = self._late(pixels, middle + half * NODES[:, None])
         if clear.any():
-            found[clear] = self._root(middle, half, series[:, clear], pixels[0, clear])
+            result[clear] = self._root(middle, half, series[:, clear], pixels[0, clear])
         if b - a <= SHORTEST * self.length:
             change = (late[:-1] * late[1:] <= 0) & ~clear
             at = np.flatnonzero(change.any(axis=0))
             k = change[:, at].argmax(axis=0)
             before, after = late[k, at], late[k + 1, at]
             share = np.where(before == after, 0.0, before / (before - after))[:, None]
-            found[at] = (1 - share) * pixels[k, at] + share * pixels[k + 1, at]
-            return found
-        rest = ~clear
+            result[at] = (1 - share) * pixels[k, at] + share * pixels[k + 1, at]
+            return result
+        unclear = ~clear
         if b - a <= LONGEST * self.length:
-            rest &= (np.fmin.reduce(late) <= 0) & (np.fmax.reduce(late) >= 0)
+            unclear &= (np.fmin.reduce(late) <= 0) & (np.fmax.reduce(late) >= 0)
         for ends in ((a, middle), (middle, b)):
-            left = np.flatnonzero(rest & np.isnan(found[:, 0]))
+            left = np.flatnonzero(unclear & np.isnan(result[:, 0]))
             if left.size:
-                found[left] = self.within(*ends, some[left])
-        return found
+                result[left] = self.within(*ends, indices[left])
+        return result
 
     def _late(self, pixels: np.ndarray, frame) -> np.ndarray:
         """Return the times of pixels (..., 2) minus ``frame``."""
@@ -114,7 +114,7 @@ class _Search:
 
     def _root(self, middle: float, half: float, series: np.ndarray, start: np.ndarray) -> np.ndarray:
         """Return the first pixels (k, 2) at which polynomial images agree with the clock; NaN if none does."""
-        found = np.full(start.shape, np.nan)
+        pixels = np.full(start.shape, np.nan)
         at_places = start + np.tensordot(chebvander(PLACES, len(series) - 1), series, 1)
         late = self._late(at_places, middle + half * PLACES[:, None])
         change = late[:-1] * late[1:] <= 0
@@ -126,8 +126,8 @@ class _Search:
             at = (low + high) / 2
             is_after = (self._late(_values(series, start, at), middle + half * at) >= 0) == rises
             low, high = np.where(is_after, low, at), np.where(is_after, at, high)
-        found[here] = _values(series, start, high)
-        return found
+        pixels[here] = _values(series, start, high)
+        return pixels
 
 
 def _values(series: np.ndarray, start: np.ndarray, at: np.ndarray) -> np.ndarray:

@@ -145,12 +145,12 @@ def _sweep(raw: BlenderCamera, raster: Raster, firing: Firing | None) -> SweepTi
         )
     rate = FPS.read(raw) / FPS_BASE.read(raw)
     step = firing.per_column * rate
-    found = SweepTime(
+    sweep = SweepTime(
         raw.settings["frame"] - step / 2, step, firing.rows * rate, raster.width, TOLERANCE.read(raw),
         int(EVALUATIONS.read(raw)),
     )  # fmt: skip
-    _check_range(raw, found.first, found.last)
-    return found
+    _check_range(raw, sweep.first, sweep.last)
+    return sweep
 
 
 def _rows(raw: BlenderCamera, raster: Raster) -> LinearTime:

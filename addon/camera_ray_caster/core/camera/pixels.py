@@ -18,7 +18,7 @@ SHARED_PIXELS = 1 << 17
 """Number of pixels whose rays take as long as the serial part of a thread's share: see ``sharing``."""
 
 
-def given(x, y) -> tuple[np.ndarray, np.ndarray, tuple[int, ...]]:
+def checked_pixels(x, y) -> tuple[np.ndarray, np.ndarray, tuple[int, ...]]:
     """Return pixel coordinates as float64 arrays, and the shape to which they broadcast. Raises InputError for values
     that are not numbers and for shapes that do not broadcast.
     """

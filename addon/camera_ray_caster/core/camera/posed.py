@@ -22,7 +22,7 @@ def posed(camera, matrix):
     return replace(camera, model=model, pose=pose, record=raw, aperture=model.aperture(raw, pose), timeline=ONE_TIME)
 
 
-def check_still(camera, what: str) -> None:
+def check_still(camera, remedy: str) -> None:
     """Raise InputError for a camera that moves while it is exposed."""
     if camera.timeline.motion is not None:
-        raise InputError(f"camera {camera.name!r} moves from pixel to pixel: give camera.at(frame) another {what}")
+        raise InputError(f"camera {camera.name!r} moves from pixel to pixel: give camera.at(frame) another {remedy}")

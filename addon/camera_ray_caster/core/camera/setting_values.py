@@ -59,22 +59,22 @@ def checked(model: str, declared: Mapping[str, Setting], settings: Mapping[str, 
     }
 
 
-def with_angles(declared: Mapping[str, Setting], given: Mapping[str, Any]) -> dict[str, Any]:
+def with_angles(declared: Mapping[str, Setting], explicit: Mapping[str, Any]) -> dict[str, Any]:
     """Return settings with tables of angles, which are given as numbers in radians, in degrees, as records have them.
 
     If a number is too large for radians, all are degrees, as in earlier versions, and a FutureWarning says so.
     """
     tables = {
-        name: numbers(given[name], name)
+        name: numbers(explicit[name], name)
         for name, setting in declared.items()
-        if isinstance(setting, Angles) and not isinstance(given.get(name, ""), str)
+        if isinstance(setting, Angles) and not isinstance(explicit.get(name, ""), str)
     }
     widest = {name: setting.widest for name, setting in declared.items() if isinstance(setting, Angles)}
     too_large = [name for name, table in tables.items() if np.abs(table).max(initial=0) > widest[name]]
     if too_large:
         warnings.warn(f"{too_large[0]} is taken as degrees: give radians, as all angles in Python", FutureWarning, 3)
-        return dict(given)
-    return {**given, **{name: np.degrees(table) for name, table in tables.items()}}
+        return dict(explicit)
+    return {**explicit, **{name: np.degrees(table) for name, table in tables.items()}}
 
 
 def plain(setting: Setting, value: Any) -> Any:

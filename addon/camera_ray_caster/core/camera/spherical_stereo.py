@@ -194,7 +194,7 @@ class SphericalStereo(Model):
         here = self.lens.rays(x, y)[1]
         moves = [norm(difference(self.lens.rays(*near)[1], here)) for near in ((x + STEP, y), (x, y + STEP))]
         rounding = self._amplified * gamma(32) * norm(here) * STEP / np.maximum(*moves)
-        return tuple(own + rounding for own in self.lens.pixel_rounding(x, y))
+        return tuple(of_lens + rounding for of_lens in self.lens.pixel_rounding(x, y))
 
     @property
     def _amplified(self) -> float:
@@ -234,8 +234,8 @@ class SphericalStereo(Model):
         low, high = np.zeros(across.shape), np.full(across.shape, self.merge[1])
         for _ in range(HALVINGS):
             middle = (low + high) / 2
-            found = seen(self._offset_at(middle)) <= middle
-            low, high = np.where(found, low, middle), np.where(found, middle, high)
+            is_above = seen(self._offset_at(middle)) <= middle
+            low, high = np.where(is_above, low, middle), np.where(is_above, middle, high)
         offset = self._offset_at(high)
         met = MET * sqrt(self._amplified)
         offset = np.where(np.abs(seen(offset) - high) <= met, offset, np.nan)

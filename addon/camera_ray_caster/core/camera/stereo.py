@@ -43,9 +43,9 @@ def eye_record(raw: BlenderCamera, view: str) -> BlenderCamera:
         return raw
     if view not in SIDES:
         raise InputError(f"view {shown(view)} is not an eye of Stereo 3D: choose one of {', '.join(SIDES)}")
-    own = find_model(raw).eye(raw, view)
-    if own is not None:
-        return own
+    eye = find_model(raw).eye(raw, view)
+    if eye is not None:
+        return eye
     if settings["use_spherical_stereo"] and raw.type in ("PERSP", "PANO"):
         if raw.model:
             spherical = f"camera {raw.name!r} has Spherical Stereo, which only Blender's own cameras have"

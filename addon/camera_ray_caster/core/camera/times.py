@@ -19,7 +19,7 @@ class LinearTime:
     last: float
     tolerance: float
     """Allowed error, in pixels, of motion between evaluations of the scene."""
-    most: int
+    max_evaluations: int
     """Maximum number of evaluations of the scene."""
 
     @property
@@ -41,7 +41,7 @@ class ImageTime:
 
     frames: np.ndarray
     tolerance: float
-    most: int
+    max_evaluations: int
 
     @property
     def first(self) -> float:
@@ -63,8 +63,8 @@ class ImageTime:
         NaN for coordinates that are NaN.
         """
         row, column = (
-            np.nan_to_num(np.clip(np.floor(place), 0, size - 1)).astype(int)
-            for place, size in zip((y, x), self.frames.shape, strict=True)
+            np.nan_to_num(np.clip(np.floor(coordinate), 0, size - 1)).astype(int)
+            for coordinate, size in zip((y, x), self.frames.shape, strict=True)
         )
         return np.where(np.isnan(x) | np.isnan(y), np.nan, self.frames[row, column])
 
@@ -81,7 +81,7 @@ class SweepTime:
     """(height,): frames that each row adds."""
     width: int
     tolerance: float
-    most: int
+    max_evaluations: int
 
     @property
     def first(self) -> float:
