@@ -21,7 +21,7 @@ def test_a_pinhole_is_blenders_perspective(fit, change):
     assert found.camera.model.key == "PERSP"
     assert found.worst < 1e-3  # settings of float32
     assert np.allclose(found.camera.K, cam.K, rtol=1e-6, atol=1e-4)
-    assert "EEVEE and Workbench render it" in found.said
+    assert "EEVEE and Workbench render it" in found.message
 
 
 def test_a_bent_pinhole_has_the_error_that_the_pixels_show():
@@ -49,7 +49,7 @@ def test_a_fisheye_is_nearly_a_polynomial_of_blenders_by_opencv_s_projection():
     apart = np.hypot(seen[:, 0, 0] - x[rays.valid], seen[:, 0, 1] - y[rays.valid])
     assert apart.max() == pytest.approx(found.worst, rel=0.05)
     assert apart.mean() == pytest.approx(found.mean, rel=0.05)
-    assert "EEVEE and Workbench do not" in found.said
+    assert "EEVEE and Workbench do not" in found.message
 
 
 def test_a_lens_of_blenders_is_found_again():
@@ -70,7 +70,7 @@ def test_parallel_rays_are_blenders_orthographic(fit):
     assert found.camera.model.key == "ORTHO"
     assert found.worst < 1e-4  # settings of float32
     assert found.camera.project([(3.5, 1.25, -7.0)])[0] == pytest.approx((96, 54), abs=1e-4)
-    assert "EEVEE and Workbench render it" in found.said
+    assert "EEVEE and Workbench render it" in found.message
 
 
 @pytest.mark.parametrize(
