@@ -58,12 +58,12 @@ def test_a_fisheye_s_texels_are_as_small_as_the_pixels_need():
     assert texels == pytest.approx([np.pi / 1000, *[2.06 / 1000] * 4], rel=0.03)
     coarse = faces_of(camera, pixel=2.0)
     assert (coarse[0].window[1] - coarse[0].window[0]) / coarse[0].size[0] == pytest.approx(np.pi / 500, rel=0.05)
-    assert max(max(face.size) for face in faces_of(camera, most=100)) == 100
+    assert max(max(face.size) for face in faces_of(camera, largest=100)) == 100
 
 
 def test_of_a_part_of_the_picture_only_its_faces():
     camera = crc.camera("EQUIRECTANGULAR", (400, 200))
-    (face,) = faces_of(camera, part=(180.0, 90.0, 220.0, 110.0))
+    (face,) = faces_of(camera, region=(180.0, 90.0, 220.0, 110.0))
     assert list(-face.axes[2]) == list(-BACK)
     assert face.size[0] < 60
 

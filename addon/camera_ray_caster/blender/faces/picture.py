@@ -86,7 +86,7 @@ def picture_of(scene, engine: str, samples: int = 0) -> FacesPicture:
                 warnings.append(NO_BLUR.format(why))
             raster = camera.raster
             part = raster.x0, raster.y0, raster.x1, raster.y1
-            every = [(faces_of(camera, 1 / FINER, part=part, lens=point), point) for point in points]
+            every = [(faces_of(camera, 1 / FINER, region=part, lens=point), point) for point in points]
             sizes += [face.size for faces, _ in every for face in faces]
             require(image_bytes(raster.shape, ["combined"], np.float32), of_pixels("the picture", raster.shape))
             for layer in [layer for layer in scene.view_layers if layer.use]:
@@ -198,7 +198,7 @@ def _camera_of(stack: ExitStack, scene, active, camera: Camera, face: Face, poin
     turn = turn_of(camera)
     world[:3, :3], world[:3, 3] = turn @ face.axes.T, camera.pose.eye
     if point is not None:
-        world[:3, 3] += turn @ np.array(point.place)
+        world[:3, 3] += turn @ np.array(point.position)
     item.parent = active
     item.matrix_basis = Matrix(np.linalg.inv(np.array(active.matrix_world)) @ world)
     return item

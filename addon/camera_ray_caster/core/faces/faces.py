@@ -96,7 +96,7 @@ def refusal(camera: Camera) -> str:
 
 
 def faces_of(
-    camera: Camera, pixel: float = 1.0, most: int = 4096, part: Part | None = None, lens: LensPoint | None = None
+    camera: Camera, pixel: float = 1.0, largest: int = 4096, region: Part | None = None, lens: LensPoint | None = None
 ) -> tuple[Face, ...]:
     """Return the faces that hold a camera's picture; none if no pixel has a ray.
 
@@ -107,7 +107,7 @@ def faces_of(
     """
     if reason := refusal(camera):
         raise InputError(f"{reason}: its picture is not a warp of perspective pictures")
-    left, bottom, right, top = part or (0.0, 0.0, *camera.raster.size)
+    left, bottom, right, top = region or (0.0, 0.0, *camera.raster.size)
     directions, by_x, by_y = _seen(camera, np.linspace(left, right, SAMPLES + 1), np.linspace(bottom, top, SAMPLES + 1))
     if not len(directions):
         return ()
@@ -115,10 +115,10 @@ def faces_of(
         directions = lens.directions(directions)
     steps = (right - left) / SAMPLES, (top - bottom) / SAMPLES
     reach = np.hypot(*(np.linalg.norm(by, axis=-1) * step for by, step in zip((by_x, by_y), steps, strict=True)))
-    only = _face(AHEAD, directions, by_x, by_y, reach, pixel, most, WIDEST)
+    only = _face(AHEAD, directions, by_x, by_y, reach, pixel, largest, WIDEST)
     if only is not None and _holds_all(directions, reach):
         return (only,)
-    every = (_face(axes, directions, by_x, by_y, reach, pixel, most, 1.0) for axes in SIDES)
+    every = (_face(axes, directions, by_x, by_y, reach, pixel, largest, 1.0) for axes in SIDES)
     return tuple(face for face in every if face is not None)
 
 
@@ -135,9 +135,9 @@ def _seen(camera: Camera, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.
     with np.errstate(all="ignore"):
         directions, by = still.rays_at(x, y).directions, still.rays_jacobian_at(x, y).directions
     turn = turn_of(camera)
-    three = [part.reshape(-1, 3) @ turn for part in (directions, by[..., 0], by[..., 1])]
+    three = [vectors.reshape(-1, 3) @ turn for vectors in (directions, by[..., 0], by[..., 1])]
     good = np.isfinite(three).all(axis=(0, 2))
-    directions, by_x, by_y = (part[good] for part in three)
+    directions, by_x, by_y = (vectors[good] for vectors in three)
     return directions, by_x, by_y
 
 
@@ -146,7 +146,7 @@ def _holds_all(directions: np.ndarray, reach: np.ndarray) -> bool:
     return bool((np.abs(directions[:, :2]).max(axis=1) + reach <= (-directions[:, 2] - reach) * WIDEST).all())
 
 
-def _face(axes, directions, by_x, by_y, reach, pixel: float, most: int, widest: float) -> Face | None:
+def _face(axes, directions, by_x, by_y, reach, pixel: float, largest: int, widest: float) -> Face | None:
     """Return the face of these axes, up to ``widest`` from its middle; None if nothing is seen in it.
 
     reach: angle around each direction, up to the next ones, that may be seen, too.
@@ -158,25 +158,25 @@ def _face(axes, directions, by_x, by_y, reach, pixel: float, most: int, widest: 
     if not inside.any():
         return None
     local, ahead, reach = local[inside], ahead[inside], reach[inside]
-    place = local[:, :2] / ahead[:, None]
-    around = (reach / ahead * np.sqrt(1 + (place * place).sum(axis=1)))[:, None]
-    ends = (place - around).min(axis=0), (place + around).max(axis=0)
+    slopes = local[:, :2] / ahead[:, None]
+    around = (reach / ahead * np.sqrt(1 + (slopes * slopes).sum(axis=1)))[:, None]
+    ends = (slopes - around).min(axis=0), (slopes + around).max(axis=0)
     low, high = (np.clip(end, -widest, widest) for end in ends)
     if not (low < high).all():
         return None
-    moves = [(part[inside] @ axes.T) for part in (by_x, by_y)]
-    (a, c), (b, d) = (((move[:, :2] + place * move[:, 2:]) / ahead[:, None]).T for move in moves)
+    moves = [(derivatives[inside] @ axes.T) for derivatives in (by_x, by_y)]
+    (a, c), (b, d) = (((move[:, :2] + slopes * move[:, 2:]) / ahead[:, None]).T for move in moves)
     texel = pixel * _needed(a, b, c, d)
     low, high = np.maximum(low - MARGIN * texel, -WIDEST), np.minimum(high + MARGIN * texel, WIDEST)
-    size = [int(side) for side in np.clip(np.ceil((high - low) / texel), LEAST, most)]
+    size = [int(side) for side in np.clip(np.ceil((high - low) / texel), LEAST, largest)]
     return Face(axes, (float(low[0]), float(high[0]), float(low[1]), float(high[1])), (size[0], size[1]))
 
 
 def _needed(a, b, c, d) -> float:
     """Return the side of a texel for pixels with the derivatives [[a, b], [c, d]] on the plane of a face."""
-    most, area = np.hypot(np.hypot(a, b), np.hypot(c, d)), np.abs(a * d - b * c)
+    size, area = np.hypot(np.hypot(a, b), np.hypot(c, d)), np.abs(a * d - b * c)
     with np.errstate(all="ignore"):
-        # the squares of s1 and s2 have the sum most^2 and the product area^2
-        first = np.sqrt((most * most + np.sqrt(np.maximum(most**4 - 4 * area * area, 0))) / 2)
+        # the squares of s1 and s2 have the sum size^2 and the product area^2
+        first = np.sqrt((size * size + np.sqrt(np.maximum(size**4 - 4 * area * area, 0))) / 2)
         each = np.maximum(area / first, FLATTEST * first)
     return float(np.quantile(each[np.isfinite(each) & (each > 0)], FINEST, method="lower"))

@@ -23,7 +23,7 @@ STEPS = 0.8191725133961645, 0.6710436067037893, 0.5497004779019703
 class LensPoint:
     """A point of an aperture, in the frame of the faces."""
 
-    place: tuple[float, float, float]
+    position: tuple[float, float, float]
     focus: float
     """Distance of the surface of focus; of a planar camera its depth."""
     is_planar: bool
@@ -31,7 +31,7 @@ class LensPoint:
     def directions(self, chief: np.ndarray) -> np.ndarray:
         """Return the unit directions (..., 3) of the rays through this point for unit directions of chief rays."""
         ahead = chief / -chief[..., 2:] if self.is_planar else chief
-        there = ahead * self.focus - np.array(self.place)
+        there = ahead * self.focus - np.array(self.position)
         return there / np.linalg.norm(there, axis=-1, keepdims=True)
 
 
@@ -50,7 +50,7 @@ def lens_points(camera: Camera, count: int) -> tuple[LensPoint, ...]:
         z, turn = 2 * v - 1, 2 * np.pi * w
         x, y, z = radius * np.sqrt(1 - z * z) * np.cos(turn), radius * np.sqrt(1 - z * z) * np.sin(turn), radius * z
     places = zip(x.tolist(), y.tolist(), z.tolist(), strict=True)
-    return tuple(LensPoint(place, aperture.focus, is_planar) for place in places)
+    return tuple(LensPoint(position, aperture.focus, is_planar) for position in places)
 
 
 def blur_refusal(camera: Camera) -> str:

@@ -58,9 +58,9 @@ def resampled(
 def _colors(faces: Sequence[Face], pictures: Sequence[np.ndarray], directions: np.ndarray) -> np.ndarray:
     """Return the colors that faces have in directions (n, 3), (n, channels)."""
     colors = np.empty((len(directions), pictures[0].shape[-1]), np.float32)
-    which = chosen(faces, directions)
-    for place, (face, picture) in enumerate(zip(faces, pictures, strict=True)):
-        here = which == place
+    face_of = chosen(faces, directions)
+    for index, (face, picture) in enumerate(zip(faces, pictures, strict=True)):
+        here = face_of == index
         colors[here] = _between(picture, face.places(directions[here]))
     return colors
 

@@ -52,14 +52,14 @@ class Optics:
 
     def matrix(self, first: int, last: int) -> np.ndarray:
         """Return the paraxial matrix, (2, 2), from just before one surface to just behind another."""
-        found = np.eye(2)
+        matrix = np.eye(2)
         passed = self.surfaces[first : last + 1]
         for surface, after in zip(passed, (*passed[1:], None), strict=True):
             curvature = surface.curvature + 2 * sum(value for power, value in surface.asphere if power == 2)
-            found = np.array([[1.0, 0.0], [-(surface.behind - surface.before) * curvature, 1.0]]) @ found
+            matrix = np.array([[1.0, 0.0], [-(surface.behind - surface.before) * curvature, 1.0]]) @ matrix
             if after is not None:
-                found = np.array([[1.0, (after.z - surface.z) / surface.behind], [0.0, 1.0]]) @ found
-        return found
+                matrix = np.array([[1.0, (after.z - surface.z) / surface.behind], [0.0, 1.0]]) @ matrix
+        return matrix
 
     @cached_property
     def whole(self) -> np.ndarray:
@@ -160,7 +160,7 @@ class Optics:
             origin, (dx, dy, dz) = trace(
                 surfaces,
                 (start, start, start + self.entrance_pupil[0] - distance),
-                tuple(part / length for part in direction),
+                tuple(component / length for component in direction),
                 to_film=True,
             )
         return origin, (dx, np.where(np.isnan(dx), np.nan, dy), dz)

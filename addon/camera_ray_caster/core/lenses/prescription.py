@@ -71,16 +71,16 @@ class Prescription:
     states: tuple[tuple[str, tuple[tuple[int, float], ...]], ...] = ()
     """Configurations of a zoom or of floating elements: a name, and the rows whose gaps differ, with these gaps."""
 
-    def in_state(self, place: float) -> Prescription:
-        """Return the lens in a configuration: ``place`` counts them from 0, and between two of them the gaps are
+    def in_state(self, state: float) -> Prescription:
+        """Return the lens in a configuration: ``state`` counts them from 0, and between two of them the gaps are
         interpolated linearly. A lens without configurations is returned as it is.
         """
         if not self.states:
             return self
-        place = min(max(place, 0.0), len(self.states) - 1.0)
-        first = min(int(place), len(self.states) - 1)
+        state = min(max(state, 0.0), len(self.states) - 1.0)
+        first = min(int(state), len(self.states) - 1)
         after = min(first + 1, len(self.states) - 1)
-        share = place - first
+        share = state - first
         gaps, others = dict(self.states[first][1]), dict(self.states[after][1])
         rows = list(self.rows)
         for row, gap in gaps.items():
@@ -108,13 +108,13 @@ def checked(lens: Prescription) -> Prescription:
         raise InputError("a lens needs at least two surfaces: one that refracts, and the stop")
     if not any(row.curvature or row.asphere for row in lens.rows):
         raise InputError("no surface of the lens is curved: nothing focuses")
-    for place, row in enumerate(lens.rows):
-        name = lens.in_words(place)
+    for index, row in enumerate(lens.rows):
+        name = lens.in_words(index)
         numbers = {"gap": row.gap, "curvature": row.curvature, "conic constant": row.conic, "index": row.index}
         numbers |= {f"coefficient of r^{power}": value for power, value in row.asphere}
-        for what, value in numbers.items():
+        for quantity, value in numbers.items():
             if not (isfinite(value) and abs(value) <= LONGEST):
-                raise InputError(f"{name} has the {what} {value:g}: it must be a finite number")
+                raise InputError(f"{name} has the {quantity} {value:g}: it must be a finite number")
         if not 1 <= row.index <= 5:
             raise InputError(f"{name} has the index of refraction {row.index:g}: it must be from 1 to 5")
         if not row.rim > 0:

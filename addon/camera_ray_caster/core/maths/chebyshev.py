@@ -50,33 +50,33 @@ class Polynomials:
     def through(cls, function: Callable, x, y, size: tuple[int, int], counts: Sequence[int]) -> Polynomials:
         """Return the polynomials of panels with the corners x, y, (panels). ``counts``: number of values per vector."""
         x, y = x[:, None, None] + _places() * size[1], y[:, None, None] + _places()[:, None] * size[0]
-        rest = np.empty((sum(counts), len(x), POINTS, POINTS))
-        for own, value in zip(rest, function(x, y), strict=True):
-            own[...] = value
-        empty = np.isnan(rest[0]).all(axis=(-2, -1))
+        values = np.empty((sum(counts), len(x), POINTS, POINTS))
+        for array, result in zip(values, function(x, y), strict=True):
+            array[...] = result
+        empty = np.isnan(values[0]).all(axis=(-2, -1))
         first = np.cumsum([0, *counts[:-1]])
-        largest = np.maximum.reduceat(np.abs(rest).max(axis=(-2, -1)), first)
-        start = rest[..., POINTS // 2, POINTS // 2].copy()
-        rest -= start[..., None, None]  # the rest is small, and so is the rounding of the sums
-        upwards, across = _fit() @ rest, rest @ _fit()[:TAIL].T
-        tails = (np.abs(own).max(axis=(-2, -1)) for own in (upwards[..., :TAIL, :], across))
+        largest = np.maximum.reduceat(np.abs(values).max(axis=(-2, -1)), first)
+        start = values[..., POINTS // 2, POINTS // 2].copy()
+        values -= start[..., None, None]  # what is left is small, and so is the rounding of the sums
+        upwards, across = _fit() @ values, values @ _fit()[:TAIL].T
+        tails = (np.abs(coefficients).max(axis=(-2, -1)) for coefficients in (upwards[..., :TAIL, :], across))
         tail = np.maximum.reduceat(np.maximum(*tails), first)
         terms = upwards[..., TAIL:, :] @ _fit()[TAIL:].T
         terms[..., -1, -1] += start
         return cls(terms, (tail <= COEFFICIENT_ROUNDING * EPS * largest).all(axis=0), empty)
 
-    def write(self, which: slice, first: int, out: np.ndarray, pieces: slice) -> None:
-        """Write values of the panels ``which`` into ``out``, (values, panels, rows, columns): of the function's values
+    def write(self, selected: slice, first: int, out: np.ndarray, pieces: slice) -> None:
+        """Write values of ``selected`` panels into ``out``, (values, panels, rows, columns): of the function's values
         from index ``first`` on, in the given pieces of the panels' rows.
         """
         _, panels, rows, columns = out.shape
         sums = empty_like(out, (panels, TERMS, columns))
-        for own, terms in zip(sums, self.terms[first:], strict=False):
-            own[...] = terms[which] @ _between(columns).T
-        found = _as_matrices(out)
-        found = found.reshape(*found.shape[:-2], rows // PIECE, PIECE, found.shape[-1])[..., pieces, :, :]
+        for line, terms in zip(sums, self.terms[first:], strict=False):
+            line[...] = terms[selected] @ _between(columns).T
+        matrices = _as_matrices(out)
+        matrices = matrices.reshape(*matrices.shape[:-2], rows // PIECE, PIECE, matrices.shape[-1])[..., pieces, :, :]
         parts = _between(rows).reshape(-1, PIECE, TERMS)[pieces]
-        np.matmul(parts, _as_matrices(sums)[..., None, :, :], out=found)
+        np.matmul(parts, _as_matrices(sums)[..., None, :, :], out=matrices)
 
 
 def empty_like(values: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:

@@ -58,7 +58,7 @@ def solve(matrices, inverses, high, low):
         for i in range(3):
             terms = [high[:, i], low[:, i]]
             for j in range(3):
-                terms += [-part for part in two_product(matrices[:, i, j], x_high[:, j])]
+                terms += [-product for product in two_product(matrices[:, i, j], x_high[:, j])]
                 terms.append(-matrices[:, i, j] * x_low[:, j])
             residual[:, i] = total(terms)[0]
         x_high, lost = two_sum(x_high, (inverses @ residual[..., None])[..., 0])
@@ -82,8 +82,8 @@ def volume_sign(a, b, c) -> np.ndarray:
     terms = []
     for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
         for sign, (left, right) in ((1, (j, k)), (-1, (k, j))):
-            for part in two_product(b[left], c[right]):
-                terms += two_product(sign * a[i], part)
+            for product in two_product(b[left], c[right]):
+                terms += two_product(sign * a[i], product)
     return sum_sign(np.array(terms))
 
 
@@ -97,8 +97,8 @@ def sum_sign(terms) -> np.ndarray:
     for _ in range(len(terms)):
         for k in range(1, len(terms)):
             terms[k], terms[k - 1] = two_sum(terms[k], terms[k - 1])
-        rest = np.abs(terms[:-1]).sum(axis=0)
-        open_ = ~(np.abs(terms[-1]) > 2 * rest) & (rest > 0)
+        others = np.abs(terms[:-1]).sum(axis=0)
+        open_ = ~(np.abs(terms[-1]) > 2 * others) & (others > 0)
         sign[left] = np.sign(terms[-1])
         left, terms = left[open_], terms[:, open_]
         if not left.size:

@@ -46,8 +46,8 @@ class Interval:
         other = _interval(other)
         apart = (other.low > 0) | (other.high < 0)
         inverse = Interval(1 / np.where(apart, other.high, 1.0), 1 / np.where(apart, other.low, 1.0))
-        found = self * inverse
-        return Interval(np.where(apart, found.low, -np.inf), np.where(apart, found.high, np.inf))
+        quotient = self * inverse
+        return Interval(np.where(apart, quotient.low, -np.inf), np.where(apart, quotient.high, np.inf))
 
     __radd__ = __add__
     __rmul__ = __mul__

@@ -35,10 +35,10 @@ class _Block:
         blocks = _unused.pop(size, [])
         blocks.append(self._bytes)
         _unused[size] = blocks
-        excess = sum(one * len(blocks) for one, blocks in list(_unused.items())) - MOST_BYTES
-        for one in list(_unused):
+        excess = sum(block_size * len(blocks) for block_size, blocks in list(_unused.items())) - MOST_BYTES
+        for block_size in list(_unused):
             if excess > 0:
-                excess -= one * len(_unused.pop(one, ()))
+                excess -= block_size * len(_unused.pop(block_size, ()))
 
 
 def _memory(size: int) -> np.ndarray:

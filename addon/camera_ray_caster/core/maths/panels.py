@@ -81,96 +81,96 @@ def on_raster(
     (low, bands), (left, panels) = _panels(y[:, 0], ROWS), _panels(x[0], COLUMNS)
     shape = ROWS * len(bands), COLUMNS * len(panels)
     if out is None:
-        found = [np.empty((count, *shape))]
+        pictures = [np.empty((count, *shape))]
     else:
-        found = [own if own.shape[1:] == shape else empty_like(own, shape) for own in out]
+        pictures = [picture if picture.shape[1:] == shape else empty_like(picture, shape) for picture in out]
     corners = panels[None] * COLUMNS, bands[:, None] * ROWS
     wanted = np.ones((len(bands), len(panels)), bool)
     if disc is not None:
         wanted &= disc.holds(*disc.nearest(*corners, SIZES[0]))
     first = panels[0], bands[0]
-    _write(function, found, wanted.copy(), first, (low, low + y.size), disc, SIZES)
+    _write(function, pictures, wanted.copy(), first, (low, low + y.size), disc, SIZES)
     if disc is not None:
-        for _, values in _divided(found, SIZES[0]):
+        for _, values in _divided(pictures, SIZES[0]):
             values[:, ~wanted] = np.nan
-        _end(found, wanted, first, disc)
+        _end(pictures, wanted, first, disc)
     window = np.s_[:, low : low + y.size, left : left + x.size]
-    for own, values in zip(out or (), found, strict=False):
-        if values is not own:
-            own[...] = values[window]
-    return found[0][window]
+    for target, values in zip(out or (), pictures, strict=False):
+        if values is not target:
+            target[...] = values[window]
+    return pictures[0][window]
 
 
-def _write(function, found, wanted, corner, rows: tuple[int, int], disc: Disc | None, sizes) -> None:
+def _write(function, pictures, wanted, corner, rows: tuple[int, int], disc: Disc | None, sizes) -> None:
     """Write the values in the ``wanted`` panels, of the first of ``sizes``, within ``rows``: by polynomials, else by
     polynomials of quarters, else by evaluation at each pixel.
 
     corner: the numbers of the first panel, in x and y.
     """
     size, *smaller = sizes
-    parts = _divided(found, size)
+    parts = _divided(pictures, size)
     band, panel = np.nonzero(wanted)
     x, y = (corner[0] + panel) * size[1], (corner[1] + band) * size[0]
-    polynomials = Polynomials.through(function, x, y, size, [len(own) for own in found])
+    polynomials = Polynomials.through(function, x, y, size, [len(picture) for picture in pictures])
     spans = np.clip(np.array(rows) - (band * size[0])[:, None], 0, size[0])
     for run in _runs(band, panel, polynomials.right, len(x)):
         low, high = spans[run.start]
         for begin, values in parts:
-            own = values[:, band[run.start], panel[run.start] : panel[run.stop - 1] + 1]
-            polynomials.write(run, begin, own, slice(low // PIECE, -(-high // PIECE)))
-    rest = ~polynomials.right
+            target = values[:, band[run.start], panel[run.start] : panel[run.stop - 1] + 1]
+            polynomials.write(run, begin, target, slice(low // PIECE, -(-high // PIECE)))
+    remaining = ~polynomials.right
     if disc is not None and polynomials.empty.any():
         # No value at the points nor at the place nearest to the middle means no value in the panel.
         missing = polynomials.empty & np.isnan(function(*disc.nearest(x, y, size))[0])
-        rest &= ~missing
+        remaining &= ~missing
         for _, values in parts:
             values[:, band[missing], panel[missing]] = np.nan
     if smaller:
-        wanted[band, panel] = rest
-        if rest.any():
+        wanted[band, panel] = remaining
+        if remaining.any():
             wanted = wanted.repeat(2, axis=0).repeat(2, axis=1)
-            _write(function, found, wanted, (2 * corner[0], 2 * corner[1]), rows, disc, smaller)
+            _write(function, pictures, wanted, (2 * corner[0], 2 * corner[1]), rows, disc, smaller)
         return
-    for run in _runs(band, panel, rest, AT_ONCE):
+    for run in _runs(band, panel, remaining, AT_ONCE):
         low, high = spans[run.start]
         column, row = np.arange((run.stop - run.start) * size[1]), np.arange(low, high)[:, None]
         with whole_rows(column.size):
             # In three dimensions it is no raster: polynomials of a lens would round more than its formula.
             asked = function(x[run.start] + column[None, None] + 0.5, y[run.start] + row[None] + 0.5)
         top, left = band[run.start] * size[0], panel[run.start] * size[1]
-        for own, value in zip(chain(*found), asked, strict=True):
-            own[top + low : top + high, left : left + column.size] = value
+        for picture, value in zip(chain(*pictures), asked, strict=True):
+            picture[top + low : top + high, left : left + column.size] = value
 
 
-def _runs(band, panel, which, most: int) -> list[slice]:
-    """Return the panels ``which`` as slices of neighbors in a band, of at most ``most`` panels."""
-    at = np.flatnonzero(which)
+def _runs(band, panel, selected, limit: int) -> list[slice]:
+    """Return the panels ``selected`` as slices of neighbors in a band, of at most ``limit`` panels."""
+    at = np.flatnonzero(selected)
     ends = np.flatnonzero((np.diff(panel[at]) != 1) | (np.diff(band[at]) != 0)) + 1
     runs = [slice(run[0], run[-1] + 1) for run in np.split(at, ends) if run.size]
-    return [slice(k, min(k + most, run.stop)) for run in runs for k in range(run.start, run.stop, most)]
+    return [slice(k, min(k + limit, run.stop)) for run in runs for k in range(run.start, run.stop, limit)]
 
 
-def _end(found, wanted, corner, disc: Disc) -> None:
+def _end(pictures, wanted, corner, disc: Disc) -> None:
     """Write NaN beyond the disc into the ``wanted`` panels; corner: the numbers of the first panel, in x and y."""
-    size, parts = SIZES[0], _divided(found, SIZES[0])
+    size, parts = SIZES[0], _divided(pictures, SIZES[0])
     x, y = ((first + np.arange(count)) * side
             for first, count, side in zip(corner, wanted.shape[::-1], size[::-1], strict=True))  # fmt: skip
     columns, rows = _centers(size)
     for band, panel in np.argwhere(wanted & ~disc.covers(x[None], y[:, None], size)):
         beyond = ~disc.holds(x[panel] + columns, y[band] + rows)
-        for own in chain(*(values[:, band, panel] for _, values in parts)):  # all at once takes twice the time
-            np.copyto(own, np.nan, where=beyond)
+        for target in chain(*(values[:, band, panel] for _, values in parts)):  # all at once takes twice the time
+            np.copyto(target, np.nan, where=beyond)
 
 
-def _divided(found: list[np.ndarray], size: tuple[int, int]) -> list[tuple[int, np.ndarray]]:
+def _divided(pictures: list[np.ndarray], size: tuple[int, int]) -> list[tuple[int, np.ndarray]]:
     """Return views of pictures (some, rows, columns) as panels of this size, (some, bands, panels, rows, columns), each
     after the index of its first value among those of all pictures.
     """
     parts, first = [], 0
-    for own in found:
-        bands, panels = own.shape[1] // size[0], own.shape[2] // size[1]
-        parts.append((first, own.reshape(len(own), bands, size[0], panels, size[1]).swapaxes(2, 3)))
-        first += len(own)
+    for picture in pictures:
+        bands, panels = picture.shape[1] // size[0], picture.shape[2] // size[1]
+        parts.append((first, picture.reshape(len(picture), bands, size[0], panels, size[1]).swapaxes(2, 3)))
+        first += len(picture)
     return parts
 
 

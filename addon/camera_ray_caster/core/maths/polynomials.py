@@ -29,7 +29,7 @@ def horner(x, coefficients):
 
 def with_slope(x, coefficients):
     """Return a polynomial's value, as ``horner`` does, and its derivative; trailing zero coefficients cost nothing."""
-    there = coefficients[: max((place for place, one in enumerate(coefficients, 1) if one), default=0)]
+    there = coefficients[: max((count for count, coefficient in enumerate(coefficients, 1) if coefficient), default=0)]
     return horner(x, there), horner(x, [i * c for i, c in enumerate(there[1:], 1)] or [0.0])
 
 

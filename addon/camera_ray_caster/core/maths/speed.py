@@ -43,9 +43,9 @@ def sharing(threads: int, work: float) -> int:
     return max(1, min(threads, round(sqrt(work))))
 
 
-def taken(values: np.ndarray, which: np.ndarray) -> np.ndarray:
+def taken(values: np.ndarray, indices: np.ndarray) -> np.ndarray:
     """Return ``values[..., which]`` for valid indices: numpy's check of the indices would take 0.4 of the time."""
-    return values.take(which, axis=-1, mode="wrap")
+    return values.take(indices, axis=-1, mode="wrap")
 
 
 def merged(values: np.ndarray) -> np.ndarray:
@@ -103,15 +103,17 @@ class Scratch:
     def __call__(self, name: str, shape, dtype=None) -> np.ndarray:
         """Return the array of this name and dtype in this shape, with the values last written, or arbitrary values."""
         size, dtype = prod(shape), dtype or np.float64
-        found = self._arrays.get((name, dtype))
-        if found is None or found.size < size:
-            found = self._arrays[name, dtype] = np.empty(size, dtype)
-        return found[:size].reshape(shape)
+        array = self._arrays.get((name, dtype))
+        if array is None or array.size < size:
+            array = self._arrays[name, dtype] = np.empty(size, dtype)
+        return array[:size].reshape(shape)
 
     @property
     def size(self) -> int:
         """Number of bytes of all the arrays."""
-        return sum(one.nbytes for one in self._arrays.values()) + sum(part.size for part in self._parts.values())
+        return sum(array.nbytes for array in self._arrays.values()) + sum(
+            scratch.size for scratch in self._parts.values()
+        )
 
 
 _unused: list[Scratch] = []
@@ -135,7 +137,7 @@ def lending() -> Iterator[Callable[[], Scratch]]:
         yield lend
     finally:
         for scratch in lent:
-            if scratch.size + sum(one.size for one in _unused) <= kept.MOST_BYTES:
+            if scratch.size + sum(unused.size for unused in _unused) <= kept.MOST_BYTES:
                 _unused.append(scratch)
 
 
@@ -156,11 +158,11 @@ class Shared(Generic[T]):
         self._begun, self._done = (np.zeros(len(parts), bool) for _ in range(2))
         self._error: BaseException | None = None
 
-    def work(self, some: Sequence[int] | np.ndarray | None = None) -> Iterator[None]:
+    def work(self, indices: Sequence[int] | np.ndarray | None = None) -> Iterator[None]:
         """Do some of the parts, by default all, one part per step of the iteration; wait for the parts that other
         threads have begun. Raises the error of a part that failed.
         """
-        needed = np.arange(len(self._parts)) if some is None else np.asarray(some, np.intp)
+        needed = np.arange(len(self._parts)) if indices is None else np.asarray(indices, np.intp)
         for k in needed[~self._begun[needed]].tolist():
             with self._changed:
                 if self._begun[k] or self._error is not None:

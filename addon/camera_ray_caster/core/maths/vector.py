@@ -25,7 +25,7 @@ def linear(row, components, out, spare):
     For many rows at once, the entries of ``row`` are arrays, (m, 1, 1): other threads wait between fewer calls.
     """
     x, y, z = components
-    if not any(isinstance(part, np.ndarray) and part.shape[-1:] == out.shape[-1:] for part in (y, z)):
+    if not any(isinstance(component, np.ndarray) and component.shape[-1:] == out.shape[-1:] for component in (y, z)):
         return np.add(row[0] * x, row[1] * y + row[2] * z, out=out)
     np.add(np.multiply(row[1], y, out=out), np.multiply(row[2], z, out=spare), out=out)
     return np.add(np.multiply(row[0], x, out=spare), out, out=out)

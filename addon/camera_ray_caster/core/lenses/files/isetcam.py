@@ -30,54 +30,58 @@ def read(text: str, name: str) -> Prescription:
     if not isinstance(surfaces, list) or not all(isinstance(surface, dict) for surface in surfaces):
         raise InputError("its 'surfaces' must be a list of mappings")
     rows, medium = [], 1.0
-    numbers = [_numbers(surface, place) for place, surface in enumerate(surfaces)]
+    numbers = [_numbers(surface, surface_index) for surface_index, surface in enumerate(surfaces)]
     stop = _stop(numbers)
-    for place, (surface, (radius, gap, half, index, abbe)) in enumerate(zip(surfaces, numbers, strict=True)):
-        medium = medium if place == stop else index or 1.0
+    for surface_index, (surface, (radius, gap, half, index, abbe)) in enumerate(zip(surfaces, numbers, strict=True)):
+        medium = medium if surface_index == stop else index or 1.0
         conic = surface.get("conic_constant", 0)
         conic = conic[0] if isinstance(conic, list) and conic else conic
         if not isinstance(conic, int | float):
-            raise InputError(f"surface {place + 1} has the conic constant {str(conic)[:20]}: it must be a number")
+            raise InputError(
+                f"surface {surface_index + 1} has the conic constant {str(conic)[:20]}: it must be a number"
+            )
         rows.append(Row(1 / radius if radius else 0.0, gap, medium, half or inf, float(conic), (), abbe))
     return Prescription(tuple(rows), stop, str(document.get("name", name)), str(document.get("description", "")))
 
 
-def _numbers(surface: dict[str, Any], place: int) -> tuple[float, float, float, float, float]:
+def _numbers(surface: dict[str, Any], surface_index: int) -> tuple[float, float, float, float, float]:
     """Return radius, thickness, semi-aperture, index and Abbe's number."""
-    radius, gap, half = (_number(surface, key, place) for key in ("radius", "thickness", "semi_aperture"))
-    return radius, gap, half, *_index(surface.get("ior", 1), place)
+    radius, gap, half = (_number(surface, key, surface_index) for key in ("radius", "thickness", "semi_aperture"))
+    return radius, gap, half, *_index(surface.get("ior", 1), surface_index)
 
 
 def _stop(numbers: list[tuple[float, float, float, float, float]]) -> int:
     """Return the place of the stop."""
     stops, medium = [], 1.0
-    for place, (radius, _, _, index, _) in enumerate(numbers):
+    for surface_index, (radius, _, _, index, _) in enumerate(numbers):
         if radius == 0 and index in (0.0, medium):
-            stops.append(place)
+            stops.append(surface_index)
         else:
             medium = index or 1.0
-    stops = stops or [place for place, row in enumerate(numbers) if row[0] == 0 and row[3] == 1]
+    stops = stops or [surface_index for surface_index, row in enumerate(numbers) if row[0] == 0 and row[3] == 1]
     if len(stops) != 1:
         raise InputError(f"it has {len(stops)} surfaces of radius 0 without a change of the medium: one is the stop")
     return stops[0]
 
 
-def _number(surface: dict[str, Any], key: str, place: int) -> float:
+def _number(surface: dict[str, Any], key: str, surface_index: int) -> float:
     value = surface.get(key)
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise InputError(f"surface {place + 1} has the {key} {str(value)[:20]}: it must be a number")
+        raise InputError(f"surface {surface_index + 1} has the {key} {str(value)[:20]}: it must be a number")
     return float(value)
 
 
-def _index(value: Any, place: int) -> tuple[float, float]:
+def _index(value: Any, surface_index: int) -> tuple[float, float]:
     """Return the index at the d line, and Abbe's number, of a number or of tables."""
     if isinstance(value, int | float) and not isinstance(value, bool):
         return float(value), inf
     try:
-        lengths, indices = ([float(part) for part in row] for row in value)
+        lengths, indices = ([float(number) for number in row] for row in value)
         pairs = sorted(zip(lengths, indices, strict=True))
     except (TypeError, ValueError) as error:
-        raise InputError(f"surface {place + 1} has an ior that is neither a number nor two lists of them") from error
+        raise InputError(
+            f"surface {surface_index + 1} has an ior that is neither a number nor two lists of them"
+        ) from error
     d, f, c = (_between(pairs, line) for line in (D_LINE, F_LINE, C_LINE))
     return d, ((d - 1) / (f - c) if f > c else inf)
 

@@ -32,29 +32,30 @@ def read(text: str, name: str) -> Prescription:
         if line.startswith("["):
             rows = sections.setdefault(line.strip("[] \t").lower(), [])
         elif line.strip() and not line.startswith("#"):
-            rows.append([part.strip() for part in line.split("\t")])
+            rows.append([word.strip() for word in line.split("\t")])
     variable = {row[0]: row[1:] for row in sections.get("variable distances", []) if len(row) > 1}
     constants = {row[0] for row in sections.get("constants", [])}
     aspheres = {row[0]: row for row in sections.get("aspherical data", [])}
     states = max((len(values) for values in variable.values()), default=1)
-    found, gaps, stop, stops = [], [], None, 0
-    for place, row in enumerate(sections.get("lens data", [])):
+    surfaces, gaps, stop, stops = [], [], None, 0
+    for surface_index, row in enumerate(sections.get("lens data", [])):
         row = [*row, *[""] * 7]
         label, radius, gap, index, diameter, abbe = row[:6]
         if label == STOP:
-            stop, stops = place, stops + 1
+            stop, stops = surface_index, stops + 1
         gaps.append([_gap(gap, variable, state, label) for state in range(states)])
         curvature = _curvature(radius, label)
         conic, powers = _asphere(aspheres.get(label), constants)
         rim = _number(diameter, label, "diameter") / 2 if diameter else inf
         dispersion = _number(abbe, label, "Abbe number") if abbe and index else inf
         medium = _number(index, label, "index") if index else 1.0
-        found.append(Row(curvature, gaps[-1][0], medium, rim or inf, conic, powers, dispersion or inf, label=label))
+        surfaces.append(Row(curvature, gaps[-1][0], medium, rim or inf, conic, powers, dispersion or inf, label=label))
     if stop is None or stops > 1:
         raise InputError(f"it has {stops} rows {STOP}: one must be the stop")
-    changing = [place for place, of_row in enumerate(gaps) if len(set(of_row)) > 1]
+    changing = [surface_index for surface_index, of_row in enumerate(gaps) if len(set(of_row)) > 1]
     configurations = tuple(
-        (str(state), tuple((place, gaps[place][state]) for place in changing)) for state in range(states)
+        (str(state), tuple((surface_index, gaps[surface_index][state]) for surface_index in changing))
+        for state in range(states)
     )
     descriptive = {row[0].lower(): row[1] for row in sections.get("descriptive data", []) if len(row) > 1}
     claims = {
@@ -62,7 +63,7 @@ def read(text: str, name: str) -> Prescription:
     }
     source = descriptive.get("patent", "") or descriptive.get("author", "")
     title = descriptive.get("title", name)
-    return Prescription(tuple(found), stop, title, source, 1.0, claims, configurations if changing else ())
+    return Prescription(tuple(surfaces), stop, title, source, 1.0, claims, configurations if changing else ())
 
 
 def _is(word: str) -> bool:
@@ -72,11 +73,11 @@ def _is(word: str) -> bool:
         return False
 
 
-def _number(word: str, label: str, what: str) -> float:
+def _number(word: str, label: str, quantity: str) -> float:
     try:
         return float(word)
     except ValueError as error:
-        raise InputError(f"row {label!r} has the {what} {word[:20]!r}: it must be a number") from error
+        raise InputError(f"row {label!r} has the {quantity} {word[:20]!r}: it must be a number") from error
 
 
 def _curvature(word: str, label: str) -> float:
@@ -99,5 +100,5 @@ def _asphere(row: list[str] | None, constants: set[str]) -> tuple[float, tuple[t
         return 0.0, ()
     numbers = [_number(word, row[0], "coefficient") if word else 0.0 for word in row[2:]]
     first, step = (2, 2) if "AsphericalA2" in constants else (3, 1) if "AsphericalOddCount" in constants else (4, 2)
-    powers = [(first + step * place, value) for place, value in enumerate(numbers[1:])]
+    powers = [(first + step * k, value) for k, value in enumerate(numbers[1:])]
     return (numbers[0] if numbers else 0.0), tuple((power, value) for power, value in powers if value)

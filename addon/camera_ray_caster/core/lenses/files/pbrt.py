@@ -41,7 +41,7 @@ def read(text: str, name: str) -> Prescription:
 
 def from_rows(numbers, name: str, source: str = "", claims=None) -> Prescription:
     """Return the lens of rows (radius, gap behind, index behind, diameter, Abbe number or 0), radius 0 at the stop."""
-    stops = [place for place, row in enumerate(numbers) if row[0] == 0]
+    stops = [surface_index for surface_index, row in enumerate(numbers) if row[0] == 0]
     if len(stops) != 1:
         raise InputError(f"it has {len(stops)} rows of radius 0: one must be the stop")
     rows, medium = [], 1.0

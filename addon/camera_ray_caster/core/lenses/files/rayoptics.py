@@ -36,8 +36,8 @@ def read(text: str, name: str) -> Prescription:
         profiles = model.get("profile_dict", {})
         gaps = [gap["attributes"] for gap in sequence["gaps"]]
         rows = [
-            _row(each["attributes"], gap, profiles, place, unit)
-            for place, (each, gap) in enumerate(zip(sequence["ifcs"][:-1], gaps, strict=True))
+            _row(surface["attributes"], gap, profiles, surface_index, unit)
+            for surface_index, (surface, gap) in enumerate(zip(sequence["ifcs"][:-1], gaps, strict=True))
         ][1:]
         stop, before = int(sequence["stop_surface"]) - 1, _medium(gaps[0], 0)[0]
     except InputError:
@@ -49,25 +49,27 @@ def read(text: str, name: str) -> Prescription:
     return Prescription(tuple(rows), stop, str(system.get("title") or name), "", before)
 
 
-def _row(surface: dict[str, Any], gap: dict[str, Any], profiles: dict[str, Any], place: int, unit: float) -> Row:
+def _row(
+    surface: dict[str, Any], gap: dict[str, Any], profiles: dict[str, Any], surface_index: int, unit: float
+) -> Row:
     profile = surface.get("profile") or profiles[str(surface["profile_id"])]
     kind, numbers = profile["__instance_type__"][1], profile["attributes"]
     if kind not in ("Spherical", "Conic", *STEPS) or surface.get("decenter") or surface["interact_mode"] == "reflect":
-        said = f"{kind}, {surface['interact_mode']}"
-        raise InputError(f"surface {place} is a {said}: only centered ones that refract are read")
+        problem = f"{kind}, {surface['interact_mode']}"
+        raise InputError(f"surface {surface_index} is a {problem}: only centered ones that refract are read")
     conic, step = float(numbers["ec"]) - 1 if "ec" in numbers else float(numbers.get("cc", 0.0)), STEPS.get(kind, 1)
     powers = enumerate(numbers["coefs"], 1) if kind in STEPS else ()
     asphere = tuple((step * k, float(value) * unit ** (1 - step * k)) for k, value in powers if value)
     if asphere and asphere[0][0] < 2:
-        raise InputError(f"surface {place} has a coefficient of r^1: its tip is no vertex")
+        raise InputError(f"surface {surface_index} has a coefficient of r^1: its tip is no vertex")
     clear = surface.get("clear_apertures") or [{"attributes": {"radius": surface.get("max_aperture", 0.0)}}]
-    index, abbe = _medium(gap, place)
+    index, abbe = _medium(gap, surface_index)
     curvature, behind = float(numbers["cv"]) / unit, float(gap["thi"]) * unit
     rim = float(clear[0]["attributes"]["radius"]) * unit or inf
-    return Row(curvature, behind, index, rim, conic, asphere, abbe, label=str(place))
+    return Row(curvature, behind, index, rim, conic, asphere, abbe, label=str(surface_index))
 
 
-def _medium(gap: dict[str, Any], place: int) -> tuple[float, float]:
+def _medium(gap: dict[str, Any], surface_index: int) -> tuple[float, float]:
     """Return the index behind a surface at the d line, and Abbe's number."""
     kind, numbers = gap["medium"]["__instance_type__"][1], gap["medium"]["attributes"]
     if kind == "Air":
@@ -76,4 +78,6 @@ def _medium(gap: dict[str, Any], place: int) -> tuple[float, float]:
         return float(numbers["n"]), float(numbers.get("v") or inf)
     if (glass := str(numbers.get("gname", "")).upper()) in GLASSES:
         return GLASSES[glass]
-    raise InputError(f"surface {place} has the medium {glass or kind} without its index: give n and v in its place")
+    raise InputError(
+        f"surface {surface_index} has the medium {glass or kind} without its index: give n and v in its place"
+    )

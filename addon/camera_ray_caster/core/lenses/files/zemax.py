@@ -56,52 +56,56 @@ def read(text: str, name: str) -> Prescription:
         raise InputError(f"its unit is {head['UNIT'][0]!r}: it must be one of {', '.join(UNITS)}")
     rows: list[Row] = []
     stop = None
-    for place, block in enumerate(blocks[1:-1], 1):
+    for surface_index, block in enumerate(blocks[1:-1], 1):
         if "STOP" in block:
             stop = len(rows)
-        rows.append(_row(block, place, unit))
+        rows.append(_row(block, surface_index, unit))
     if stop is None:
         raise InputError("no surface is the stop (STOP)")
     title = " ".join(head.get("NAME", [])) or name
     return Prescription(tuple(rows), stop, title, " ".join(head.get("NOTE", [])[1:]))
 
 
-def _row(block: dict[str, list[str]], place: int, unit: float) -> Row:
+def _row(block: dict[str, list[str]], surface_index: int, unit: float) -> Row:
     kind = block.get("TYPE", ["STANDARD"])[0].upper()
     glass = block.get("GLAS", [])
     if kind not in ("STANDARD", "EVENASPH") or (glass and glass[0].upper() == "MIRROR"):
         kind = "MIRROR" if kind in ("STANDARD", "EVENASPH") else kind
-        raise InputError(f"surface {place} is a {kind}: only centered surfaces that refract are read")
+        raise InputError(f"surface {surface_index} is a {kind}: only centered surfaces that refract are read")
     curvature, gap, rim, conic = (
-        _number(block.get(key, ["0"])[0], place, key) for key in ("CURV", "DISZ", "DIAM", "CONI")
+        _number(block.get(key, ["0"])[0], surface_index, key) for key in ("CURV", "DISZ", "DIAM", "CONI")
     )
     powers = []
     for order in range(1, 9 if kind == "EVENASPH" else 1):
-        value = _number((block.get(f"PARM {order}") or ["0"])[0], place, f"PARM {order}")
+        value = _number((block.get(f"PARM {order}") or ["0"])[0], surface_index, f"PARM {order}")
         if value:
             powers.append((2 * order, value * unit ** (1 - 2 * order)))
-    index, abbe = _glass(glass, place) if glass else (1.0, inf)
+    index, abbe = _glass(glass, surface_index) if glass else (1.0, inf)
     if gap == inf:
-        raise InputError(f"surface {place} has an infinite distance behind it: it must be finite")
-    return Row(curvature / unit, gap * unit, index, rim * unit or inf, conic, tuple(powers), abbe, label=str(place))
+        raise InputError(f"surface {surface_index} has an infinite distance behind it: it must be finite")
+    return Row(
+        curvature / unit, gap * unit, index, rim * unit or inf, conic, tuple(powers), abbe, label=str(surface_index)
+    )
 
 
-def _glass(words: list[str], place: int) -> tuple[float, float]:
+def _glass(words: list[str], surface_index: int) -> tuple[float, float]:
     name = words[0].upper()
-    numbers = [_number(word, place, "GLAS") for word in words[1:5]]
+    numbers = [_number(word, surface_index, "GLAS") for word in words[1:5]]
     flag = numbers[0] if numbers else 0.0
-    given = (numbers[2], numbers[3]) if len(numbers) == 4 else PLACEHOLDER
-    if flag == 1 or (given != PLACEHOLDER and given[0] > 1):
-        return given[0], given[1] if given[1] > 0 else inf
+    constants = (numbers[2], numbers[3]) if len(numbers) == 4 else PLACEHOLDER
+    if flag == 1 or (constants != PLACEHOLDER and constants[0] > 1):
+        return constants[0], constants[1] if constants[1] > 0 else inf
     if name not in GLASSES:
-        raise InputError(f"surface {place} has the glass {words[0]!r} without its index: give n_d and V_d in its place")
+        raise InputError(
+            f"surface {surface_index} has the glass {words[0]!r} without its index: give n_d and V_d in its place"
+        )
     return GLASSES[name]
 
 
-def _number(word: str, place: int, what: str) -> float:
+def _number(word: str, surface_index: int, quantity: str) -> float:
     if word.upper() == "INFINITY":
         return inf
     try:
         return float(word)
     except ValueError as error:
-        raise InputError(f"surface {place} has the {what} {word[:20]!r}: it must be a number") from error
+        raise InputError(f"surface {surface_index} has the {quantity} {word[:20]!r}: it must be a number") from error

@@ -35,7 +35,7 @@ def differentiate(record: Record, inputs: Sequence, parameters: int = 0) -> tupl
     The values are the same as with NUMPY. A partial derivative broadcasts with its value, and may have fewer axes.
     """
     count = range(len(inputs) + parameters)
-    duals = [Dual(value, tuple(1.0 if k == own else None for k in count)) for own, value in enumerate(inputs)]
+    duals = [Dual(value, tuple(1.0 if k == index else None for k in count)) for index, value in enumerate(inputs)]
     return record.evaluate(dual_arithmetic(len(count)), duals)
 
 
@@ -54,10 +54,12 @@ def dual_arithmetic(count: int) -> Arithmetic:
     }
 
     def flat(function: Callable) -> Callable:
-        return lambda *given: Dual(function(*(one.value if isinstance(one, Dual) else one for one in given)), zero)
+        return lambda *operands: Dual(
+            function(*(operand.value if isinstance(operand, Dual) else operand for operand in operands)), zero
+        )
 
-    rest = {name: flat(function) for name, function in NUMPY.items()}
-    return rest | {name: _with_slopes(name) for name in SLOPES} | special
+    others = {name: flat(function) for name, function in NUMPY.items()}
+    return others | {name: _with_slopes(name) for name in SLOPES} | special
 
 
 def _select(condition, yes: Dual, no: Dual) -> tuple[Any, ...]:
@@ -83,8 +85,8 @@ def _with_slopes(name: str) -> Callable:
                     continue
                 if gain is None:
                     gain = slope(result, *values)
-                part = partial * gain
-                partials[k] = part if partials[k] is None else partials[k] + part
+                term = partial * gain
+                partials[k] = term if partials[k] is None else partials[k] + term
         return Dual(result, tuple(partials))
 
     return apply

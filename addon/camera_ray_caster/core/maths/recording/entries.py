@@ -20,8 +20,8 @@ class Entries(Sequence):
     def __len__(self) -> int:
         return len(self.values)
 
-    def __getitem__(self, place):
-        return self.values[place]
+    def __getitem__(self, index):
+        return self.values[index]
 
     def __iter__(self):
         return iter(self.values.tolist())

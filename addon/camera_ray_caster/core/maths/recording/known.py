@@ -27,8 +27,8 @@ def record_known(function: Callable, settings: Mapping[str, float], count: int) 
     values that are true at these settings. Raises NotRecordable.
     """
     tape = KnownTape()
-    given = {name: tape.own(Parameter(value, name), "a setting") for name, value in settings.items()}
-    values = list(function(given, *(tape.add("input", fixed=(place,)) for place in range(count))))
+    numbers = {name: tape.own(Parameter(value, name), "a setting") for name, value in settings.items()}
+    values = list(function(numbers, *(tape.add("input", fixed=(index,)) for index in range(count))))
     return tape.record([*values, *tape.conditions.values()])
 
 
@@ -46,33 +46,33 @@ class KnownTape(Tape):
     def add(self, operation, operands=(), fixed=(), truth=False):
         """See Tape; the number is a Known one if its operands are."""
         if operation == "multiply":
-            for one, other in (operands, operands[::-1]):
-                factor = self._constant(one)
-                if factor in (0.0, 1.0) and other.is_known:
-                    return one if factor == 0 else other
+            for operand, factor_of in (operands, operands[::-1]):
+                factor = self._constant(operand)
+                if factor in (0.0, 1.0) and factor_of.is_known:
+                    return operand if factor == 0 else factor_of
         if operation in ("add", "subtract") and self._constant(operands[1]) == 0:
             return operands[0]
         if operation == "add" and self._constant(operands[0]) == 0:
             return operands[1]
         made = super().add(operation, operands, fixed, truth)
-        place = made.place
-        if operation in ("input", "loop", "part") or not all(one.place in self.values for one in operands):
+        index = made.index
+        if operation in ("input", "loop", "part") or not all(operand.index in self.values for operand in operands):
             return made
-        if place not in self.values:
+        if index not in self.values:
             with np.errstate(all="ignore"):  # NaN is a value of branches that are not taken
-                self.values[place] = NUMPY[operation](*(self.values[one.place] for one in operands), *fixed)
-            if operation == "parameter" or any(one.place in self.varying for one in operands):
-                self.varying.add(place)
-        return Known(self, place)
+                self.values[index] = NUMPY[operation](*(self.values[operand.index] for operand in operands), *fixed)
+            if operation == "parameter" or any(operand.index in self.varying for operand in operands):
+                self.varying.add(index)
+        return Known(self, index)
 
     def _constant(self, number: Recorded) -> float | None:
-        step = self.steps[number.place]
+        step = self.steps[number.index]
         return step.fixed[0] if step.operation == "constant" else None
 
-    def decide(self, place: int) -> bool:
+    def decide(self, index: int) -> bool:
         """Return whether a value is true, and keep the condition."""
-        step, value = self.steps[place], self.values[place]
-        if place not in self.varying:
+        step, value = self.steps[index], self.values[index]
+        if index not in self.varying:
             return bool(value)
         if not step.truth:
             return True
@@ -85,8 +85,8 @@ class KnownTape(Tape):
         if step.operation in ("logical_and", "logical_or"):
             first, second = map(self.decide, step.operands)
             return first and second if step.operation == "logical_and" else first or second
-        holds = Known(self, place) if value else ~Known(self, place)
-        self.conditions[holds.place] = holds
+        holds = Known(self, index) if value else ~Known(self, index)
+        self.conditions[holds.index] = holds
         return bool(value)
 
 
@@ -97,7 +97,7 @@ class Known(Recorded):
     is_known = True
 
     def __bool__(self) -> bool:
-        return self.tape.decide(self.place)
+        return self.tape.decide(self.index)
 
     @property
     def __array__(self):

@@ -38,7 +38,7 @@ def record(function: Callable, count: int) -> Record:
     Numbers that do not depend on the input are recorded as exact constants. Raises NotRecordable.
     """
     tape = Tape()
-    return tape.record(function(*(tape.add("input", fixed=(place,)) for place in range(count))))
+    return tape.record(function(*(tape.add("input", fixed=(index,)) for index in range(count))))
 
 
 def is_recorded(*values) -> bool:
@@ -54,15 +54,15 @@ def tape_of(*values) -> Tape:
     return next((value for value in recorded if not value.is_known), recorded[0]).tape
 
 
-def loop(body: Callable, state: Sequence, most: int) -> Sequence:
-    """Repeat ``state, settled = body(*state)`` until all is settled, at most ``most`` times; return the last state.
+def loop(body: Callable, state: Sequence, limit: int) -> Sequence:
+    """Repeat ``state, settled = body(*state)`` until all is settled, at most ``limit`` times; return the last state.
 
     state: numbers, arrays or recorded numbers; all entries of arrays continue until the last is settled. For recorded
     numbers the body is called once, and must take everything that it needs from its state, except constants and what
     depends on parameters alone.
     """
     if not is_recorded(*state):
-        return repeat(body, state, most, np.all)
+        return repeat(body, state, limit, np.all)
     tape = tape_of(*state)
     start = [tape.own(value, "a loop") for value in state]
     inner = Tape(varies=False, outer=tape, state=len(start))
@@ -71,14 +71,14 @@ def loop(body: Callable, state: Sequence, most: int) -> Sequence:
     if [value.truth for value in after] != [value.truth for value in start]:
         raise NotRecordable("a loop whose state is a number once, and true or false once, cannot be recorded")
     settled = inner.truth(settled, "a loop")
-    taken = [Recorded(tape, place) for place in inner.taken]
-    made = tape.add("loop", [*start, *taken], (inner.record([*after, *inner.taken.values(), settled]), most))
+    taken = [Recorded(tape, index) for index in inner.taken]
+    made = tape.add("loop", [*start, *taken], (inner.record([*after, *inner.taken.values(), settled]), limit))
     return tuple(tape.add("part", [made], (i,), value.truth) for i, value in enumerate(start))
 
 
-def look_up(table, place):
+def look_up(table, index):
     """Return the entry of a table, (n,) float64, at an integer or an array of integers: ``table[place]``."""
-    return place.tape.add("take", [place], (_entries(table),)) if is_recorded(place) else table[place]
+    return index.tape.add("take", [index], (_entries(table),)) if is_recorded(index) else table[index]
 
 
 def may_hold(condition) -> bool:
@@ -121,20 +121,20 @@ class Tape:
 
     def add(self, operation: str, operands: Sequence[Recorded] = (), fixed: tuple = (), truth: bool = False):
         """Return the value of an operation; if the tape has the same step already, that step is used again."""
-        places = tuple(operand.place for operand in operands)
-        place = self._known.setdefault((operation, places, repr(fixed)), len(self.steps))  # 0.0 and -0.0 differ
-        if place == len(self.steps):
+        places = tuple(operand.index for operand in operands)
+        index = self._known.setdefault((operation, places, repr(fixed)), len(self.steps))  # 0.0 and -0.0 differ
+        if index == len(self.steps):
             self.steps.append(Operation(operation, places, fixed, truth))
-        return Recorded(self, place)
+        return Recorded(self, index)
 
     def own(self, value, operation: str) -> Recorded:
         """Return an operand of an operation: a number that this tape has recorded, or a constant."""
         if is_recorded(value):
             if value.tape is not self and self.outer is not None and value.is_known:
-                place = self.outer.own(value, operation).place
-                if place not in self.taken:
-                    self.taken[place] = self.add("input", (), (self.state + len(self.taken),), value.truth)
-                return self.taken[place]
+                index = self.outer.own(value, operation).index
+                if index not in self.taken:
+                    self.taken[index] = self.add("input", (), (self.state + len(self.taken),), value.truth)
+                return self.taken[index]
             if value.tape is not self:
                 raise NotRecordable(f"{operation} of a number that is not in the loop's state cannot be recorded")
             return value
@@ -160,7 +160,7 @@ class Tape:
 
     def record(self, values) -> Record:
         """Return the record of values, without unneeded steps."""
-        return needed(self.steps, [self.own(value, "an output").place for value in values])
+        return needed(self.steps, [self.own(value, "an output").index for value in values])
 
 
 def _operator(ufunc) -> Any:
@@ -185,13 +185,13 @@ class Recorded:
     is_known = False
     """Whether the value is known, since it depends on parameters alone: see ``known``."""
 
-    def __init__(self, tape: Tape, place: int):
-        self.tape, self.place = tape, place
+    def __init__(self, tape: Tape, index: int):
+        self.tape, self.index = tape, index
 
     @property
     def truth(self) -> bool:
         """Whether the value is a truth value instead of a number."""
-        return self.tape.steps[self.place].truth
+        return self.tape.steps[self.index].truth
 
     def __array_ufunc__(self, ufunc, method, *operands, **options):
         name = ufunc.__name__

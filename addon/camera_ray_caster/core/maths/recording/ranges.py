@@ -47,17 +47,17 @@ def _unknown(*operands: Range) -> Range:
     return Range(np.where(np.isnan(nothing), np.nan, -np.inf), np.where(np.isnan(nothing), np.nan, np.inf), True)
 
 
-def _rising(function: Callable, least: float = -np.inf, most: float = np.inf) -> Callable:
-    """Return the ranges of a function that rises from ``least`` to ``most`` and has no value beyond, nor an infinite
-    one.
+def _rising(function: Callable, lowest: float = -np.inf, highest: float = np.inf) -> Callable:
+    """Return the ranges of a function that rises from ``lowest`` to ``highest`` and has no value beyond, nor an
+    infinite one.
     """
     with np.errstate(divide="ignore"):
-        ends = np.less_equal if np.isinf(function(least)) and np.isfinite(least) else np.less
+        ends = np.less_equal if np.isinf(function(lowest)) and np.isfinite(lowest) else np.less
 
     def of(a: Range) -> Range:
-        nothing = np.where((a.low > most) | (a.high < least), np.nan, 0.0)
-        low, high = (function(np.clip(end, least, most)) + nothing for end in a[:2])
-        return _made((a,), low, high, ends(a.low, least) | (a.high > most))
+        nothing = np.where((a.low > highest) | (a.high < lowest), np.nan, 0.0)
+        low, high = (function(np.clip(end, lowest, highest)) + nothing for end in a[:2])
+        return _made((a,), low, high, ends(a.low, lowest) | (a.high > highest))
 
     return of
 
@@ -67,22 +67,24 @@ def _negative(a: Range) -> Range:
 
 
 def _absolute(a: Range) -> Range:
-    most = np.maximum(-a.low, a.high)
-    return Range(np.where((a.low < 0) & (a.high > 0), 0.0, np.minimum(np.abs(a.low), np.abs(a.high))), most, a.has_gaps)
+    greatest = np.maximum(-a.low, a.high)
+    return Range(
+        np.where((a.low < 0) & (a.high > 0), 0.0, np.minimum(np.abs(a.low), np.abs(a.high))), greatest, a.has_gaps
+    )
 
 
 def _product(a: Range, b: Range) -> Range:
     if a is b:
         size = _absolute(a)
         return Range(size.low * size.low, size.high * size.high, a.has_gaps)
-    found = Interval(a.low, a.high) * Interval(b.low, b.high)
-    return _made((a, b), found.low, found.high)
+    product = Interval(a.low, a.high) * Interval(b.low, b.high)
+    return _made((a, b), product.low, product.high)
 
 
 def _quotient(a: Range, b: Range) -> Range:
     nothing = np.where(np.isnan(a.low) | np.isnan(b.low), np.nan, 0.0)
-    found = Interval(a.low, a.high) / Interval(b.low, b.high)
-    return _made((a, b), found.low + nothing, found.high + nothing, (b.low <= 0) & (b.high >= 0))
+    quotient = Interval(a.low, a.high) / Interval(b.low, b.high)
+    return _made((a, b), quotient.low + nothing, quotient.high + nothing, (b.low <= 0) & (b.high >= 0))
 
 
 def _power(a: Range, b: Range) -> Range:
@@ -126,8 +128,8 @@ def _cosh(a: Range) -> Range:
 
 
 def _hypot(a: Range, b: Range) -> Range:
-    one, other = _absolute(a), _absolute(b)
-    return _made((a, b), np.hypot(one.low, other.low), np.hypot(one.high, other.high))
+    size_a, size_b = _absolute(a), _absolute(b)
+    return _made((a, b), np.hypot(size_a.low, size_b.low), np.hypot(size_a.high, size_b.high))
 
 
 def _compared(function: Callable, negated: Callable) -> Callable:
@@ -148,10 +150,10 @@ def _either(condition: Range, yes: Range, no: Range) -> Range:
     return Range(low, high, absent | (may & yes.has_gaps) | (~must & no.has_gaps))
 
 
-def _taken(place: Range, table) -> Range:
+def _taken(index: Range, table) -> Range:
     values = np.asarray(table, np.float64)
-    nothing = np.where(np.isnan(place.low), np.nan, 0.0)
-    return Range(np.nanmin(values) + nothing, np.nanmax(values) + nothing, place.has_gaps | np.isnan(values).any())
+    nothing = np.where(np.isnan(index.low), np.nan, 0.0)
+    return Range(np.nanmin(values) + nothing, np.nanmax(values) + nothing, index.has_gaps | np.isnan(values).any())
 
 
 def _placed(number: Range, table, side) -> Range:
@@ -191,6 +193,6 @@ RANGES: Arithmetic = {
     "stop_gradient": lambda a: a,
     "least_root": lambda *coefficients: Range(0.0, np.inf, True),
     "searchsorted": _placed, "take": _taken,
-    "loop": lambda body, most, state: [ANY] * len(body.outputs),
+    "loop": lambda body, limit, state: [ANY] * len(body.outputs),
 }  # fmt: skip
 """The arithmetic of ranges."""

@@ -88,10 +88,10 @@ class Record:
         """
         values: list[Any] = []
         for k, step in enumerate(self.steps):
-            operands = [values[place] for place in step.operands]
-            for place in step.operands:
-                if self._last[place] == k:  # so that the memory of large arrays is soon reused
-                    values[place] = None
+            operands = [values[index] for index in step.operands]
+            for index in step.operands:
+                if self._last[index] == k:  # so that the memory of large arrays is soon reused
+                    values[index] = None
             if step.operation == "input":
                 values.append(inputs[step.fixed[0]])
             elif step.operation == "part":
@@ -101,12 +101,12 @@ class Record:
             else:
                 values.append(arithmetic[step.operation](*operands, *step.fixed))
             del operands
-        return tuple(values[place] for place in self.outputs)
+        return tuple(values[index] for index in self.outputs)
 
     @cached_property
     def _last(self) -> dict[int, int]:
         """The index of the last step that needs each value; the number of steps for outputs."""
-        last = {place: k for k, step in enumerate(self.steps) for place in step.operands}
+        last = {index: k for k, step in enumerate(self.steps) for index in step.operands}
         return last | dict.fromkeys(self.outputs, len(self.steps))
 
     def as_body(self, arithmetic: Arithmetic) -> Callable:
@@ -122,22 +122,22 @@ class Record:
 def needed(steps: Sequence[Operation], outputs: Sequence[int]) -> Record:
     """Return the record of these outputs, without unneeded steps."""
     kept = set(outputs)
-    for place in reversed(range(len(steps))):
-        if place in kept:
-            kept.update(steps[place].operands)
-    new = {old: place for place, old in enumerate(sorted(kept))}
+    for index in reversed(range(len(steps))):
+        if index in kept:
+            kept.update(steps[index].operands)
+    new = {old: index for index, old in enumerate(sorted(kept))}
     moved = (replace(steps[old], operands=tuple(new[k] for k in steps[old].operands)) for old in new)
-    return Record(tuple(moved), tuple(new[place] for place in outputs))
+    return Record(tuple(moved), tuple(new[index] for index in outputs))
 
 
-def repeat_body(arithmetic: Arithmetic, body: Record, most: int, state: Sequence) -> Sequence:
+def repeat_body(arithmetic: Arithmetic, body: Record, limit: int, state: Sequence) -> Sequence:
     """Return the last state of a loop whose body is a record; see ``repeat``."""
-    return repeat(body.as_body(arithmetic), state, most, arithmetic["all"])
+    return repeat(body.as_body(arithmetic), state, limit, arithmetic["all"])
 
 
-def repeat(body: Callable, state: Sequence, most: int, settled_all: Callable) -> Sequence:
-    """Repeat ``state, settled = body(*state)`` until all is settled, at most ``most`` times; return the last state."""
-    for _ in range(most):
+def repeat(body: Callable, state: Sequence, limit: int, settled_all: Callable) -> Sequence:
+    """Repeat ``state, settled = body(*state)`` until all is settled, at most ``limit`` times; return the last state."""
+    for _ in range(limit):
         state, settled = body(*state)
         if settled_all(settled):
             break

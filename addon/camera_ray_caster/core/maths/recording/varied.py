@@ -43,13 +43,13 @@ class Varied(float):
         return True
 
     def __array_ufunc__(self, ufunc, method, *operands, **options):
-        if all(isinstance(one, Real) for one in operands) and ufunc.__name__ not in FLAT:
+        if all(isinstance(operand, Real) for operand in operands) and ufunc.__name__ not in FLAT:
             return _apply(ufunc.__name__, *operands)
-        if not all(isinstance(one, Real | np.ndarray) for one in operands):
+        if not all(isinstance(operand, Real | np.ndarray) for operand in operands):
             return NotImplemented
-        kept = any(getattr(one, "dtype", None) == np.dtype(object) for one in operands)
-        put = (lambda one: np.asarray(one, object)) if kept else float
-        values = [put(one) if isinstance(one, Varied) else one for one in operands]
+        kept = any(getattr(operand, "dtype", None) == np.dtype(object) for operand in operands)
+        put = (lambda operand: np.asarray(operand, object)) if kept else float
+        values = [put(operand) if isinstance(operand, Varied) else operand for operand in operands]
         return getattr(ufunc, method)(*values, **options)
 
 
@@ -57,33 +57,33 @@ def array(parts: Any) -> np.ndarray:
     """Return an array of float64, or of objects if one of the parts is a varied or a recorded number."""
     if isinstance(parts, np.ndarray) and parts.dtype != object:
         return np.asarray(parts, np.float64)
-    found = np.array(parts, object)
-    kept = any(isinstance(one, Varied) or not isinstance(one, Real) for one in found.flat)
-    return found if kept else found.astype(np.float64)
+    numbers = np.array(parts, object)
+    kept = any(isinstance(number, Varied) or not isinstance(number, Real) for number in numbers.flat)
+    return numbers if kept else numbers.astype(np.float64)
 
 
 def vector(*parts: Any) -> np.ndarray:
     """Return an array of numbers, some of which may be recorded numbers that depend on the inputs."""
-    found = np.empty(len(parts), object)
-    for place, part in enumerate(parts):
-        found[place] = part
-    return array(found)
+    numbers = np.empty(len(parts), object)
+    for index, number in enumerate(parts):
+        numbers[index] = number
+    return array(numbers)
 
 
 def _apply(name: str, *operands: Any) -> Any:
-    count = next(len(one.slopes) for one in operands if isinstance(one, Varied))
+    count = next(len(operand.slopes) for operand in operands if isinstance(operand, Varied))
     zero = (None,) * count
-    duals = [Dual(float(one), one.slopes if isinstance(one, Varied) else zero) for one in operands]
+    duals = [Dual(float(operand), operand.slopes if isinstance(operand, Varied) else zero) for operand in operands]
     known = dual_arithmetic(count)
     if name not in known:
         raise TypeError(f"np.{name} of a setting has no derivative: use other functions of numpy")
-    found = known[name](*duals)
-    return Varied(found.value, tuple(None if one is None else float(one) for one in found.partials))
+    result = known[name](*duals)
+    return Varied(result.value, tuple(None if partial is None else float(partial) for partial in result.partials))
 
 
 def _operator(name: str, swapped: bool = False) -> Callable:
     def apply(self, *other):
-        if not all(isinstance(one, Real) for one in other):
+        if not all(isinstance(operand, Real) for operand in other):
             return NotImplemented
         return _apply(name, *other, self) if swapped else _apply(name, self, *other)
 
