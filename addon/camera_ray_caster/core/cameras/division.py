@@ -4,7 +4,8 @@ Assumption: the ray of the distorted coordinates (a, b) is (a, b, -(1 + lambda r
 rays goes on behind the eye. With lambda above 0 it turns back at r = 1 / sqrt(lambda), where the picture ends.
 Formula: tan(theta) = r / (1 + lambda r^2), in focal lengths, then K; the inverse is the root of a quadratic equation.
 Singular: the angle at which rays turn back, and with lambda below 0 the point straight behind the eye.
-References: A. Fitzgibbon, Simultaneous Linear Estimation of Multiple View Geometry and Lens Distortion (2001).
+References: A. Fitzgibbon, Simultaneous Linear Estimation of Multiple View Geometry and Lens Distortion (2001); COLMAP
+documentation, Camera Models, where lambda is k.
 """
 
 from __future__ import annotations

@@ -1,13 +1,13 @@
 """Fisheye624 of Project Aria: Kannala and Brandt's model with 6 radial, 2 tangential and 4 thin prism coefficients.
 
-Others call it RAD_TAN_THIN_PRISM_FISHEYE. Aria's k0 .. k5 and s0 .. s3 are k1 .. k6 and s1 .. s4 here. Its p0 and p1
+COLMAP calls it RAD_TAN_THIN_PRISM_FISHEYE. Aria's k0 .. k5 and s0 .. s3 are k1 .. k6 and s1 .. s4 here. Its p0 and p1
 are p2 and p1 in OpenCV's naming, which is used here.
 Assumption: the radius is an odd polynomial of the angle from the axis, and the resulting picture is distorted further.
 Formula: r = theta (1 + k1 theta^2 + ... + k6 theta^12), in focal lengths, then the tangential and thin prism terms of
 parts/radial_tangential.py, then K. Both are inverted by Newton's method, to full precision. Beyond the angle up to
 which both are one-to-one, pixels have no ray and points have no pixel.
 Singular: that angle, and the point straight behind the eye.
-References: Project Aria documentation, Camera Intrinsic Models.
+References: Project Aria documentation, Camera Intrinsic Models; COLMAP documentation, Camera Models.
 """
 
 from __future__ import annotations

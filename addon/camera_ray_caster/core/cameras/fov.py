@@ -4,7 +4,7 @@ Assumption: the radius is proportional to the angle at which a pinhole's picture
 Formula: r = atan(2 tan(omega / 2) tan(theta)) / omega, in focal lengths, then K; the inverse has a closed form. The
 picture ends 90 degrees from the axis, where r = pi / (2 omega).
 Singular: that angle. With omega 0 it is a pinhole, r = tan(theta), without an end.
-References: F. Devernay and O. Faugeras, Straight Lines Have to Be Straight (2001).
+References: F. Devernay and O. Faugeras, Straight Lines Have to Be Straight (2001); COLMAP documentation, Camera Models.
 """
 
 from __future__ import annotations

@@ -1,11 +1,12 @@
 """The thin prism fisheye: equidistant, with the distortion of a pinhole's picture.
 
 Assumption: the radius is the angle from the axis, and the resulting picture is distorted.
-Formula: r = theta, in focal lengths, then parts/radial_tangential.py with k4 as the coefficient of r^8, then K.
-The distortion is inverted by Newton's method, to full precision. Beyond the angle up to which it is one-to-one, or 180
-degrees, pixels have no ray and points have no pixel.
+Formula: r = theta, in focal lengths, then parts/radial_tangential.py with k4 as the coefficient of r^8, as in COLMAP,
+whose sx1 and sy1 are s1 and s3 here. Then K. The distortion is inverted by Newton's method, to full precision.
+Beyond the angle up to which it is one-to-one, or 180 degrees, pixels have no ray and points have no pixel.
 Singular: that angle, and the point straight behind the eye.
-References: J. Weng, P. Cohen and M. Herniou, Camera Calibration with Distortion Models and Accuracy Evaluation (1992).
+References: J. Weng, P. Cohen and M. Herniou, Camera Calibration with Distortion Models and Accuracy Evaluation (1992);
+COLMAP documentation, Camera Models.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The unified camera: a model of mirror lenses and fisheyes, as calibrated by OpenCV's omnidir.
+"""The unified camera: a model of mirror lenses and fisheyes, as calibrated by OpenCV's omnidir and Kalibr's omni.
 
 Assumption: a point is projected onto the unit sphere about the eye and seen from xi behind the eye; then the picture is
 distorted and K applies. xi = 0 is a pinhole, xi = 1 a stereographic fisheye.

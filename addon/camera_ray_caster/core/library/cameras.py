@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from textwrap import fill
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from ..cameras.parts.port_settings import PORT
 from ..cameras.parts.port_settings import SETTINGS as PORTS
 from ..cameras.parts.pose import pose_matrix
 from ..cameras.parts.settings import RECORD_FIELDS, Line
+from ..programs import READ
 from ..programs.parts.lens import FRAME_SIZE, Lens
 from ..records import BlenderCamera, InputError
 from .file_poses import pose_in_file
@@ -96,8 +98,9 @@ def camera(model: str, size, pose=None, **settings: Any) -> Camera:
 def load_calibration(
     path: str | os.PathLike[str], camera: str | None = None, *, size=None, pose=None, model: str = ""
 ) -> Camera:
-    """Return a camera with the lens of a calibration file, of any program that the table
-    of models lists.
+    """Return a camera with the lens of a calibration file.
+
+    Programs whose files are read: PROGRAMS.
 
     camera: name of the camera in the file; default the only one.
     size: (width, height) of the picture; default that of the calibrated picture, which is scaled to another size.
@@ -114,6 +117,9 @@ def load_calibration(
     pose = pose_in_file(file, lens, model, tuple(size)) if pose is None else pose
     return of_lens(file, lens, chosen, size, pose)
 
+
+_READ = fill(f"Programs whose files are read: {READ}.", 116, subsequent_indent="    ", break_on_hyphens=False)
+load_calibration.__doc__ = (load_calibration.__doc__ or "").replace("Programs whose files are read: PROGRAMS.", _READ)
 
 _of_model = camera  # where an argument has the name of the function
 
