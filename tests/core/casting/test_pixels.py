@@ -52,7 +52,7 @@ def test_the_plan_of_a_picture_serves_pixels_of_its_window_and_tests_only_what_t
     at = np.ix_(rows - raster.y0, columns - raster.x0)
     assert np.array_equal(hits.t, images["depth"][at])
     assert np.array_equal(hits.index, images["shape_index"][at])
-    assert 0 < len(hits.plan.seen) < len(images.plan.seen)
+    assert 0 < len(images.plan.at_pixels(columns - raster.x0, rows - raster.y0).seen) < len(images.plan.seen)
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)

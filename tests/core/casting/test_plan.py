@@ -11,7 +11,7 @@ from camera_ray_caster.core import tuning
 from camera_ray_caster.core.camera.camera import Camera
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cast import cast
-from camera_ray_caster.core.casting import hit_values, plan
+from camera_ray_caster.core.casting import hit_values, target
 from camera_ray_caster.core.casting.passes import PASSES
 from camera_ray_caster.core.casting.request import SHADINGS
 from camera_ray_caster.core.motion.evaluations import Motion
@@ -50,7 +50,7 @@ def test_a_kind_out_of_view_is_not_tested(monkeypatch):
 
 @pytest.mark.parametrize("passes", [("depth",), ("depth", "shape_index")])
 def test_depth_needs_no_normals_error_bounds_indices_and_colors(monkeypatch, passes):
-    monkeypatch.setattr(plan, "normal_table", forbidden)
+    monkeypatch.setattr(target, "normal_table", forbidden)
     monkeypatch.setattr(hit_values, "HitErrors", forbidden)
     bare = replace(BALLS, object_index=None, material_index=None, color=None)
     assert list(cast(camera_at(), bare, passes=passes)) == list(passes)
@@ -72,7 +72,7 @@ def test_the_clip_end_is_asked_only_where_something_reaches_beyond_it():
 
 
 def test_position_needs_no_normals(monkeypatch):
-    monkeypatch.setattr(plan, "normal_table", forbidden)
+    monkeypatch.setattr(target, "normal_table", forbidden)
     assert np.isfinite(cast(camera_at(), BALLS, passes=("position",))["position"]).all()
 
 
@@ -88,7 +88,7 @@ def test_normals_of_near_balls_come_with_unit_length_and_only_those_of_far_ones_
     for shapes, unit in ((near, True), (far, False)):
         camera = camera_at(lens=18.0 * -shapes.center[0, 2] / 2, clip_end=1e7)
         images = cast(camera, shapes, passes=("normal", "shape_index"), dtype=np.float64)
-        assert images.plan.normals.unit is unit
+        assert images.plan.target.normals.unit is unit
         length = np.linalg.norm(images["normal"], axis=-1)[images["shape_index"] >= 0]
         assert length.size > 100
         assert np.abs(length - 1).max() < 1e-12

@@ -47,7 +47,7 @@ def at_edges(images, camera, x, y):
     """Where rounding may decide between hit and miss, as at an edge of some shape: bool, of pixel coordinates (n,)."""
     undecided = np.zeros(len(x), bool)
     for k in range(len(images.plan.shapes)):
-        value, bound = decision(camera, images.plan.in_camera, k, x[None], y[None])
+        value, bound = decision(camera, images.plan.target.placed, k, x[None], y[None])
         undecided |= (np.abs(value) <= bound)[0]
     return undecided
 

@@ -17,9 +17,9 @@ from ..conventions import gamma
 from ..maths.vector import norm
 from ..motion.evaluations import Motion
 from ..records import InputError, Shapes
+from .found import Span
 from .moving import HitGroup, Moving, all_apart, cast_apart, moving_of
 from .search import BodySearch
-from .written import Span, t_errors, write
 
 WITHOUT_PIXEL = "solid_angle", "footprint", "flow_forward", "flow_backward", "flow_hidden"
 """Passes that a ray alone does not have."""
@@ -116,7 +116,7 @@ def cast_rays(
         search = search_of(then)
         own = origin[:, some], direction[:, some]
         t, body = search.nearest(*own, near, far)
-        write(search, *own, t, body, images, np.arange(count)[some], (near, far))
+        search.write(*own, t, body, images, np.arange(count)[some])
     for name, image in images.items():
         images[name] = image.reshape((*shape, *image.shape[2:]))
     return images
@@ -140,7 +140,7 @@ def occluded(origins, targets, shapes: Shapes, *, times=None) -> np.ndarray:
         rounding = gamma(4) * np.maximum(norm(start), norm(end)) / norm(towards)
         for group in _groups(shapes, _times(shapes, times, shape), start, towards, (0.0, 1.0)):
             hits = group.hits
-            error = t_errors(group.found, start[:, hits.ray], towards[:, hits.ray], hits) + rounding[hits.ray]
+            error = group.found.t_errors(start[:, hits.ray], towards[:, hits.ray], hits) + rounding[hits.ray]
             hidden[hits.ray[(hits.t > error) & (hits.t < 1 - error)]] = True
     return hidden.reshape(shape)
 
@@ -274,7 +274,7 @@ def _all(shapes, each, origin, direction, shape, passes, span: Span, dtype) -> R
         hits = group.hits
         images = RayImages({name: PASSES[name].empty((1, len(hits.t)), dtype) for name in passes})
         own = origin[:, hits.ray], direction[:, hits.ray]
-        write(group.found, *own, hits.t, hits.body, images, np.arange(len(hits.t)), span)
+        group.found.write(*own, hits.t, hits.body, images, np.arange(len(hits.t)))
         if "shape_index" in images:
             images["shape_index"][0] = group.row
         found.append(images)

@@ -24,9 +24,9 @@ from ..records import MESH, PLANE, SPHERE, Shapes
 from ..shapes.in_camera import in_camera, invert
 from .balls import may_meet, unit_directions
 from .forms import SLACK, Form
+from .found import WORLD, Found, RayHits, Span
 from .own_times import OwnTimes, RowsPlaced
-from .search import RAYS, WORLD, BodySearch, Found, RayHits
-from .written import Span, write
+from .search import RAYS, BodySearch
 
 MARGIN = 1.25
 """Factor by which balls are enlarged around shapes that change in size or form: between evaluations they may be larger.
@@ -170,7 +170,7 @@ def all_apart(
 
 def _cast_some(apart: Moving, search: BodySearch, origin, direction, times: np.ndarray, span: Span, images) -> None:
     t, body = search.nearest(origin, direction, *span)
-    write(search, origin, direction, t, body, images, np.arange(len(t)), span)
+    search.write(origin, direction, t, body, images, np.arange(len(t)))
     row = np.append(apart.still_rows, -1)[np.append(search.at, -1)[body]]
     for group in _groups(apart, origin, direction, times, span, every=False):
         before = t[group.hits.ray]
@@ -178,7 +178,7 @@ def _cast_some(apart: Moving, search: BodySearch, origin, direction, times: np.n
         hits = group.hits.only(closer)
         t[hits.ray], row[hits.ray] = hits.t, group.row[closer]
         own = origin[:, hits.ray], direction[:, hits.ray]
-        write(group.found, *own, hits.t, hits.body, images, hits.ray, span)
+        group.found.write(*own, hits.t, hits.body, images, hits.ray)
     if "shape_index" in images:
         images["shape_index"][0] = row
 

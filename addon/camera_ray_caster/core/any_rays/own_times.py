@@ -23,11 +23,11 @@ from ..shapes.in_camera import in_camera
 from ..shapes.kind import Kind
 from ..shapes.kinds import by_kind
 from .forms import SLACK, Form
+from .found import WORLD, Found, RayHits, Span
 from .packets import coherent_order, packets_of
-from .search import WORLD, Found, RayHits, keep_nearest, met
+from .search import keep_nearest, met
 from .traversal import Traversal
 from .tree import Tree, tree_of
-from .written import Span
 
 PAIRS = 1 << 16
 """Number of pairs of rays and triangles that are tested at once, of meshes without a tree. Not tuned."""

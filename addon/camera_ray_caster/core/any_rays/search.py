@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import partial
 from math import inf
 from typing import Any
@@ -11,12 +10,11 @@ from typing import Any
 import numpy as np
 
 from ..maths.speed import Scratch, lazy, taken
-from ..records import MESH, Pose, Shapes
+from ..records import Shapes
 from ..shapes.bodies import Bodies
-from ..shapes.frames import InCamera
-from ..shapes.in_camera import in_camera
 from ..shapes.kinds import by_kind
 from .balls import may_meet, unit_directions
+from .found import Found, RayHits
 from .packets import coherent_order, packets_of
 from .traversal import Traversal
 from .tree import Tree, tree_of
@@ -31,55 +29,6 @@ PAIRS = 1 << 12
 """Number of pairs of rays and bodies tested all at once, without a tree: a ray with a time of its own at a mesh
 of 400 to 4,096 triangles that moves takes 2 to 3 ms, where its tree would make it 4 to 6.
 """
-
-WORLD = Pose(np.zeros(3), np.eye(3))
-"""The frame in which the rays are given."""
-
-
-@dataclass(frozen=True, eq=False)
-class RayHits:
-    """Hits of rays, (m,) arrays."""
-
-    ray: np.ndarray
-    t: np.ndarray
-    body: np.ndarray
-    """Indices into the bodies of ``Search``."""
-
-    @classmethod
-    def of(cls, t: np.ndarray, body: np.ndarray) -> RayHits:
-        """Return the nearest hits of rays, given t and bodies of all rays, -1 for none."""
-        hit = np.flatnonzero(body >= 0)
-        return cls(hit, t[hit], body[hit])
-
-    @classmethod
-    def joined(cls, parts: list[RayHits]) -> RayHits:
-        """Return the hits of all parts, one after the other."""
-        kinds = (("ray", np.intp), ("t", float), ("body", np.intp))
-        return cls(*(
-            np.concatenate([getattr(hits, name) for hits in parts] or [np.zeros(0, kind)]) for name, kind in kinds
-        ))  # fmt: skip
-
-    def only(self, some: np.ndarray) -> RayHits:
-        """Return some of them, by index."""
-        return RayHits(self.ray[some], self.t[some], self.body[some])
-
-
-class Found:
-    """Bodies of shapes, on which rays have hits."""
-
-    at: np.ndarray
-    """(b,): the shape of each body."""
-    number: np.ndarray
-    """(b,): its triangle."""
-
-    def __init__(self, shapes: Shapes):
-        self.shapes = shapes
-        self.placed: InCamera = in_camera(shapes, WORLD)
-
-    @lazy
-    def is_triangle(self) -> np.ndarray:
-        """(b + 1,) bool: whether a body is a triangle of a mesh; False at the end, for no body."""
-        return np.append(self.shapes.kind[self.at] == MESH, False)
 
 
 class BodySearch(Found):

@@ -109,7 +109,7 @@ class _Aim:
         origin, direction = laid(self.origin, 0.0), laid(self.direction)
         rays = TileRays(
             columns[None] + 0.5, rows[:, None] + 0.5, (0, 0), from_eye, (0.0,) * 3 if from_eye else tuple(origin),
-            tuple(direction), Scratch(),
+            tuple(direction), Scratch(), camera,
         )  # fmt: skip
         in_world = WorldRays(
             matvec(camera.pose.basis, rays.origin), matvec(camera.pose.basis, direction), laid(self.length),
@@ -119,7 +119,7 @@ class _Aim:
         front = np.full(shape, np.inf)
         values = HitValues(hits)
         for where, errors in values.by_kind(
-            lambda kind, own: HitErrors(camera, plan.in_camera, kind, own, in_world.only(own.of), True)
+            lambda kind, own: HitErrors(plan.target.placed, kind, own, in_world.only(own.of), True)
         ):
             front[where] = errors.t + errors.t_error
         return front[place]

@@ -32,7 +32,7 @@ def coincident(hits: Hits, met: list[Crossings]) -> tuple[np.ndarray, np.ndarray
     own = np.flatnonzero(~others & (triangle >= 0))
     if own.size and seen is not None:
         number = seen.number[seen.of_pixel.reshape(-1)[pixel[own]]]
-        others[own] = (number != triangle[own]) & ~_touch(hits.plan.shapes, at[own], number, triangle[own])
+        others[own] = (number != triangle[own]) & ~_touch(hits.target.shapes, at[own], number, triangle[own])
     return pixel[others], at[others]
 
 

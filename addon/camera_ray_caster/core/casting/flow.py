@@ -38,7 +38,7 @@ NEXT, PREVIOUS = "next", "previous"
 def flow_of(values: HitValues, name: str) -> Flow:
     """Return the flow of a block of hits to the NEXT or the PREVIOUS frame, computed once per block."""
     if name not in values.flows:
-        values.flows[name] = Flow(values, values.plan.request.others[name])
+        values.flows[name] = Flow(values, values.target.pictures[name])
     return values.flows[name]
 
 
@@ -53,7 +53,7 @@ class Flow:
         self._at = np.concatenate([np.zeros(0, int), *(pixels.at for _, (pixels, _, _) in parts)])
         self._place = np.concatenate([np.zeros(0, int), *(pixels.places for _, (pixels, _, _) in parts)])
         self._points = np.concatenate([np.zeros((3, 0)), *(point for _, (_, _, point) in parts)], axis=1)
-        self._points += values.plan.camera.pose.eye[:, None]
+        self._points += values.target.pose.eye[:, None]
         self._last: tuple[Shapes, np.ndarray] | None = None
         self._known: tuple[np.ndarray, Moved] | None = None
 
@@ -70,7 +70,7 @@ class Flow:
     def pixels(self) -> np.ndarray:
         """The pixel coordinates (m, 2) at which the points are seen."""
         found = self._picture.pixels(self, len(self._at), self._own)
-        camera, other = self._values.plan.camera, self._picture.camera
+        camera, other = self._values.hits.rays.of_camera, self._picture.camera
         if camera.model.central or other.pixel_time is not None:
             return found
         back = camera.project(self._points.T)
@@ -101,7 +101,7 @@ class Flow:
 
     def _of_kind(self, kind: Kind, pixels: HitPixels):
         point = pixels.of(self._values.point)
-        return pixels, kind.follow(self._values.plan.in_camera, pixels, point), np.array(point)
+        return pixels, kind.follow(self._values.target.placed, pixels, point), np.array(point)
 
     @lazy
     def _own_error(self) -> np.ndarray:
@@ -111,7 +111,7 @@ class Flow:
     def _moved(self, shapes: Shapes, some: np.ndarray) -> Moved:
         """Return how some of the points have moved; NaN if their shape is not in ``shapes``."""
         if self._last is None or self._last[0] is not shapes:
-            self._last, self._known = (shapes, rows_in(self._values.plan.shapes, shapes)), None
+            self._last, self._known = (shapes, rows_in(self._values.target.shapes, shapes)), None
         if self._known is None or self._known[0] is not some:  # ``at`` and ``error`` are called in turn
             self._known = some, self._move(shapes, self._last[1], some)
         return self._known[1]

@@ -12,7 +12,6 @@ import numpy as np
 
 from ..camera.jacobian import RayDerivatives
 from ..errors.hits import HitErrors
-from ..errors.rays import world_rays
 from ..materials.surface import Surface
 from ..maths.speed import Scratch, lazy
 from ..maths.vector import dot, inner, is_lattice, is_one, linear, matvec, norm
@@ -20,7 +19,7 @@ from ..shapes.kind import HitPixels, Kind
 from ..shapes.kinds import by_kind
 from ..shapes.surface_places import KindPlaces, SurfacePlaces, material_rows
 from .hits import Hits
-from .plan import Plan
+from .target import RayTarget
 
 T = TypeVar("T")
 
@@ -37,9 +36,9 @@ class HitValues:
         """The flows to other frames, by name, which the passes of a block share; see ``flow``."""
 
     @property
-    def plan(self) -> Plan:
-        """The plan of the cast."""
-        return self.hits.plan
+    def target(self) -> RayTarget:
+        """What the rays are cast at."""
+        return self.hits.target
 
     @property
     def scratch(self) -> Scratch:
@@ -71,7 +70,7 @@ class HitValues:
     def direction(self) -> Any:
         """The directions of the rays, not of unit length."""
         if self._lattice is None:
-            return matvec(self.plan.camera.pose.basis, self.hits.rays.direction)
+            return matvec(self.target.pose.basis, self.hits.rays.direction)
         return np.add(*self._lattice, out=self.array("direction", 3))
 
     @lazy
@@ -93,7 +92,7 @@ class HitValues:
         if not is_lattice(self.hits.rays.direction):
             return None
         x, y, z = self.hits.rays.direction
-        to_x, to_y, to_z = self.plan.camera.pose.basis.T[..., None, None]
+        to_x, to_y, to_z = self.target.pose.basis.T[..., None, None]
         return to_x * x, to_y * y + to_z * z
 
     @lazy
@@ -111,14 +110,14 @@ class HitValues:
 
     def _to_world(self, vector: Any, out: np.ndarray) -> np.ndarray:
         """Return camera-frame components as world components, written to ``out``."""
-        axes = self.plan.camera.pose.basis.T[..., None, None]
+        axes = self.target.pose.basis.T[..., None, None]
         return linear(axes, vector, out, self.array("spare", 3))
 
     @lazy
     def normal_terms(self) -> tuple[np.ndarray, np.ndarray]:
         """Two terms whose sum is ``normal`` where something is hit, so that storing the normal can add them."""
-        table, normal = self.plan.normals, self.array("turned", 3)
-        faces_eye = self.hits.rays.from_eye and all(one.faces_eye for one in self.plan.sets)
+        table, normal = self.target.normals, self.array("turned", 3)
+        faces_eye = self.hits.faces_eye
         others = [(self.look_up(mask, f"others {k}"), normals) for k, (mask, normals) in enumerate(table.others)]
         if not (others and (np.logical_or.reduce([mask for mask, _ in others]) >= self.hits.seen).all()):
             offset = self.look_up(table.offset, "offset of normals")
@@ -161,7 +160,7 @@ class HitValues:
     @lazy
     def _kinds(self) -> list[tuple[Kind, HitPixels]]:
         """The kinds that are hit, each with its pixels."""
-        kinds = self.look_up(self.plan.kinds, "kinds")
+        kinds = self.look_up(self.target.kinds, "kinds")
         return [(kind, self.pixels(where & self.hits.seen)) for kind, where in by_kind(kinds)]
 
     @lazy
@@ -178,7 +177,7 @@ class HitValues:
 
     def _surface_cosine(self, kind: Kind, pixels: HitPixels) -> Any:
         """Return the cosine for pixels of a kind whose ``normal`` is not the surface's own; None for other kinds."""
-        normal = kind.surface_normals(self.plan.in_camera, pixels)
+        normal = kind.surface_normals(self.target.placed, pixels)
         if normal is None:
             return None
         direction = pixels.of(self.direction)
@@ -187,38 +186,38 @@ class HitValues:
     @lazy
     def derivatives(self) -> RayDerivatives:
         """The derivatives of the rays with respect to the pixel."""
-        camera, rays = self.plan.camera, self.hits.rays
+        rays, camera = self.hits.rays, self.hits.rays.of_camera
         return RayDerivatives(camera.model, camera.pose, rays.x, rays.y)
 
     @lazy
     def uv(self) -> list[tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]]:
         """The UV maps, kind by kind: the pixels of the kind, (rows, columns) bool, and u and v there."""
-        return self.by_kind(lambda kind, pixels: kind.uv(self.plan.in_camera, pixels, pixels.of(self.point)))
+        return self.by_kind(lambda kind, pixels: kind.uv(self.target.placed, pixels, pixels.of(self.point)))
 
     @property
     def coordinates(self) -> list[tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]]:
         """The coordinates of the surfaces themselves, kind by kind: see ``Kind.coordinates``."""
-        return self.by_kind(lambda kind, pixels: kind.coordinates(self.plan.in_camera, pixels, pixels.of(self.point)))
+        return self.by_kind(lambda kind, pixels: kind.coordinates(self.target.placed, pixels, pixels.of(self.point)))
 
     @property
     def from_edge(self) -> list[tuple[np.ndarray, np.ndarray]]:
         """The distances of the hits from the edges of faces without uv, kind by kind: see ``Kind.from_edge``."""
-        return self.by_kind(lambda kind, pixels: kind.from_edge(self.plan.in_camera, pixels, pixels.of(self.point)))
+        return self.by_kind(lambda kind, pixels: kind.from_edge(self.target.placed, pixels, pixels.of(self.point)))
 
     @lazy
     def material(self) -> np.ndarray:
-        """The rows of the hit materials in the plan's tables, (rows, columns) intp."""
-        if self.plan.shapes.slots is None:
+        """The rows of the hit materials in the target's tables, (rows, columns) intp."""
+        if self.target.shapes.slots is None:
             return self.index
         row = self.index.copy()
-        for where, slot in self.by_kind(lambda kind, pixels: kind.slot(self.plan.in_camera, pixels)):
-            row[where] = material_rows(self.plan.shapes, row[where], slot)
+        for where, slot in self.by_kind(lambda kind, pixels: kind.slot(self.target.placed, pixels)):
+            row[where] = material_rows(self.target.shapes, row[where], slot)
         return row
 
     def of_material(self, table: np.ndarray, out: str) -> np.ndarray:
         """Return a table's entries, (n + s + 1,), for the hit materials, in the working array of the name ``out``."""
         array = self.scratch(out, self.hits.t.shape, table.dtype.type)
-        if self.hits.shape is not None and self.plan.shapes.slots is None:
+        if self.hits.shape is not None and self.target.shapes.slots is None:
             array.fill(table[self.hits.shape])
             return array
         return np.take(table, self.material, mode="wrap", out=array)
@@ -228,10 +227,10 @@ class HitValues:
         """The surfaces that are hit and have no plain color: each with the flat indices of its pixels, (k,), and their
         points.
         """
-        found, shapes = [], self.plan.shapes
+        found, shapes = [], self.target.shapes
         if shapes.surfaces:
             for kind, pixels in self._kinds:
-                places = KindPlaces(kind, self.plan.in_camera, pixels, pixels.of(self.point))
+                places = KindPlaces(kind, self.target.placed, pixels, pixels.of(self.point))
                 for number, some in places.each_surface():
                     found.append((shapes.surfaces[number], pixels.places[some], SurfacePlaces(places, some)))
         return found
@@ -239,12 +238,8 @@ class HitValues:
     @lazy
     def errors(self) -> list[tuple[np.ndarray, HitErrors]]:
         """The error bounds of the hits, kind by kind; see ``by_kind``."""
-        plan = self.plan
-        camera, unit = plan.camera, plan.normals.unit
-        rays = world_rays(camera, self.hits.rays.x, self.hits.rays.y)
-        return self.by_kind(
-            lambda kind, pixels: HitErrors(camera, plan.in_camera, kind, pixels, rays.only(pixels.of), unit)
-        )
+        placed, unit, rays = self.target.placed, self.target.normals.unit, self.hits.rays.in_world()
+        return self.by_kind(lambda kind, pixels: HitErrors(placed, kind, pixels, rays.only(pixels.of), unit))
 
     def pixels(self, where: np.ndarray) -> HitPixels:
         """Return the pixels marked in ``where``, each of which hits something."""

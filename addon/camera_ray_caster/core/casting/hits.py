@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -12,8 +12,8 @@ from .. import tuning
 from ..maths.speed import lazy, widened
 from ..maths.vector import ALL
 from ..shapes.windows import banded, in_tile
-from .plan import Plan
 from .rays import TileRays
+from .target import RayTarget
 
 Window = tuple[slice, slice]
 """Rows and columns."""
@@ -26,12 +26,18 @@ NOTHING = -1
 class Hits:
     """The hits of the rays of a tile, or of a window of it: (rows, columns) arrays."""
 
-    plan: Plan
+    target: RayTarget
     rays: TileRays
     t: np.ndarray
     """t of the hits; inf where nothing is hit."""
     index: np.ndarray
     """Index into ``Shapes`` of the nearest shape, NOTHING where nothing is hit."""
+    faces_eye: bool = False
+    """Whether all normals face the rays' origins without being turned."""
+    windows: tuple[np.ndarray, np.ndarray] | None = None
+    """The shapes that may be hit, (m,), and their bounds in the picture, (m, 4), if these are few and large: passes are
+    then written shape by shape.
+    """
     known: Mapping[int, Any] = field(default_factory=dict)
     """What kinds know of the hits of the tile: see ``SearchRays.known``."""
     window: Window = (ALL, ALL)
@@ -49,9 +55,12 @@ class Hits:
 
     def layers(self) -> Iterator[tuple[Window, Hits]]:
         """Yield (window, hits) for each shape that is seen, in the pixels of its bounds, BLOCK_PIXELS at a time."""
-        here, bounds = in_tile(self.plan.bounds, self.rays.corner, self.rays.shape)
+        if self.windows is None:
+            return
+        shapes, bounds = self.windows
+        here, bounds = in_tile(bounds, self.rays.corner, self.rays.shape)
         part, bounds = banded(bounds, tuning.BLOCK_PIXELS)
-        for at, own in zip(self.plan.seen[here[part]].tolist(), bounds.tolist(), strict=True):
+        for at, own in zip(shapes[here[part]].tolist(), bounds.tolist(), strict=True):
             window = widened(own, self.rays.shape[1])
             layer = self._part(window, at)
             if layer.seen.any():
@@ -61,8 +70,9 @@ class Hits:
         """Return the hits in a window, or there those of one shape."""
         first = self.window[0].start or 0
         place = slice(first + window[0].start, first + window[0].stop), window[1]
-        own = self.t[window], self.index[window]
-        return Hits(self.plan, self.rays.within(window), *own, self.known, place, shape)
+        return replace(
+            self, rays=self.rays.within(window), t=self.t[window], index=self.index[window], window=place, shape=shape
+        )
 
     @lazy
     def seen(self) -> np.ndarray:

@@ -107,7 +107,7 @@ def distance(values: HitValues, out):
 
 def position(values: HitValues, out):
     """The hit point in the world."""
-    _store_sum(values, values.point, values.plan.camera.pose.eye[:, None, None], out)
+    _store_sum(values, values.point, values.target.pose.eye[:, None, None], out)
 
 
 def normal(values: HitValues, out):
@@ -126,12 +126,12 @@ def uv(values: HitValues, out):
 
 def object_index(values: HitValues, out):
     """Blender's pass index of the object."""
-    _store(values, values.look_up(values.plan.object_index, "indices"), out)
+    _store(values, values.look_up(values.target.object_index, "indices"), out)
 
 
 def material_index(values: HitValues, out):
     """Blender's pass index of the material."""
-    _store(values, values.of_material(values.plan.material_index, "indices"), out)
+    _store(values, values.of_material(values.target.material_index, "indices"), out)
 
 
 def shape_index(values: HitValues, out):
@@ -141,7 +141,7 @@ def shape_index(values: HitValues, out):
 
 def face_index(values: HitValues, out):
     """The polygon of the evaluated mesh, -1 where no mesh is hit."""
-    for where, polygon in values.by_kind(lambda kind, pixels: kind.polygon(values.plan.in_camera, pixels)):
+    for where, polygon in values.by_kind(lambda kind, pixels: kind.polygon(values.target.placed, pixels)):
         out[where] = polygon
 
 
@@ -152,7 +152,7 @@ def valid(values: HitValues, out):
 
 def ray_origin(values: HitValues, out):
     """The origin of the chief ray in the world."""
-    pose = values.plan.camera.pose
+    pose = values.target.pose
     _write_ray(values, matvec(pose.basis, values.hits.rays.origin), pose.eye, out)
 
 

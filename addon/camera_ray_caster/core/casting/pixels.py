@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -59,7 +59,7 @@ def passes_at(
     """
     still = window_of(camera, columns, rows)
     request = Request(tuple(passes), tuple(PASSES), others=pictures(Scene(camera, shapes), passes), **options)
-    return stored(hits_at(make_plan(still, shapes, request), columns, rows))
+    return stored(hits_at(make_plan(still, shapes, request), columns, rows), passes)
 
 
 def window_of(camera: Camera, columns: np.ndarray, rows: np.ndarray) -> Camera:
@@ -70,9 +70,9 @@ def window_of(camera: Camera, columns: np.ndarray, rows: np.ndarray) -> Camera:
     return replace(camera, raster=replace(camera.raster, **ends), pixel_time=None)
 
 
-def stored(hits: Hits) -> dict[str, np.ndarray]:
-    """Return the requested passes of hits, (rows, columns[, channels]) float64 or of the pass's own type."""
-    images = {name: PASSES[name].empty(hits.rays.shape, np.float64) for name in hits.plan.request.passes}
+def stored(hits: Hits, passes: Iterable[str]) -> dict[str, np.ndarray]:
+    """Return some passes of hits, (rows, columns[, channels]) float64 or of the pass's own type."""
+    images = {name: PASSES[name].empty(hits.rays.shape, np.float64) for name in passes}
     with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
         store(hits, images)
     return images

@@ -15,10 +15,10 @@ from ..shapes import kinds
 from ..shapes.frames import InCamera
 from ..shapes.in_camera import in_camera
 from ..shapes.kind import ShapeSet, Visible
-from ..shapes.normals import NormalTable, normal_table
 from ..shapes.windows import pixels_in
 from .pixel_bounds import CameraPixelBounds
 from .request import Request
+from .target import RayTarget
 
 MOST_NAMED = 8
 """Number of shapes that a line of a report names."""
@@ -32,9 +32,8 @@ class Plan:
     """
 
     camera: Camera
-    shapes: Shapes
     request: Request
-    in_camera: InCamera
+    target: RayTarget
     pixels: CameraPixelBounds
     seen: np.ndarray
     """(m,) indices into ``Shapes``, ascending: the shapes that some pixel may see."""
@@ -48,6 +47,11 @@ class Plan:
     """Indices into ``Shapes``: those in view that lie as a whole outside the clip range."""
     whole: Plan | None = None
     """The plan of all pixels, if this plan has only some columns and rows."""
+
+    @property
+    def shapes(self) -> Shapes:
+        """All shapes."""
+        return self.target.shapes
 
     @property
     def sets(self) -> Collection[ShapeSet]:
@@ -69,7 +73,7 @@ class Plan:
                 pixels=self.pixels,
                 whole=self.whole.set_of[kind.number] if self.whole else None,
             )
-            sets[kind.number] = kind.shape_set(self.in_camera, visible)
+            sets[kind.number] = kind.shape_set(self.target.placed, visible)
         return sets
 
     def at_pixels(self, columns: np.ndarray, rows: np.ndarray) -> Plan:
@@ -113,33 +117,6 @@ class Plan:
         """The smallest integer type for the indices into ``Shapes`` and -1: every pixel stores an index."""
         return np.min_scalar_type(-max(len(self.shapes), 1))
 
-    @cached_property
-    def kinds(self) -> np.ndarray:
-        """(n + 1,): the numbers of the shapes' kinds, and -1 for no shape."""
-        return np.append(self.shapes.kind.astype(np.int16), np.int16(-1))
-
-    @cached_property
-    def object_index(self) -> np.ndarray:
-        """(n + 1,): the shapes' object indices, and 0 for no shape."""
-        return np.append(self.shapes.object_index, np.int32(0))
-
-    @cached_property
-    def material_index(self) -> np.ndarray:
-        """(n + s + 1,): the shapes' material indices, those of ``Slots``, and 0 for no shape."""
-        slots = () if self.shapes.slots is None else self.shapes.slots.material_index
-        return np.concatenate((self.shapes.material_index, slots, [0])).astype(np.int32)
-
-    @cached_property
-    def colors(self) -> np.ndarray:
-        """(4, n + s + 1) float64: the shapes' colors, those of ``Slots``, and transparent black for no shape."""
-        slots = np.zeros((4, 0)) if self.shapes.slots is None else self.shapes.slots.color.T
-        return np.hstack((self.shapes.color.T, slots, np.zeros((4, 1)))).astype(np.float64, order="C")
-
-    @cached_property
-    def normals(self) -> NormalTable:
-        """The constants of the normals, computed when a pass first needs them."""
-        return normal_table(self.in_camera, self.seen)
-
     @property
     def unseen(self) -> int:
         """Number of shapes that no pixel can see."""
@@ -180,9 +157,8 @@ def make_plan(camera: Camera, shapes: Shapes, request: Request) -> Plan:
         seen &= within
     plan = Plan(
         camera=camera,
-        shapes=shapes,
         request=request,
-        in_camera=placed,
+        target=RayTarget(placed, np.flatnonzero(seen), request.shading, request.others),
         pixels=pixels,
         seen=np.flatnonzero(seen),
         bounds=bounds[seen],

@@ -8,8 +8,11 @@ from typing import Any
 import numpy as np
 
 from ..camera.camera import Camera
+from ..conventions import gamma
+from ..errors.rays import world_rays
 from ..maths.speed import Scratch
-from ..maths.vector import cut
+from ..maths.vector import cut, norm
+from ..shapes.frames import WorldRays
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,11 +33,26 @@ class TileRays:
     """Components in the camera frame, scaled so that t is Blender's depth."""
     scratch: Scratch
     """The working arrays of the thread, which also hold the hits."""
+    camera: Camera | None = None
+    """The camera whose rays they are; None for rays that are given in the world, whose numbers are exact."""
+
+    @property
+    def of_camera(self) -> Camera:
+        """The camera, for what only its rays have."""
+        assert self.camera is not None
+        return self.camera
 
     @property
     def shape(self) -> tuple[int, int]:
         """Rows and columns."""
         return self.y.shape[0], self.x.shape[1]
+
+    def in_world(self) -> WorldRays:
+        """Return the rays in the world, with error bounds."""
+        if self.camera is not None:
+            return world_rays(self.camera, self.x, self.y)
+        size, length = norm(self.origin), norm(self.direction)
+        return WorldRays(self.origin, self.direction, length, gamma(8) * size, gamma(8) * length)
 
     def within(self, window: tuple[slice, slice]) -> TileRays:
         """Return the rays in a window, rows and columns."""
@@ -44,10 +62,16 @@ class TileRays:
         return replace(self, x=self.x[:, columns], y=self.y[rows], corner=corner, origin=origin, direction=direction)
 
 
+def given_rays(origin: np.ndarray, direction: np.ndarray, scratch: Scratch) -> TileRays:
+    """Return rays of the world, (3, n) each, as a tile of one row."""
+    x, y = np.arange(origin.shape[1])[None] + 0.5, np.array([[0.5]])
+    return TileRays(x, y, (0, 0), False, tuple(origin[:, None]), tuple(direction[:, None]), scratch)
+
+
 def chief_rays(camera: Camera, x: np.ndarray, y: np.ndarray, corner: tuple[int, int], scratch: Scratch) -> TileRays:
     """Return the rays through the pixels' centers and the center of the lens or hole."""
     origin, direction = camera.camera_rays(x, y)
-    return TileRays(x, y, corner, camera.from_eye(sampled=False), origin, direction, scratch)
+    return TileRays(x, y, corner, camera.from_eye(sampled=False), origin, direction, scratch, camera)
 
 
 def sampled_rays(
@@ -55,4 +79,4 @@ def sampled_rays(
 ) -> TileRays:
     """Return the rays of one sample of the pixels and the aperture."""
     origin, direction = camera.sample_rays(x, y, sample)
-    return TileRays(x, y, corner, camera.from_eye(sampled=True), origin, direction, scratch)
+    return TileRays(x, y, corner, camera.from_eye(sampled=True), origin, direction, scratch, camera)

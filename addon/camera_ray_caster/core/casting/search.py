@@ -55,7 +55,9 @@ def nearest_hits(
         beyond = np.greater(nearest.t, plan.camera.clip_end, out=scratch("closer", shape, bool))
         np.copyto(nearest.index, NOTHING, where=beyond)
         np.copyto(nearest.t, np.inf, where=beyond)
-    return Hits(plan, rays, nearest.t, nearest.index, own.known)
+    faces_eye = rays.from_eye and all(one.faces_eye for one in plan.sets)
+    windows = (plan.seen, plan.bounds) if plan.is_layered else None
+    return Hits(plan.target, rays, nearest.t, nearest.index, faces_eye, windows, own.known)
 
 
 @dataclass

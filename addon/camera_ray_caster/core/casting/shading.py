@@ -36,7 +36,7 @@ def shade(values: HitValues, out: np.ndarray) -> None:
     GRID darkens lines of constant longitude, latitude or other coordinate of exact shapes, lines of constant uv of
     meshes, or the edges of faces without a UV map.
     """
-    world_color = values.plan.shapes.world_color
+    world_color = values.target.shapes.world_color
     lit, grid = irradiance(values), grid_factor(values)
     for channel, world in enumerate(world_color):
         surface = material_color(values, channel)
@@ -51,11 +51,11 @@ def shade(values: HitValues, out: np.ndarray) -> None:
 
 def sky(values: HitValues, out: np.ndarray) -> None:
     """Write the world's linear RGBA into ``out``, (rows, columns, 4), where nothing is hit."""
-    write_where(out, values.plan.shapes.world_color, values.hits.missed)
-    if values.plan.shapes.background is not None and values.hits.missed is not None:
+    write_where(out, values.target.shapes.world_color, values.hits.missed)
+    if values.target.shapes.background is not None and values.hits.missed is not None:
         places = np.nonzero(values.hits.missed)
         direction = [np.broadcast_to(part, values.hits.missed.shape)[places] for part in values.direction]
-        color = Directions(direction).value(values.plan.shapes.background)
+        color = Directions(direction).value(values.target.shapes.background)
         out[..., :3][places] = np.broadcast_to(color, (3, len(places[0]))).T
 
 
@@ -71,7 +71,7 @@ def albedo(values: HitValues, out: np.ndarray) -> None:
 
 def material_color(values: HitValues, channel: int) -> np.ndarray:
     """Return a channel, of RGBA, of the color that the hit materials show in light, (rows, columns)."""
-    color = values.of_material(values.plan.colors[channel], "color")
+    color = values.of_material(values.target.colors[channel], "color")
     if channel < 3:
         paint(values, color, lambda one: one.lit, channel)
     return color
@@ -90,7 +90,7 @@ def paint(values: HitValues, image: np.ndarray, of: Callable, channel: int, how:
 
 def grid_factor(values: HitValues) -> np.ndarray | None:
     """Return 1 between the lines of the grid and 0.15 on them, (rows, columns); None without a grid."""
-    if values.plan.request.shading != GRID:
+    if values.target.shading != GRID:
         return None
     shade = np.ones(values.hits.t.shape)
     for (where, places), (_, from_edge) in zip(values.coordinates, values.from_edge, strict=True):
@@ -126,7 +126,7 @@ class Light:
 
 def lights(values: HitValues) -> Iterator[Light]:
     """Yield the light of each lamp in their order, or if there are none that of the headlight."""
-    lamps = values.plan.shapes.lights
+    lamps = values.target.shapes.lights
     if len(lamps.is_sun) == 0:
         light, spare = values.array("light"), values.array("spare")
         inner(values.normal, values.direction, light, spare)
@@ -138,7 +138,7 @@ def lights(values: HitValues) -> Iterator[Light]:
             gain = np.maximum(dot(values.normal, position), 0.0)
             yield Light(SUN, color, position, 1.0, gain, color / np.pi)
         else:
-            towards = difference(position - values.plan.camera.pose.eye, values.point)
+            towards = difference(position - values.target.pose.eye, values.point)
             square = np.maximum(dot(towards, towards), np.finfo(float).tiny)
             gain = np.maximum(dot(values.normal, towards), 0.0) / (square * np.sqrt(square))
             kind, part = _beam(*beam, towards, square)

@@ -18,7 +18,7 @@ def store(hits: Hits, outs: dict[str, np.ndarray], where=None) -> None:
         for name, out in outs.items():
             write_where(out, meant[name], where)
         return
-    layered = [name for name in outs if PASSES[name].missed is not None and hits.plan.is_layered]
+    layered = [name for name in outs if PASSES[name].missed is not None and hits.windows is not None]
     for window, block in hits.blocks():
         values = HitValues(block)
         with whole_rows(block.t.shape[1]):

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..camera.camera import Camera
 from ..conventions import EPS, gamma
 from ..maths.speed import lazy
 from ..maths.vector import along, difference, norm
@@ -27,9 +26,9 @@ class HitErrors:
     ``unit``: whether normals from constants are used without being divided by their length.
     """
 
-    def __init__(self, camera: Camera, shapes: InCamera, kind: Kind, pixels: HitPixels, rays: WorldRays, unit: bool):
-        self.t, self.rays, self._eye = pixels.t, rays, camera.pose.eye
-        self._shape = kind.errors(shapes, pixels, rays, camera.model.central, unit)
+    def __init__(self, shapes: InCamera, kind: Kind, pixels: HitPixels, rays: WorldRays, unit: bool):
+        self.t, self.rays, self._eye = pixels.t, rays, shapes.pose.eye
+        self._shape = kind.errors(shapes, pixels, rays, pixels.from_eye, unit)
 
     @lazy
     def t_error(self) -> np.ndarray:

@@ -124,8 +124,9 @@ def lesson(
     place = np.array([column]), np.array([row])
     look: dict[str, Any] = {"shading": shading}
     names, still = ("position", "normal", "combined", "depth"), window_of(camera, *place)
-    hits = hits_at(make_plan(still, shapes, Request((*PROBED, *names), tuple(PASSES), **look)), *place)
-    found = stored(hits)
+    passes = *PROBED, *names
+    hits = hits_at(make_plan(still, shapes, Request(passes, tuple(PASSES), **look)), *place)
+    found = stored(hits, passes)
     seen = probe_of(camera, shapes, column, row, found)
     point, normal, color, depth = (found[name][0, 0] for name in names)
     steps, met = [*_raster(camera, seen), ("Model", tuple(_formula(camera, seen)))], []

@@ -23,7 +23,7 @@ def color_lines(values: HitValues, color: np.ndarray) -> Iterator[str]:
     if values.hits.missed is not None:
         yield f"linear, of the world: {words(color)}"
         return
-    world = values.plan.shapes.world_color[:3]
+    world = values.target.shapes.world_color[:3]
     with np.errstate(all="ignore"):  # a lamp may be at the point itself
         material = np.array([_one(material_color(values, channel)) for channel in range(4)])
         glow = np.zeros((3, 1, 1))
