@@ -121,7 +121,7 @@ def name_of(path):
 NAMES = {name_of(path) for path in MODULES}
 ROOMS_WITHOUT_PRONOUNS = (
     *("core/camera", "core/clouds", "core/errors", "core/faces", "core/materials", "core/maths", "core/report"),
-    *("core/text_forms",),
+    *("core/annotations", "core/lesson", "core/shaders", "core/text_forms", "core/web"),
     *("blender/process", "blender/verification"),
 )
 PRONOUNS = {*"one found own part place said told given rest it them what most more some which both".split()}  # noqa: SIM905

@@ -110,7 +110,7 @@ def test_the_color_is_that_of_the_picture(changed, samples, shading):
 
 
 def test_a_mean_of_too_many_rays_is_named_and_left_out():
-    found = lesson(camera(), scene(), 20, 15, samples=300, most=256)
+    found = lesson(camera(), scene(), 20, 15, samples=300, max_samples=256)
     assert found.color is None
     assert "the mean of 300 rays over the pixel: too many to cast here" in "\n".join(found.lines())
 

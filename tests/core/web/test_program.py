@@ -55,7 +55,7 @@ def test_rays_of_any_settings_are_the_cameras(key):
         given = NUMPY | {"parameter": lambda value, name, values=values: values[name]}
         with np.errstate(all="ignore"):
             kept = parts.first.evaluate(given, ())[parts.conditions :]
-            found = parts.rest.evaluate(given, (x, y, *kept))
+            found = parts.second.evaluate(given, (x, y, *kept))
         check(camera, x, y, np.array([np.broadcast_to(part, x.shape) for part in found[:RAY]], float))
         count += 1
     assert count
@@ -112,7 +112,7 @@ def test_what_a_table_or_an_iteration_gives_to_a_formula_is_that_of_the_camera(k
     assert names <= {name for name, _ in variant.names}
     given, parts = NUMPY | {"parameter": lambda value, name: values[name]}, variant.parts
     kept = parts.first.evaluate(given, ())[parts.conditions :]
-    found, at = parts.rest.evaluate(given, (x, y, *kept))[RAY:], 0
+    found, at = parts.second.evaluate(given, (x, y, *kept))[RAY:], 0
     expected = values_of(camera.model, camera.record, camera.raster, x, y)
     for name, count in variant.names:
         np.testing.assert_allclose(found[at : at + count], expected[name], rtol=1e-12, atol=1e-14, err_msg=name)

@@ -56,7 +56,7 @@ def lessons(context) -> dict[tuple[int, int], Lesson]:
     shown = [(x, y) for x, y in pixels if x < raster.width and y < raster.height]
     for pixel in shown:
         if pixel not in known:
-            known[pixel] = lesson(scene.camera, scene.shapes, *pixel, most=MOST_SAMPLES, **look)
+            known[pixel] = lesson(scene.camera, scene.shapes, *pixel, max_samples=MOST_SAMPLES, **look)
     return {pixel: known[pixel] for pixel in shown}
 
 

@@ -81,16 +81,16 @@ def document(
     """
     check_rows(shapes)
     check_still(shapes, {seen.point.owner for seen in points})
-    found, index = silhouettes(camera, shapes, images)
+    outlines, index = silhouettes(camera, shapes, images)
     raster = camera.raster
-    names = [shapes.names[shapes.name_index[one.row]] for one in found]
+    names = [shapes.names[shapes.name_index[outline.row]] for outline in outlines]
     category = {name: category_of(name) for name in names}
     numbers = {name: number for number, name in enumerate(sorted(set(category.values())), 1)}
     key_names: dict[str, list[str]] = {name: [] for name in numbers}
     for seen in points:
         if seen.point.owner in category:
             key_names[category[seen.point.owner]].append(seen.point.name)
-    key_names = {name: list(dict.fromkeys(own)) for name, own in key_names.items()}
+    key_names = {name: list(dict.fromkeys(names_of)) for name, names_of in key_names.items()}
 
     def box(ends: Box) -> list[int]:
         x0, x1, y0, y1 = ends
@@ -102,38 +102,39 @@ def document(
         picture[y : y + pixels.shape[0], x : x + pixels.shape[1]] = pixels
         return run_lengths(picture[::-1])
 
-    def whole(name: str, one: Silhouette) -> Document:
+    def whole(name: str, outline: Silhouette) -> Document:
         return {
-            "image_id": 1, "category_id": numbers[category[name]], "object": name, "shape_index": one.row,
-            "bbox_whole": box(one.whole), "area_whole": one.whole_pixels,
-            "segmentation_whole": mask(one.alone, one.whole[0], one.whole[2]),
+            "image_id": 1, "category_id": numbers[category[name]], "object": name, "shape_index": outline.row,
+            "bbox_whole": box(outline.whole), "area_whole": outline.whole_pixels,
+            "segmentation_whole": mask(outline.alone, outline.whole[0], outline.whole[2]),
         }  # fmt: skip
 
-    def annotation(name: str, one: Silhouette, ends: Box) -> Document:
-        is_own = not (shapes.instanced and shapes.instanced[shapes.name_index[one.row]])
-        own = {seen.point.name: _triple(sheet, seen) for seen in points if is_own and seen.point.owner == name}
-        return whole(name, one) | {
-            "iscrowd": 0, "bbox": box(ends), "area": one.visible_pixels, "segmentation": mask(index == one.row),
-            "visible_fraction": one.visible_pixels / one.whole_pixels, **_key_points(own, key_names[category[name]]),
+    def annotation(name: str, outline: Silhouette, ends: Box) -> Document:
+        is_own = not (shapes.instanced and shapes.instanced[shapes.name_index[outline.row]])
+        triples = {seen.point.name: _triple(sheet, seen) for seen in points if is_own and seen.point.owner == name}
+        return whole(name, outline) | {
+            "iscrowd": 0, "bbox": box(ends), "area": outline.visible_pixels, "segmentation": mask(index == outline.row),
+            "visible_fraction": outline.visible_pixels / outline.whole_pixels,
+            **_key_points(triples, key_names[category[name]]),
         }  # fmt: skip
 
-    each = list(zip(names, found, strict=True))
-    shown = [annotation(name, one, one.visible) for name, one in each if one.visible is not None]
+    pairs = list(zip(names, outlines, strict=True))
+    shown = [annotation(name, outline, outline.visible) for name, outline in pairs if outline.visible is not None]
     return {
         "info": {"description": "Made by Camera Ray Caster", "version": VERSION},
         "images": [{"id": 1, **image, "width": sheet.width, "height": sheet.height}],
         "categories": [_category(number, name, key_names[name]) for name, number in numbers.items()],
-        "annotations": [{"id": number, **one} for number, one in enumerate(shown, 1)],
-        "hidden": [whole(name, one) for name, one in each if one.visible is None],
+        "annotations": [{"id": number, **entry} for number, entry in enumerate(shown, 1)],
+        "hidden": [whole(name, outline) for name, outline in pairs if outline.visible is None],
         "keypoints": [
             {
-                "image_id": 1, "name": seen.point.name, "object": seen.point.owner, "world": list(seen.point.place),
+                "image_id": 1, "name": seen.point.name, "object": seen.point.owner, "world": list(seen.point.position),
                 "pixel": seen.pixel and sheet.point(seen.pixel), "depth": seen.depth,
                 "visibility": seen.visibility.name.lower(),
             }
             for seen in points
         ],
-        "objects": [{"image_id": 1, **one} for one in object_poses(shapes, category_of)],
+        "objects": [{"image_id": 1, **pose} for pose in object_poses(shapes, category_of)],
     }  # fmt: skip
 
 
@@ -149,9 +150,9 @@ class Merging:
     def __init__(self, documents: Iterable[Document]):
         self.info: Document = {}
         self.key_names: dict[str, list[str]] = {}
-        for one in documents:
-            self.info = one["info"]
-            for category in one["categories"]:
+        for document in documents:
+            self.info = document["info"]
+            for category in document["categories"]:
                 known = self.key_names.setdefault(category["name"], [])
                 known += [name for name in category.get("keypoints", ()) if name not in known]
         self.numbers = {name: number for number, name in enumerate(self.key_names, 1)}
@@ -162,15 +163,16 @@ class Merging:
         """The merged categories."""
         return [_category(number, name, self.key_names[name]) for name, number in self.numbers.items()]
 
-    def entries(self, one: Document) -> dict[str, list[Document]]:
+    def entries(self, document: Document) -> dict[str, list[Document]]:
         """Return the entries of the next document, by their list in LISTS."""
         self._images += 1
-        image, own = {"image_id": self._images}, {category["id"]: category for category in one["categories"]}
-        made: dict[str, list[Document]] = {"images": [one["images"][0] | {"id": self._images}]}
-        for part in ("annotations", "hidden"):
-            made[part] = [self._entry(entry | image, own[entry["category_id"]]) for entry in one[part]]
-        for part in ("keypoints", "objects"):
-            made[part] = [entry | image for entry in one[part]]
+        image = {"image_id": self._images}
+        categories = {category["id"]: category for category in document["categories"]}
+        made: dict[str, list[Document]] = {"images": [document["images"][0] | {"id": self._images}]}
+        for kind in ("annotations", "hidden"):
+            made[kind] = [self._entry(entry | image, categories[entry["category_id"]]) for entry in document[kind]]
+        for kind in ("keypoints", "objects"):
+            made[kind] = [entry | image for entry in document[kind]]
         for entry in made["annotations"]:
             self._annotations += 1
             entry["id"] = self._annotations
@@ -181,8 +183,8 @@ class Merging:
         if "bbox" in entry:
             values = entry.get("keypoints", [])
             triples = [values[k : k + 3] for k in range(0, len(values), 3)]
-            own = dict(zip(category.get("keypoints", ()), triples, strict=True))
-            entry |= _key_points(own, self.key_names[category["name"]])
+            points = dict(zip(category.get("keypoints", ()), triples, strict=True))
+            entry |= _key_points(points, self.key_names[category["name"]])
         return entry
 
 
@@ -191,10 +193,10 @@ def merged(documents: Iterable[Document]) -> Document:
     documents = list(documents)
     merging = Merging(documents)
     result: Document = {"info": merging.info, "images": [], "categories": merging.categories}
-    result |= {part: [] for part in LISTS if part != "images"}
-    for one in documents:
-        for part, entries in merging.entries(one).items():
-            result[part] += entries
+    result |= {kind: [] for kind in LISTS if kind != "images"}
+    for document in documents:
+        for kind, entries in merging.entries(document).items():
+            result[kind] += entries
     return result
 
 
@@ -204,22 +206,22 @@ def merged_text(documents: Iterable[Document], folder: Path) -> Iterator[str]:
     """
     merging = Merging(documents)
     with ExitStack() as stack:
-        waiting = {part: stack.enter_context(TemporaryFile("w+", encoding="utf-8", dir=folder)) for part in LISTS}
+        waiting = {kind: stack.enter_context(TemporaryFile("w+", encoding="utf-8", dir=folder)) for kind in LISTS}
         begun = set()
-        for one in documents:
-            for part, entries in merging.entries(one).items():
+        for document in documents:
+            for kind, entries in merging.entries(document).items():
                 if entries:
-                    waiting[part].write("," * (part in begun) + as_text(entries)[1:-1])
-                    begun.add(part)
+                    waiting[kind].write("," * (kind in begun) + as_text(entries)[1:-1])
+                    begun.add(kind)
         yield f'{{"info":{as_text(merging.info)}'
-        for part in ("images", "categories", *LISTS[1:]):
-            yield f',"{part}":'
-            if part == "categories":
+        for kind in ("images", "categories", *LISTS[1:]):
+            yield f',"{kind}":'
+            if kind == "categories":
                 yield as_text(merging.categories)
                 continue
             yield "["
-            waiting[part].seek(0)
-            yield from iter(partial(waiting[part].read, CHUNK), "")
+            waiting[kind].seek(0)
+            yield from iter(partial(waiting[kind].read, CHUNK), "")
             yield "]"
         yield "}"
 
@@ -243,8 +245,8 @@ def unpacked(lengths: dict[str, Any]) -> np.ndarray:
 
 
 def _category(number: int, name: str, key_names: list[str]) -> Document:
-    said = {"id": number, "name": name, "supercategory": ""}
-    return said | {"keypoints": key_names, "skeleton": []} if key_names else said
+    entry = {"id": number, "name": name, "supercategory": ""}
+    return entry | {"keypoints": key_names, "skeleton": []} if key_names else entry
 
 
 def _triple(sheet: Sheet, seen: SeenKeyPoint) -> list[float]:
@@ -253,8 +255,8 @@ def _triple(sheet: Sheet, seen: SeenKeyPoint) -> list[float]:
     return [*sheet.point(seen.pixel), int(seen.visibility)]
 
 
-def _key_points(own: dict[str, list[float]], names: list[str]) -> Document:
+def _key_points(points: dict[str, list[float]], names: list[str]) -> Document:
     """Return COCO's entries for an object's key points, in the order of its category; none if the category has none."""
-    triples = [own.get(name, NO_POINT) for name in names]
-    said = {"keypoints": list(chain(*triples)), "num_keypoints": sum(triple[2] > 0 for triple in triples)}
-    return said if names else {}
+    triples = [points.get(name, NO_POINT) for name in names]
+    entry = {"keypoints": list(chain(*triples)), "num_keypoints": sum(triple[2] > 0 for triple in triples)}
+    return entry if names else {}

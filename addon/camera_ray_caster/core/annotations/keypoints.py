@@ -24,7 +24,7 @@ class KeyPoint:
     name: str
     owner: str
     """Name of the object that the key point belongs to; "" for none."""
-    place: tuple[float, float, float]
+    position: tuple[float, float, float]
     """World coordinates."""
 
 
@@ -45,10 +45,10 @@ def seen_key_points(camera: Camera, shapes: Shapes, points: Sequence[KeyPoint]) 
 
     A surface does not hide a point within PLACE_ROUNDING of it; a point inside of a body is hidden. See ``visible``.
     """
-    places = np.array([point.place for point in points], float).reshape(-1, 3)
+    places = np.array([point.position for point in points], float).reshape(-1, 3)
     pixels = camera.project(places)
     tolerance = PLACE_ROUNDING * float(np.abs(places).max(initial=0.0))
-    found = [Visibility(code) for code in visible(camera, shapes, places, tolerance=tolerance).tolist()]
+    visibility = [Visibility(code) for code in visible(camera, shapes, places, tolerance=tolerance).tolist()]
     rays, raster = camera.rays_at(*pixels.T), camera.raster
     low, high = (raster.x0, raster.y0), (raster.x1, raster.y1)
     is_inside = ((pixels >= low) & (pixels <= high)).all(axis=1)
@@ -61,5 +61,5 @@ def seen_key_points(camera: Camera, shapes: Shapes, points: Sequence[KeyPoint]) 
             if camera.model.planar:
                 there = camera if rays.time is None else camera.at(float(rays.time[k]))
                 depth /= float(there.length_of(there.camera_rays(*pixels[k])[1]))
-        result.append(SeenKeyPoint(point, pixel, depth, found[k] if is_inside[k] else Visibility.OUTSIDE))
+        result.append(SeenKeyPoint(point, pixel, depth, visibility[k] if is_inside[k] else Visibility.OUTSIDE))
     return result

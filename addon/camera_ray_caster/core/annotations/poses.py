@@ -27,7 +27,7 @@ def object_poses(shapes: Shapes, category_of: Callable[[str], str]) -> list[dict
     sheared; an axis of length 0 has the direction 0.
     """
     counts: dict[str, int] = {}
-    found = []
+    entries = []
     for row in range(len(shapes)):
         name = shapes.names[shapes.name_index[row]]
         number = counts[name] = counts.get(name, -1) + 1
@@ -44,8 +44,8 @@ def object_poses(shapes: Shapes, category_of: Callable[[str], str]) -> list[dict
         matrix[:3, :3] = axes / np.where(lengths > 0, lengths, 1.0)
         matrix[:3, 3] = shapes.center[row] + axes @ middle
         half = half * (1, 1, 0) if shapes.kind[row] == PLANE else half
-        found.append({
+        entries.append({
             "object": name, "instance": number, "shape_index": row, "category": category_of(name),
             "matrix": [shortened(side) for side in matrix], "size": shortened(2 * half * lengths),
         })  # fmt: skip
-    return found
+    return entries

@@ -38,9 +38,7 @@ class Silhouette:
     """(rows, columns) bool: the pixels in ``whole`` that the shape would have alone."""
 
 
-def silhouettes(
-    camera: Camera, shapes: Shapes, images: Images | None = None
-) -> tuple[list[Silhouette], np.ndarray]:
+def silhouettes(camera: Camera, shapes: Shapes, images: Images | None = None) -> tuple[list[Silhouette], np.ndarray]:
     """Return the silhouettes of all shapes that have pixels in the render window, and the shape index of each pixel,
     (rows, columns) int32.
 
@@ -50,14 +48,14 @@ def silhouettes(
         images = cast(camera, shapes, passes=("shape_index",))
     index = images["shape_index"]
     rows, columns = np.nonzero(index >= 0)
-    found = dict(zip(*_boxes(index[rows, columns], columns, rows), strict=True))
+    boxes = dict(zip(*_boxes(index[rows, columns], columns, rows), strict=True))
     result = []
     for row, x, y, pixels in _alone(camera, shapes, images.plan):
         (y0, y1), (x0, x1) = (_ends(pixels.any(axis=1 - axis)) for axis in (0, 1))
-        own = pixels[y0:y1, x0:x1]
+        inside = pixels[y0:y1, x0:x1]
         whole = x0 + x, x1 + x, y0 + y, y1 + y
-        visible, count = found.get(row, (None, 0))
-        result.append(Silhouette(row, whole, int(np.count_nonzero(own)), visible, count, own))
+        visible, count = boxes.get(row, (None, 0))
+        result.append(Silhouette(row, whole, int(np.count_nonzero(inside)), visible, count, inside))
     return result, index
 
 
@@ -79,22 +77,22 @@ def _alone(camera: Camera, shapes: Shapes, plan: Plan) -> Iterator[tuple[int, in
                 yield row, bounds[0], bounds[2], pixels
 
 
-def _ends(some: np.ndarray) -> tuple[int, int]:
+def _ends(flags: np.ndarray) -> tuple[int, int]:
     """Return the first and the last index of what is set in some flags (n,), the last plus 1."""
-    return int(some.argmax()), len(some) - int(some[::-1].argmax())
+    return int(flags.argmax()), len(flags) - int(flags[::-1].argmax())
 
 
 def _boxes(index: np.ndarray, columns: np.ndarray, rows: np.ndarray) -> tuple[list[int], list[tuple[Box, int]]]:
     """Return the shapes of pixels (m,) by index, and for each shape the box and the number of its pixels."""
     order = np.argsort(index, kind="stable")
-    which, first, counts = np.unique(index[order], return_index=True, return_counts=True)
-    if not which.size:
+    shapes, first, counts = np.unique(index[order], return_index=True, return_counts=True)
+    if not shapes.size:
         return [], []
     x, y = columns[order], rows[order]
     ends = (np.minimum.reduceat(x, first), np.maximum.reduceat(x, first) + 1,
             np.minimum.reduceat(y, first), np.maximum.reduceat(y, first) + 1)  # fmt: skip
     boxes = [tuple(box) for box in np.transpose(ends).tolist()]
-    return which.tolist(), list(zip(boxes, counts.tolist(), strict=True))
+    return shapes.tolist(), list(zip(boxes, counts.tolist(), strict=True))
 
 
 def _only(shapes: Shapes, row: int) -> Shapes:

@@ -104,16 +104,16 @@ def probe(camera: Camera, shapes: Shapes, column: int, row: int, **options) -> P
 
 def probe_of(camera: Camera, shapes: Shapes, column: int, row: int, images: Mapping[str, np.ndarray]) -> Probe:
     """Return the ray of one pixel and its hit from the passes PROBED, (1, 1[, channels]) each."""
-    found = {name: images[name][0, 0] for name in PROBED}
-    index = int(found["shape_index"])
+    values = {name: images[name][0, 0] for name in PROBED}
+    index = int(values["shape_index"])
     raster = camera.raster
     blank = np.full(3, np.nan)
     return Probe(
         pixel=(column, row),
         view=(2 * (column + 0.5) / raster.width - 1, 2 * (row + 0.5) / raster.height - 1),
-        origin=found["ray_origin"] if found["valid"] else blank,
-        direction=found["ray_direction"] if found["valid"] else blank,
-        distance=float(found["distance"]),
+        origin=values["ray_origin"] if values["valid"] else blank,
+        direction=values["ray_direction"] if values["valid"] else blank,
+        distance=float(values["distance"]),
         name=shapes.names[shapes.name_index[index]] if index >= 0 else "",
         shape_index=index,
     )

@@ -60,10 +60,10 @@ def assignments(symbols: str) -> Iterator[tuple[str, str]]:
             parts.append("")
         else:
             parts[-1] += letter
-    for part in parts:
-        found = ASSIGNMENT.fullmatch(part.strip())
-        if found:
-            yield found[1], found[2]
+    for assignment in parts:
+        match = ASSIGNMENT.fullmatch(assignment.strip())
+        if match:
+            yield match[1], match[2]
 
 
 def value(expression: str, known: Mapping[str, Any]) -> Any:
@@ -71,11 +71,11 @@ def value(expression: str, known: Mapping[str, Any]) -> Any:
     words, at, ended = [], 0, False
     expression = expression.rstrip()
     while at < len(expression):
-        found = TOKEN.match(expression, at)
-        if found is None:
+        match = TOKEN.match(expression, at)
+        if match is None:
             return None
-        at = found.end()
-        number, name, power, degrees, sign = found.groups()
+        at = match.end()
+        number, name, power, degrees, sign = match.groups()
         begins = number or name or sign == "("
         if begins and ended:
             words.append("*")
@@ -100,21 +100,21 @@ def worked_out(formulas: Sequence[tuple[str, Mapping[str, Any]]], known: Mapping
     formulas: pairs of a formula and the values that only this formula knows. An assignment may use the result of a
     later one. Values in ``known`` of names that are assigned are ignored.
     """
-    parts = [(k, *part) for k, (symbols, _) in enumerate(formulas) for part in assignments(symbols)]
+    parts = [(k, *pair) for k, (symbols, _) in enumerate(formulas) for pair in assignments(symbols)]
     known = {name: number for name, number in known.items() if name not in {name for _, name, _ in parts}}
     lines: dict[int, str] = {}
     before = -1
     while before < len(lines):
         before = len(lines)
         for at, (k, name, expression) in enumerate(parts):
-            own = known | dict(formulas[k][1])
-            found = None if at in lines else value(expression, own)
-            if found is not None:
-                put_in, result = with_numbers(expression, own), shown(found)
+            names = known | dict(formulas[k][1])
+            number = None if at in lines else value(expression, names)
+            if number is not None:
+                put_in, result = with_numbers(expression, names), shown(number)
                 lines[at] = f"{name} = {result}" if put_in == result else f"{name} = {put_in} = {result}"
-                known[name] = found
-                if np.ndim(found):
-                    known |= {f"{name}_{axis}": part for axis, part in zip("xyz", found, strict=True)}
+                known[name] = number
+                if np.ndim(number):
+                    known |= {f"{name}_{axis}": component for axis, component in zip("xyz", number, strict=True)}
     return [[lines[at] for at in sorted(lines) if parts[at][0] == k] for k in range(len(formulas))]
 
 
@@ -133,14 +133,14 @@ def shown(number: Any) -> str:
     with np.errstate(invalid="ignore"):
         least = 5e-7 * np.minimum(np.abs(parts).max(initial=0.0), 1.0)
         parts = np.where(np.abs(parts) < least, 0.0, parts) + 0.0  # no -0
-    return f"({', '.join(f'{part:.6g}' for part in parts)})"
+    return f"({', '.join(f'{component:.6g}' for component in parts)})"
 
 
 def with_numbers(expression: str, known: Mapping[str, Any]) -> str:
     """Return an expression with numbers in place of known names; vectors and unknown names stay. Products are dots."""
 
-    def number(found: re.Match) -> str:
-        name = found.group()
+    def number(match: re.Match) -> str:
+        name = match.group()
         if np.ndim(known.get(name, ())):
             return name
         text = shown(known[name])

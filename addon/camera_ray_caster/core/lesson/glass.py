@@ -103,19 +103,19 @@ def _path(model: RealLens, x: float, y: float, share: float) -> GlassPath:
     """Return the path of a pixel's ray through a point of the exit pupil, in radii from the chief ray, away from the
     axis.
     """
-    a, b = (float(part) for part in model.window.plane_from_pixels(x, y))
+    a, b = (float(coordinate) for coordinate in model.window.plane_from_pixels(x, y))
     optics, film, radius = model.optics, float(model.film), np.hypot(a, b)
     plane, size = optics.exit_pupil
     crossing = float(model.chief.crossing(np.float64(radius * radius)))
     aside = share * abs(size) * float(model.radius)
     ways = (a / radius, b / radius) if radius else (0.0, 1.0)
-    up = [-part * crossing + aside * way for part, way in zip((a, b), ways, strict=True)]
+    up = [-coordinate * crossing + aside * way for coordinate, way in zip((a, b), ways, strict=True)]
     sign = 1.0 if film > plane else -1.0
     point, direction = (-a, -b, film), unit((sign * (up[0] + a), sign * (up[1] + b), sign * (plane - film)))
     points, refractions = [point], list[Refraction]()
-    for place in range(len(optics.surfaces) - 1, -1, -1):
-        surface = optics.surfaces[place]
-        if place == optics.stop:
+    for index in range(len(optics.surfaces) - 1, -1, -1):
+        surface = optics.surfaces[index]
+        if index == optics.stop:
             surface = replace(surface, rim=float(model.radius))
         with np.errstate(all="ignore"):  # NaN: the surface is missed
             point, ahead = trace((surface,), point, direction, to_film=False)
@@ -127,7 +127,7 @@ def _path(model: RealLens, x: float, y: float, share: float) -> GlassPath:
         if surface.before != surface.behind:
             normal = _normal(surface, points[-1])
             angles = (np.arcsin(min(float(norm(cross(ray, normal))), 1.0)) for ray in (ahead, direction))
-            refractions.insert(0, Refraction(place, surface.before, surface.behind, *angles))
+            refractions.insert(0, Refraction(index, surface.before, surface.behind, *angles))
         direction = tuple(map(float, ahead))
     return GlassPath(_placed(model, np.array(points)), np.array(direction), tuple(refractions))
 
@@ -149,8 +149,8 @@ def film_line(model: RealLens, radius: float) -> np.ndarray:
     """Return the line of the film in the plane x = 0, (2, 3): of the frame in the image circle, and to a radius."""
     left, right, low, high = model.window.extent(model.frame)
     corner = float(np.hypot(max(abs(left), abs(right)), max(abs(low), abs(high))))
-    most = max(radius, min(float(model.chief.rim), corner))
-    return _placed(model, np.array([(0.0, -most, float(model.film)), (0.0, most, float(model.film))]))
+    reach = max(radius, min(float(model.chief.rim), corner))
+    return _placed(model, np.array([(0.0, -reach, float(model.film)), (0.0, reach, float(model.film))]))
 
 
 def _pupils(model: RealLens) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -167,8 +167,8 @@ def _rims(model: RealLens) -> Iterator[tuple[LensSurface, float]]:
     """Yield the surfaces that refract, with their rims; what a surface can have, where its rim is not known."""
     for surface in model.optics.surfaces:
         if surface.before != surface.behind:
-            most = 0.9 / abs(surface.curvature) if surface.curvature else np.inf
-            yield surface, surface.rim if surface.rim < np.inf else min(_reach(model), most)
+            widest = 0.9 / abs(surface.curvature) if surface.curvature else np.inf
+            yield surface, surface.rim if surface.rim < np.inf else min(_reach(model), widest)
 
 
 def sections(model: RealLens, turn: float) -> Iterator[np.ndarray]:

@@ -79,8 +79,8 @@ class Lesson:
 def _plain(value: Any) -> Any:
     """Return a value in the types of JSON, None for what is not finite."""
     if isinstance(value, np.ndarray | tuple | list):
-        parts = [_plain(part) for part in value]
-        return None if parts and all(part is None for part in parts) else parts
+        parts = [_plain(item) for item in value]
+        return None if parts and all(item is None for item in parts) else parts
     if isinstance(value, np.generic):
         value = value.item()
     return None if isinstance(value, float) and not np.isfinite(value) else value
@@ -106,14 +106,14 @@ def lesson(
     *,
     shading: str = MATERIAL,
     samples: int = 1,
-    most: int = MOST_SAMPLES,
+    max_samples: int = MOST_SAMPLES,
     progress: Callable[[float], bool] | None = None,
 ) -> Lesson:
     """Return the steps of a pixel at the camera's own frame. Pixels of the full frame are counted from the bottom left.
 
     The steps follow the chief ray. The color is that of ``cast`` with the same shading and samples; the mean
-    of more than ``most`` samples is left out. ``progress`` and Cancelled are as in ``cast``. Raises InputError for a
-    pixel outside of the frame.
+    of more than ``max_samples`` samples is left out. ``progress`` and Cancelled are as in ``cast``. Raises InputError
+    for a pixel outside of the frame.
     """
     raster = camera.raster
     if not (0 <= column < raster.width and 0 <= row < raster.height):
@@ -121,14 +121,14 @@ def lesson(
             f"pixel {column},{row} is outside the frame: give 0,0 (bottom left) to "
             f"{raster.width - 1},{raster.height - 1}"
         )
-    place = np.array([column]), np.array([row])
+    indices = np.array([column]), np.array([row])
     look: dict[str, Any] = {"shading": shading}
-    names, still = ("position", "normal", "combined", "depth"), window_of(camera, *place)
+    names, still = ("position", "normal", "combined", "depth"), window_of(camera, *indices)
     passes = *PROBED, *names
-    hits = hits_at(make_plan(still, shapes, Request(passes, tuple(PASSES), **look)), *place)
-    found = stored(hits, passes)
-    seen = probe_of(camera, shapes, column, row, found)
-    point, normal, color, depth = (found[name][0, 0] for name in names)
+    hits = hits_at(make_plan(still, shapes, Request(passes, tuple(PASSES), **look)), *indices)
+    values = stored(hits, passes)
+    seen = probe_of(camera, shapes, column, row, values)
+    point, normal, color, depth = (values[name][0, 0] for name in names)
     steps, met = [*_raster(camera, seen), ("Model", tuple(_formula(camera, seen)))], []
     if isinstance(camera.model, RealLens):
         steps.append((GLASS, tuple(refraction_lines(camera.model, column + 0.5, row + 0.5))))
@@ -141,7 +141,7 @@ def lesson(
     lines, mean = list(color_lines(HitValues(hits), color)), color
     if samples > 1:
         mean = None
-        if samples <= most:
+        if samples <= max_samples:
             images = cast(
                 still, shapes, passes="combined", dtype=np.float64, samples=samples, progress=progress, **look
             )
@@ -166,8 +166,8 @@ def _seen(seen: Probe, point: np.ndarray, normal: np.ndarray, depth: float) -> t
 
 def _mean(camera: Camera, samples: int, mean: np.ndarray | None) -> str:
     over = "the pixel" if camera.aperture is None else "the pixel and the aperture"
-    told = "too many to cast here" if mean is None else words(mean)
-    return f"the steps follow the chief ray; the picture has the mean of {samples} rays over {over}: {told}"
+    mean_text = "too many to cast here" if mean is None else words(mean)
+    return f"the steps follow the chief ray; the picture has the mean of {samples} rays over {over}: {mean_text}"
 
 
 def _raster(camera: Camera, seen: Probe):
@@ -181,8 +181,10 @@ def _raster(camera: Camera, seen: Probe):
     yield (
         f"View coordinates {NORMALIZED}",
         tuple(
-            f"2 {name}/{side} - 1 = 2 · {pixel:g}/{pixels} - 1 = {place:.6g}"
-            for name, side, pixel, pixels, place in zip("xy", "WH", (x, y), (width, height), seen.view, strict=True)
+            f"2 {name}/{side} - 1 = 2 · {pixel:g}/{pixels} - 1 = {coordinate:.6g}"
+            for name, side, pixel, pixels, coordinate in zip(
+                "xy", "WH", (x, y), (width, height), seen.view, strict=True
+            )
         ),
     )
 
@@ -193,21 +195,21 @@ def _formula(camera: Camera, seen: Probe):
     x, y = seen.pixel[0] + 0.5, seen.pixel[1] + 0.5
     yield model.label
     with np.errstate(all="ignore"):  # the pixel may have no ray
-        given, moved = model.formula_values(x, y), {}
-    given = {name: number for name, number in given.items() if np.isfinite(number).all()}
-    if given:
-        yield f"with {', '.join(f'{name} = {shown(number)}' for name, number in given.items())}"
+        values, moved = model.formula_values(x, y), {}
+    values = {name: number for name, number in values.items() if np.isfinite(number).all()}
+    if values:
+        yield f"with {', '.join(f'{name} = {shown(number)}' for name, number in values.items())}"
     lens = lens_of(model)
     if isinstance(lens, WindowModel):
         plane = lens.window.plane_from_pixels(x, y)
         pitch = lens.window.pitch_x, lens.window.pitch_y
         moved = {name: 2 * X / (q * side) for name, X, q, side in zip("xy", plane, pitch, model.frame, strict=True)}
     formulas = [(step.symbols, moved if NORMALIZED in step.words else {}) for step in model.steps]
-    for step, lines in zip(model.steps, worked_out(formulas, _known(camera, x, y) | given), strict=True):
+    for step, lines in zip(model.steps, worked_out(formulas, _known(camera, x, y) | values), strict=True):
         yield f"{step.words}: {step.symbols}"
         yield from (f"  {line}" for line in lines)
     with np.errstate(all="ignore"):  # NaN means: no ray
-        origin, direction = (np.array([float(part) for part in v]) for v in camera.camera_rays(x, y))
+        origin, direction = (np.array([float(component) for component in v]) for v in camera.camera_rays(x, y))
     if np.isnan(direction).any():
         return
     if isinstance(lens, WindowModel):
@@ -259,8 +261,8 @@ def _shapes(met: list[Meeting]):
     for meeting in met:
         yield f"{meeting.name!r}, shape {meeting.shape}"
         yield from (f"  {line}" for line in meeting.equation)
-        for place in meeting.places:
-            what = f"{place.what}; " if place.what else ""
-            is_seen = first is not None and place is first[1]
-            why = place.objection or ("seen: the nearest that counts" if is_seen else "hidden behind the nearest")
-            yield f"  t = {place.t:.9g}: {what}{why}"
+        for crossing in meeting.places:
+            face = f"{crossing.face}; " if crossing.face else ""
+            is_seen = first is not None and crossing is first[1]
+            why = crossing.objection or ("seen: the nearest that counts" if is_seen else "hidden behind the nearest")
+            yield f"  t = {crossing.t:.9g}: {face}{why}"

@@ -27,19 +27,19 @@ def color_lines(values: HitValues, color: np.ndarray) -> Iterator[str]:
     with np.errstate(all="ignore"):  # a lamp may be at the point itself
         material = np.array([_one(material_color(values, channel)) for channel in range(4)])
         glow = np.zeros((3, 1, 1))
-        for channel, part in enumerate(glow):
-            paint(values, part, lambda surface: surface.glow, channel)
-        given = [(_one(light.gain) * light.strength, *_told(light, number)) for number, light in
+        for channel, channel_glow in enumerate(glow):
+            paint(values, channel_glow, lambda surface: surface.glow, channel)
+        terms = [(_one(light.gain) * light.strength, *_told(light, number)) for number, light in
                  enumerate(lights(values), 1)]  # fmt: skip
-        total = [_one(part) + own for part, own in zip(irradiance(values), world, strict=True)]
+        total = [_one(channel_sum) + of_world for channel_sum, of_world in zip(irradiance(values), world, strict=True)]
         grid = grid_factor(values)
     yield f"material {words(material)}"
-    ranked = sorted(range(len(given)), key=lambda k: -given[k][0].max())
-    for share, place, formula in (given[k] for k in sorted(ranked[:MOST])):
-        yield place
+    ranked = sorted(range(len(terms)), key=lambda k: -terms[k][0].max())
+    for share, line, formula in (terms[k] for k in sorted(ranked[:MOST])):
+        yield line
         yield f"  {formula} = {words(share)}"
-    if len(given) > MOST:
-        yield f"{len(given) - MOST} more lamps, together {words(sum(given[k][0] for k in ranked[MOST:]))}"
+    if len(terms) > MOST:
+        yield f"{len(terms) - MOST} more lamps, together {words(sum(terms[k][0] for k in ranked[MOST:]))}"
     yield f"world, from all directions {words(world)}"
     yield f"light, of lamps and world {words(total)}"
     if grid is not None:
@@ -56,13 +56,13 @@ def _told(light: Light, number: int) -> tuple[str, str]:
     cosine = f"cosine {_one(light.gain * light.square) / beam if beam else 0.0:.6g}"
     if light.kind == HEADLIGHT:
         return f"headlight along the ray, as there are no lamps: {cosine}", "cosine"
-    place = np.array([_one(part) for part in light.towards])
-    told = f"{light.kind} {number} towards {words(place / np.linalg.norm(place))}, {cosine}"
+    towards = np.array([_one(component) for component in light.towards])
+    line = f"{light.kind} {number} towards {words(towards / np.linalg.norm(towards))}, {cosine}"
     if light.kind != SUN:
-        part = "" if light.kind == POINT else f"beam {beam:.6g}, "
-        told = f"{told}, {part}distance = {np.sqrt(_one(light.square)):.6g}, P = {words(light.power)}"
-        return told, f"P {'beam ' if part else ''}cosine / (4 pi² distance²)"
-    return f"{told}, E = {words(light.power)}", "E cosine / pi"
+        beam_text = "" if light.kind == POINT else f"beam {beam:.6g}, "
+        line = f"{line}, {beam_text}distance = {np.sqrt(_one(light.square)):.6g}, P = {words(light.power)}"
+        return line, f"P {'beam ' if beam_text else ''}cosine / (4 pi² distance²)"
+    return f"{line}, E = {words(light.power)}", "E cosine / pi"
 
 
 def _one(values: Any) -> float:

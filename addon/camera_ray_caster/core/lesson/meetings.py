@@ -32,7 +32,7 @@ class Crossing:
 
     t: float
     """Distance from the ray's origin in Blender units; negative behind the origin."""
-    what: str
+    face: str
     """Face of a mesh; empty for other shapes."""
     objection: str
     """Reason why the intersection does not count; empty if it counts."""
@@ -58,7 +58,7 @@ def meetings(camera: Camera, shapes: Shapes, origin: np.ndarray, direction: np.n
     own surface. It counts if it is in front of the origin and between the clip distances (depths for planar models).
     """
     depth = float(-(np.linalg.inv(camera.pose.basis) @ direction)[2]) if camera.model.planar else 1.0
-    found = []
+    result = []
     transparent = _Transparent(camera, shapes)
 
     def along_ray(t: float) -> np.ndarray:
@@ -66,23 +66,23 @@ def meetings(camera: Camera, shapes: Shapes, origin: np.ndarray, direction: np.n
 
     whole = np.flatnonzero((shapes.kind != MESH) | (np.abs(np.linalg.det(shapes.axes)) > 0))
     ray = np.stack((origin - shapes.center[whole], np.broadcast_to(direction, (len(whole), 3))), axis=2)
-    own = np.linalg.solve(shapes.axes[whole], ray)  # all at once: a call takes as long as some hundred solutions
-    near = _pass(own[..., 0].T, own[..., 1].T, _half_sizes(shapes, whole))
-    for k, (at, along) in zip(whole[near].tolist(), own[near].swapaxes(1, 2), strict=True):
+    local = np.linalg.solve(shapes.axes[whole], ray)  # all at once: a call takes as long as some hundred solutions
+    near = _pass(local[..., 0].T, local[..., 1].T, _half_sizes(shapes, whole))
+    for k, (at, along) in zip(whole[near].tolist(), local[near].swapaxes(1, 2), strict=True):
         equation, roots = EQUATIONS[int(shapes.kind[k])](shapes, k, at, along)
         places = tuple(
-            Crossing(t, what, _clipped(camera, t, t * depth) or transparent(k, triangle, t, along_ray(t)))
-            for t, what, triangle in sorted(roots)
+            Crossing(t, face, _clipped(camera, t, t * depth) or transparent(k, triangle, t, along_ray(t)))
+            for t, face, triangle in sorted(roots)
         )
         if places:
             name = shapes.names[shapes.name_index[k]]
-            found.append(Meeting(k, name, equation, places))
-    return sorted(found, key=lambda meeting: min((p.t for p in meeting.places if not p.objection), default=np.inf))
+            result.append(Meeting(k, name, equation, places))
+    return sorted(result, key=lambda meeting: min((p.t for p in meeting.places if not p.objection), default=np.inf))
 
 
 def nearest(met: list[Meeting]) -> tuple[Meeting, Crossing] | None:
     """Return the visible intersection, the nearest that counts, with its shape; None if there is none."""
-    counted = [(meeting, place) for meeting in met for place in meeting.places if not place.objection]
+    counted = [(meeting, crossing) for meeting in met for crossing in meeting.places if not crossing.objection]
     return min(counted, key=lambda pair: pair[1].t, default=None)
 
 
@@ -92,7 +92,7 @@ def _pass(at, along, half) -> np.ndarray:
 
     Reference: S. Gottschalk, M. Lin and D. Manocha, OBBTree (1996): the nine axes of a line and a box.
     """
-    x, y, z = (np.abs(part) for part in along)
+    x, y, z = (np.abs(component) for component in along)
     beside, (a, b, c) = np.abs(cross(at, along)), half * (1 + SLACK)
     with np.errstate(invalid="ignore"):  # of an endless box, NaN: it is passed
         return ~((beside[0] > b * z + c * y) | (beside[1] > c * x + a * z) | (beside[2] > a * y + b * x))
@@ -125,8 +125,8 @@ def _plane(shapes, k, at, along):
         return (), []
     t = float(-at[2] / along[2])
     x, y = (at + t * along)[:2]
-    place = f"x = {digits(x)}, y = {digits(y)}"
-    line = f"own frame, where it is z = 0: {digits(at[2])} {digits(along[2], '+')} t = 0 at {place}"
+    position = f"x = {digits(x)}, y = {digits(y)}"
+    line = f"own frame, where it is z = 0: {digits(at[2])} {digits(along[2], '+')} t = 0 at {position}"
     return (line,), [(t, "", -1)] if endless or max(abs(x), abs(y)) <= 1 else []
 
 
@@ -137,27 +137,27 @@ def _mesh(shapes, k, at, along):
     mesh = shapes.meshes[shapes.mesh[k]]
     middles, half = mesh.blocks
     passed = np.flatnonzero(_pass(at[:, None] - middles, along[:, None], half))
-    some = (passed[:, None] * MESH_BLOCK + np.arange(MESH_BLOCK)).ravel()
-    some = some[some < len(mesh)]
-    if not len(some):
+    candidates = (passed[:, None] * MESH_BLOCK + np.arange(MESH_BLOCK)).ravel()
+    candidates = candidates[candidates < len(mesh)]
+    if not len(candidates):
         return (), []
-    triangles = mesh.triangles[:, some]
+    triangles = mesh.triangles[:, candidates]
     corners = mesh.vertices[:, triangles] - mesh.middle[:, None, None]  # (3, 3, k): component, corner, triangle
-    first, one, two = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    across, beside = np.cross(along, two, axisb=0).T, at[:, None] - first
-    turned = np.cross(beside.T, one.T).T
+    first, edge, other_edge = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    across, beside = np.cross(along, other_edge, axisb=0).T, at[:, None] - first
+    turned = np.cross(beside.T, edge.T).T
     with np.errstate(all="ignore"):  # triangles seen edge-on give NaN, which is no hit
-        scale = 1 / (one * across).sum(axis=0)
+        scale = 1 / (edge * across).sum(axis=0)
         v, w = (beside * across).sum(axis=0) * scale, along @ turned * scale
-        t = (two * turned).sum(axis=0) * scale
+        t = (other_edge * turned).sum(axis=0) * scale
         hit = np.flatnonzero((v >= 0) & (w >= 0) & (v + w <= 1))
     hit = hit[np.argsort(np.abs(t[hit]))][:MOST]
     lines = (f"own frame: p + t d = (1 - v - w) A + v B + w C, p = {words(at)}, d = {words(along)}",)
     roots = []
     for i in hit:
         named = ", ".join(f"{name} = {words(corner)}" for name, corner in zip("ABC", corners[:, :, i].T, strict=True))
-        told = f"face {mesh.polygon[some[i]]}, {named}, v = {v[i]:.4f}, w = {w[i]:.4f}"
-        roots.append((float(t[i]), told, int(some[i])))
+        text = f"face {mesh.polygon[candidates[i]]}, {named}, v = {v[i]:.4f}, w = {w[i]:.4f}"
+        roots.append((float(t[i]), text, int(candidates[i])))
     return lines, roots
 
 
@@ -181,8 +181,8 @@ class _Transparent:
         cutouts = Cutouts.of(kind, self._placed, at)
         if cutouts is None:
             return ""
-        own = HitTriangles(self._placed, np.zeros(1, int), at, np.array([triangle]), False)
-        pixels = crossings(at, np.array([t]), False, **{TRIANGLES: own})
+        triangles = HitTriangles(self._placed, np.zeros(1, int), at, np.array([triangle]), False)
+        pixels = crossings(at, np.array([t]), False, **{TRIANGLES: triangles})
         return "" if cutouts.hit(pixels, inverse(self._placed.pose.basis) @ point[:, None])[0] else TRANSPARENT
 
 

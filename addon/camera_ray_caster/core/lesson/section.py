@@ -23,7 +23,7 @@ def section(model: RealLens, x: float, y: float) -> np.ndarray:
 
     Upwards is the direction from the axis in which the pixel shows the scene.
     """
-    a, b = (float(part) for part in model.window.plane_from_pixels(x, y))
+    a, b = (float(coordinate) for coordinate in model.window.plane_from_pixels(x, y))
     radius = np.hypot(a, b)
     up = np.array((a, b)) / radius if radius else np.array((0.0, 1.0))
     glass, stop, film = list(sections(model, 0.0)), stop_lines(model), film_line(model, float(radius))

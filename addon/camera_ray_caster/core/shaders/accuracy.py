@@ -40,9 +40,11 @@ def ray_bounds(camera: Camera, x, y, shift: tuple[float, float]) -> RayBounds:
         Rounded(pixel, side * RASTER * (1 + np.abs(pixel / side + moved)) + 2 * EPS32 * np.abs(pixel))
         for pixel, side, moved in zip((x, y), frame, shift, strict=True)
     ]
-    found = rounded(ray_record(replace(camera, aperture=None)), (*places, Rounded(0.0), Rounded(0.0)))
-    origin, direction = found[:3], found[3:]
-    off, turn = (norm([np.broadcast_to(part.error, x.shape) for part in vector]) for vector in (origin, direction))
-    length = norm([part.value for part in direction])
-    reach = norm([part.value for part in origin]) + np.abs(camera.pose.eye).sum()
+    numbers = rounded(ray_record(replace(camera, aperture=None)), (*places, Rounded(0.0), Rounded(0.0)))
+    origin, direction = numbers[:3], numbers[3:]
+    off, turn = (
+        norm([np.broadcast_to(component.error, x.shape) for component in vector]) for vector in (origin, direction)
+    )
+    length = norm([component.value for component in direction])
+    reach = norm([component.value for component in origin]) + np.abs(camera.pose.eye).sum()
     return RayBounds(off + WORLD * reach, np.where(np.isinf(off + turn), np.inf, turn / length + WORLD))

@@ -93,11 +93,11 @@ class Mark:
 
 def read_mark(source: str) -> Mark | None:
     """Return the mark in the first line of a text; None if the text is not a shader of ours, or was edited."""
-    line, _, rest = source.partition("\n")
-    found = MARKED.fullmatch(line)
-    if found is None or int(found[3], 16) != crc32(rest.encode()):
+    line, _, code = source.partition("\n")
+    match = MARKED.fullmatch(line)
+    if match is None or int(match[3], 16) != crc32(code.encode()):
         return None
-    return Mark(found[1], frozenset(map(int, found[2].split())))
+    return Mark(match[1], frozenset(map(int, match[2].split())))
 
 
 def camera_shader(
@@ -117,18 +117,18 @@ def camera_shader(
     """
     model, inputs = camera.model, Inputs(places)
     writer = OslWriter(inputs, folder=folder)
-    found = writer.write(ray_record(camera), [Term("x"), Term("y"), Term("across"), Term("up")])
-    none = writer.either(*(part.none for part in found)) or writer.NO
-    texts = [part.text for part in found]
+    outputs = writer.write(ray_record(camera), [Term("x"), Term("y"), Term("across"), Term("up")])
+    none = writer.either(*(term.none for term in outputs)) or writer.NO
+    texts = [term.text for term in outputs]
     (width, height), opening = model.frame, camera.aperture
     frame = {"frame_width": width, "frame_height": height, "frame_shift_x": shift[0], "frame_shift_y": shift[1]}
-    own = {name: value for name, value in inputs.values.items() if name not in frame}
+    settings = {name: value for name, value in inputs.values.items() if name not in frame}
     x, y = turn.places
-    rest = TEXT.format(
+    code = TEXT.format(
         label=model.label,
         description=model.description,
         helpers="".join(f"{text}\n" for text in writer.helper_texts()),
-        inputs="".join(f"    float {name} = 0,\n" for name in own),
+        inputs="".join(f"    float {name} = 0,\n" for name in settings),
         aperture="" if opening is None else HOLE if opening.is_hole else APERTURE,
         lines="\n".join((*writer.tables, *writer.lines)),
         none=none,
@@ -138,9 +138,9 @@ def camera_shader(
         d=texts[3:6],
         light=f"\n        throughput = color({', '.join(texts[6:])});" if texts[6:] else "",
     )
-    said = " ".join(map(str, sorted(inputs.used)))
-    values = {**{name: float(value) for name, value in frame.items()}, **own}
-    source = f"{MARK.format(blender_type, said, crc32(rest.encode()))}\n{rest}"
+    used = " ".join(map(str, sorted(inputs.used)))
+    values = {**{name: float(value) for name, value in frame.items()}, **settings}
+    source = f"{MARK.format(blender_type, used, crc32(code.encode()))}\n{code}"
     return CameraShader(source, values, frozenset(inputs.used), writer.textures)
 
 
@@ -176,16 +176,16 @@ def _is_sheared(camera: Camera) -> bool:
     return bool(np.abs(camera.pose.basis.T @ camera.pose.basis - np.eye(3)).max() > 16 * EPS32)
 
 
-def named(model: Model, **given: Any) -> Model:
-    """Return a model with its numbers as parameters named after their fields, except the ``given`` fields."""
-    return replace(_named(model), **given)
+def named(model: Model, **fields_kept: Any) -> Model:
+    """Return a model with its numbers as parameters named after their fields, except the ``fields_kept`` fields."""
+    return replace(_named(model), **fields_kept)
 
 
 def _named(item: Any, name: str = "") -> Any:
     """Return a model, or a part of a model, with its numbers as parameters named after their fields."""
     if is_dataclass(item) and not isinstance(item, type):
-        parts = {each.name: f"{name}_{each.name}".strip("_") for each in fields(item)}
-        return replace(item, **{part: _named(getattr(item, part), full) for part, full in parts.items()})
+        parts = {field.name: f"{name}_{field.name}".strip("_") for field in fields(item)}
+        return replace(item, **{field: _named(getattr(item, field), full) for field, full in parts.items()})
     if isinstance(item, tuple):
-        return tuple(_named(part, f"{name}_{place}") for place, part in enumerate(item))
+        return tuple(_named(entry, f"{name}_{index}") for index, entry in enumerate(item))
     return Parameter(item, name) if isinstance(item, float) else item

@@ -49,18 +49,18 @@ class OslWriter(Writer):
 
     def _take(self, step: Operation, operands: list[Term], inputs) -> Term:
         """Write a look-up; in a large table as a texel, of which several columns of the table are the channels."""
-        (place,), (entries,) = operands, step.fixed
+        (index,), (entries,) = operands, step.fixed
         if not isinstance(entries, Entries) or len(entries) <= MOST_IN_TEXT:
             return super()._take(step, operands, inputs)
         name, channel = self._texture(entries), entries.column % 3
-        if (name, place.text) not in self._texels:
+        if (name, index.text) not in self._texels:
             file, high = self._files[name]
-            row = self.put("float", f"floor({place.text} / {WIDE}.0)")
-            s, t = f"({place.text} - {row} * {WIDE}.0 + 0.5) / {WIDE}.0", f"({row} + 1.5) / {high}.0"
+            row = self.put("float", f"floor({index.text} / {WIDE}.0)")
+            s, t = f"({index.text} - {row} * {WIDE}.0 + 0.5) / {WIDE}.0", f"({row} + 1.5) / {high}.0"
             read = f'texture("{file}", {s}, fabs({name}_turned - {t}), "interp", "closest")'
-            self._texels[name, place.text] = self.put("color", read)
-        found = self.put("float", f"{self._texels[name, place.text]}[{channel}]")
-        return Term(found, self.either(place.none, f"{name}_none"))
+            self._texels[name, index.text] = self.put("color", read)
+        text = self.put("float", f"{self._texels[name, index.text]}[{channel}]")
+        return Term(text, self.either(index.none, f"{name}_none"))
 
     def _texture(self, entries: Entries) -> str:
         """Write the reading of the mark of a table's texture, unless it exists; return the texture's name."""
@@ -99,8 +99,8 @@ class Inputs:
     def number(self, value: float) -> str:
         """Return the text of a constant: its literal, or the name of its input."""
         self._count += 1
-        place = self._count
-        if abs(value) in LITERALS and place not in self.places:
+        index = self._count
+        if abs(value) in LITERALS and index not in self.places:
             return OslWriter.literal(value)
-        self.used.add(place)
-        return self.named(f"c{place}", value)
+        self.used.add(index)
+        return self.named(f"c{index}", value)

@@ -43,8 +43,8 @@ class _Kept:
         if name not in self.places:
             self.places[name] = len(self.values)
             self.values.append(in_range(value))
-        place = self.places[name]
-        return f"kept.k[{place // 4}].{'xyzw'[place % 4]}"
+        index = self.places[name]
+        return f"kept.k[{index // 4}].{'xyzw'[index % 4]}"
 
     def number(self, value: float) -> str:
         """Return the text of a constant, or the one that reads it."""
@@ -73,11 +73,11 @@ def ray_map(model: Model) -> DirectionText:
     for step in made.steps:
         if step.operation in METHODS and not hasattr(writer, METHODS[step.operation]):
             raise NotRecordable(f"{step.operation} cannot be written in GLSL")
-    found = writer.write(made, [Term("x"), Term("y")])
-    none = writer.either(*(part.none for part in found)) or writer.NO
+    outputs = writer.write(made, [Term("x"), Term("y")])
+    none = writer.either(*(term.none for term in outputs)) or writer.NO
     text = "\n".join((
         *writer.helper_texts(), "bool direction(float x, float y, out vec3 d)", "{", *writer.tables, *writer.lines,
-        f"    d = vec3({', '.join(part.text for part in found)});", f"    return !({none});", "}", "",
+        f"    d = vec3({', '.join(term.text for term in outputs)});", f"    return !({none});", "}", "",
     ))  # fmt: skip
     count = max(1, -(-len(kept.values) // 4))
     values = np.zeros(4 * count, np.float32)
@@ -88,5 +88,5 @@ def ray_map(model: Model) -> DirectionText:
 def _record(model: Model) -> Record:
     """Return the record of the direction at x and y, the numbers of the model its parameters."""
     width, height = model.frame
-    own = named(model, frame=(Parameter(width, "frame_width"), Parameter(height, "frame_height")))
-    return record(lambda x, y: list(own.rays(x, y)[1]), 2)
+    named_model = named(model, frame=(Parameter(width, "frame_width"), Parameter(height, "frame_height")))
+    return record(lambda x, y: list(named_model.rays(x, y)[1]), 2)

@@ -82,11 +82,11 @@ def _operation(name: str) -> Callable[..., Rounded]:
     function, rounding, slopes = NUMPY[name], ROUNDING.get(name, _some(1)), SLOPES.get(name, ())
 
     def apply(*operands: Rounded) -> Rounded:
-        given = [operand.value for operand in operands]
-        value = function(*given)
-        error = np.maximum(rounding(value, *given), LEAST)
+        values = [operand.value for operand in operands]
+        value = function(*values)
+        error = np.maximum(rounding(value, *values), LEAST)
         for operand, slope in zip(operands, slopes, strict=False):
-            moved = np.abs(slope(value, *given)) * operand.error
+            moved = np.abs(slope(value, *values)) * operand.error
             error = error + np.where(np.equal(operand.error, 0), 0.0, moved)
         return _bounded(value, error, *operands)
 
@@ -107,8 +107,8 @@ def _quotient(a: Rounded, b: Rounded) -> Rounded:
 
 def _root(a: Rounded) -> Rounded:
     """Return a root. It changes by at most the root of the error, and is lost if the operand may be negative."""
-    value, most = np.sqrt(a.value), np.sqrt(a.error)
-    error = np.fmin(0.5 * a.error / value, most) + 2 * EPS32 * value
+    value, largest = np.sqrt(a.value), np.sqrt(a.error)
+    error = np.fmin(0.5 * a.error / value, largest) + 2 * EPS32 * value
     return _bounded(value, error, a, lost=(a.value != 0) & (np.abs(a.value) <= a.error))
 
 
@@ -144,8 +144,9 @@ def _compared(name: str) -> Callable[..., Rounded]:
 
 
 def _logical(name: str) -> Callable[..., Rounded]:
-    return lambda *given: Rounded(
-        NUMPY[name](*(one.value for one in given)), np.logical_or.reduce(np.broadcast_arrays(*(o.error for o in given)))
+    return lambda *operands: Rounded(
+        NUMPY[name](*(operand.value for operand in operands)),
+        np.logical_or.reduce(np.broadcast_arrays(*(o.error for o in operands))),
     )
 
 
@@ -186,8 +187,8 @@ ARITHMETIC: Arithmetic = {
     "roundoff": lambda: Rounded(NUMPY["roundoff"]()),
     "stop_gradient": lambda a: a,
     "searchsorted": lambda a, table, side: Rounded(NUMPY["searchsorted"](a.value, table, side)),
-    "take": lambda place, table: Rounded(value := NUMPY["take"](place.value, table), EPS32 * np.abs(value)),
-    "loop": lambda body, most, state: [
-        Rounded(found) for found in repeat_body(NUMPY, body, most, [start.value for start in state])
+    "take": lambda index, table: Rounded(value := NUMPY["take"](index.value, table), EPS32 * np.abs(value)),
+    "loop": lambda body, limit, state: [
+        Rounded(value) for value in repeat_body(NUMPY, body, limit, [start.value for start in state])
     ],
 }

@@ -139,9 +139,9 @@ class Writer(ABC):
         """Write the steps of a record, applied to these inputs; return its outputs."""
         values: list[Any] = []
         for step in record.steps:
-            operands = [values[place] for place in step.operands]
+            operands = [values[index] for index in step.operands]
             values.append(getattr(self, METHODS.get(step.operation, "_function"))(step, operands, inputs))
-        return [values[place] for place in record.outputs]
+        return [values[index] for index in record.outputs]
 
     def helper_texts(self) -> list[str]:
         """Return the text of the helpers that are needed."""
@@ -168,10 +168,10 @@ class Writer(ABC):
 
     def either(self, *conditions: str) -> str:
         """Return the condition that at least one of these conditions holds."""
-        told = sorted({condition for condition in conditions if condition})
-        if self.YES in told:
+        distinct = sorted({condition for condition in conditions if condition})
+        if self.YES in distinct:
             return self.YES
-        return self.put(self.TRUTH, " || ".join(told)) if len(told) > 1 else told[0] if told else ""
+        return self.put(self.TRUTH, " || ".join(distinct)) if len(distinct) > 1 else distinct[0] if distinct else ""
 
     def _function(self, step: Operation, operands: list[Term], _) -> Term:
         texts, none = [operand.text for operand in operands], self.either(*(operand.none for operand in operands))
@@ -229,25 +229,25 @@ class Writer(ABC):
         return Term(self.put(self.NUMBER, self.TO_NUMBER.format(low)), value.none)
 
     def _take(self, step: Operation, operands: list[Term], _) -> Term:
-        (place,), (entries,) = operands, step.fixed
-        return Term(self.put(self.NUMBER, f"{self.table(entries)}[{self.TO_INDEX.format(place.text)}]"), place.none)
+        (index,), (entries,) = operands, step.fixed
+        return Term(self.put(self.NUMBER, f"{self.table(entries)}[{self.TO_INDEX.format(index.text)}]"), index.none)
 
     def _loop(self, step: Operation, operands: list[Term], _) -> list[Term]:
-        body, most = step.fixed
+        body, limit = step.fixed
         kinds = [self.TRUTH if inner.truth else self.NUMBER for inner in _inputs_of(body, len(operands))]
         state = [
             Term(self.put(kind, start.text), self.put(self.TRUTH, start.none or self.NO) if self.ABSENT else "")
             for kind, start in zip(kinds, operands, strict=True)
         ]
         count = f"i{self._count}"
-        self.line(f"for ({self.INDEX} {count} = 0; {count} < {most}; {count}++) {{")
+        self.line(f"for ({self.INDEX} {count} = 0; {count} < {limit}; {count}++) {{")
         before, self._indent = self._indent, self._indent + "    "
         *after, settled = self.write(body, state)
         kept = [self.put(kind, value.text) for kind, value in zip(kinds, after, strict=True)]
-        for own, value, name in zip(state, after, kept, strict=True):
-            self.line(f"{own.text} = {name};")
-            if own.none:
-                self.line(f"{own.none} = {value.none or self.NO};")
+        for variable, value, name in zip(state, after, kept, strict=True):
+            self.line(f"{variable.text} = {name};")
+            if variable.none:
+                self.line(f"{variable.none} = {value.none or self.NO};")
         self.line(f"if ({settled.text}) break;")
         self._indent = before
         self.line("}")
@@ -271,8 +271,8 @@ METHODS = {
 
 def _inputs_of(body: Record, count: int) -> list[Operation]:
     """Return the input step of each input of a loop's body; a numeric one if the body does not use the input."""
-    found = {step.fixed[0]: step for step in body.steps if step.operation == "input"}
-    return [found.get(place, Operation("input", fixed=(place,))) for place in range(count)]
+    inputs = {step.fixed[0]: step for step in body.steps if step.operation == "input"}
+    return [inputs.get(index, Operation("input", fixed=(index,))) for index in range(count)]
 
 
 def in_range(value: float) -> float:

@@ -89,7 +89,7 @@ def lesson_page(
         key = f"THIS_{mine['key']}"
         models.insert(0, mine | {"key": key, "label": f"This camera ({mine['label']})", "group": "In Blender"})
     scene = SCENE if camera is None or shapes is None else scene_data(camera, shapes)
-    place = "" if pixel is None else f", {{x: {pixel[0] + 0.5!r}, y: {pixel[1] + 0.5!r}}}"
+    pixel_text = "" if pixel is None else f", {{x: {pixel[0] + 0.5!r}, y: {pixel[1] + 0.5!r}}}"
     parts = [
         RUNTIME,
         f"const HELPERS = {_data(''.join(GlslWriter.HELPERS.values()))};",
@@ -98,7 +98,7 @@ def lesson_page(
         f"const GLSL = {_data(tables.texts['GLSL'])};",
         f"const MODELS = {_data(models)};",
         *((FILES / f"{name}.js").read_text(encoding="utf-8") for name in SCRIPTS[:-1]),
-        f"const START = Object.assign(freshState(MODELS.find((one) => one.key === {_data(key)})){place});",
+        f"const START = Object.assign(freshState(MODELS.find((one) => one.key === {_data(key)})){pixel_text});",
         (FILES / "main.js").read_text(encoding="utf-8"),
     ]
     page = (FILES / "index.html").read_text(encoding="utf-8")
@@ -109,8 +109,8 @@ def lesson_page(
 @cache
 def own_programs() -> tuple[Program, ...]:
     """Return the programs of the package's models, by groups."""
-    own = [model for model in page_models() if model.__module__.startswith(Model.__module__.rpartition(".")[0])]
-    return tuple(own_program(model) for group in GROUPS for model in own if model.group == group)
+    models = [model for model in page_models() if model.__module__.startswith(Model.__module__.rpartition(".")[0])]
+    return tuple(own_program(model) for group in GROUPS for model in models if model.group == group)
 
 
 def own_program(model: type[Model]) -> Program:
@@ -120,14 +120,14 @@ def own_program(model: type[Model]) -> Program:
 
 def page_models() -> list[type[Model]]:
     """Return the models that the page has: all but those that need a file or an object that it does not have."""
-    found = []
+    models = []
     for model in MODELS:
         try:
             example(model)
         except InputError:
             continue
-        found.append(model)
-    return found
+        models.append(model)
+    return models
 
 
 def example(model: type[Model], **settings: Any) -> Camera:
@@ -176,7 +176,7 @@ class _Tables:
             "key": model.key, "label": model.label, "group": model.group, "description": model.description,
             "frame": model.frame, "central": model.central, "planar": model.planar,
             "knobs": [vars(knob) for knob in program.knobs], "choices": program.choices,
-            "options": program.options, "labels": {one.name: one.label for one in model.SETTINGS},
+            "options": program.options, "labels": {setting.name: setting.label for setting in model.SETTINGS},
             "fixed": [setting.label for setting in program.fixed],
             "constants": parameters_of(program.fixed, program.record),
             **({"glass": glass_of(model)} if isinstance(model, RealLens) else {}),

@@ -84,21 +84,23 @@ def program_of(camera: Camera, held: Collection[str] = ()) -> Program:
     """
     model, raw = type(camera.model), camera.record
     knobs = tuple(knob for setting in model.SETTINGS for knob in knobs_of(setting, raw))
-    options = {one: words for one in model.SETTINGS if one.name not in held and (words := _options(one))}
-    given = {setting.name: setting.given(raw) for setting in options}
-    choices = [dict(zip(given, words, strict=True)) for words in product(*options.values())]
+    options = {
+        setting: words for setting in model.SETTINGS if setting.name not in held and (words := _options(setting))
+    }
+    current = {setting.name: setting.given(raw) for setting in options}
+    choices = [dict(zip(current, words, strict=True)) for words in product(*options.values())]
     try:
         variants = [variant for chosen in choices for variant in _variants(camera, chosen, knobs)]
     except NotRecordable:
         knobs = tuple(knob for knob in knobs if _turns(camera, choices, knob))
         variants = [variant for chosen in choices for variant in _variants(camera, chosen, knobs)]
-    turned = {knob.name.partition("[")[0] for knob in knobs} | set(given)
+    turned = {knob.name.partition("[")[0] for knob in knobs} | set(current)
     fixed = tuple(setting for setting in model.SETTINGS if setting.name not in turned)
     words_of = {
         setting.name: [{"value": value, "label": label} for value, label in words.items()]
         for setting, words in options.items()
     }
-    return Program(camera.model, raw, knobs, given, words_of, fixed, tuple(variants))
+    return Program(camera.model, raw, knobs, current, words_of, fixed, tuple(variants))
 
 
 def _turns(camera: Camera, choices: list[dict[str, Any]], knob: Knob) -> bool:
@@ -115,9 +117,11 @@ def with_settings(raw: BlenderCamera, model: type[Model], values: Mapping[str, A
     """Return the record with other values of knobs and choices, by their names."""
     numbers = {name: values.get(name, number) for name, number in parameters_of(model.SETTINGS, raw).items()}
     made = with_parameters(model.SETTINGS, raw, numbers.values())
-    rest = {setting.name for setting in model.SETTINGS} & set(values) - set(numbers)
-    fields = {name: values[name] for name in rest & RECORD_FIELDS}
-    return replace(made, **fields, settings={**made.settings, **{name: values[name] for name in rest - RECORD_FIELDS}})
+    not_numbers = {setting.name for setting in model.SETTINGS} & set(values) - set(numbers)
+    fields = {name: values[name] for name in not_numbers & RECORD_FIELDS}
+    return replace(
+        made, **fields, settings={**made.settings, **{name: values[name] for name in not_numbers - RECORD_FIELDS}}
+    )
 
 
 def knobs_of(setting: Setting, raw: BlenderCamera) -> Iterator[Knob]:
@@ -126,15 +130,15 @@ def knobs_of(setting: Setting, raw: BlenderCamera) -> Iterator[Knob]:
         value = float(setting.given(raw))
         yield Knob(setting.name, setting.label, setting.text, setting.unit, *_range(setting, value), value, True)
         return
-    for place, (name, value) in enumerate(parameters_of([setting], raw).items()):
+    for index, (name, value) in enumerate(parameters_of([setting], raw).items()):
         if isinstance(setting, Number):
             yield Knob(name, setting.label, setting.text, setting.unit, *_range(setting, value), value)
         elif isinstance(setting, Numbers):
-            label = f"{setting.label}: {setting.components[place]}"
+            label = f"{setting.label}: {setting.components[index]}"
             yield Knob(name, label, setting.text, "", min(value, -2.0), max(value, 2.0), value)
         elif value:
             low, high = sorted((value / 2, 2 * value))
-            yield Knob(name, f"{setting.label}, {place}", setting.text, "", low, high, value)
+            yield Knob(name, f"{setting.label}, {index}", setting.text, "", low, high, value)
 
 
 def _range(setting: Number, value: float) -> tuple[float, float]:
@@ -158,14 +162,14 @@ def _options(setting: Setting) -> dict[Any, str]:
 def _variants(camera: Camera, chosen: Mapping[str, Any], knobs: tuple[Knob, ...]) -> list[Variant]:
     """Return the variants for some choices."""
     generator = np.random.default_rng(len(knobs))
-    found: list[Variant] = []
+    variants: list[Variant] = []
     for sample in range(1 + SAMPLES):
         shares = generator.uniform(size=len(knobs))
         values = {
             knob.name: knob.value if sample == 0 else float(knob.low + share * (knob.high - knob.low))
             for knob, share in zip(knobs, shares, strict=True)
         }
-        if any(holds(one.parts, values) for one in found) or len(found) == MOST_VARIANTS:
+        if any(holds(variant.parts, values) for variant in variants) or len(variants) == MOST_VARIANTS:
             continue
         try:
             _model(camera, {**chosen, **values})
@@ -173,8 +177,8 @@ def _variants(camera: Camera, chosen: Mapping[str, Any], knobs: tuple[Knob, ...]
             continue
         record, names = record_settings(camera, chosen, values)
         parts = split(record, RAY + sum(count for _, count in names))
-        found.append(Variant(chosen, parts, names))
-    return found
+        variants.append(Variant(chosen, parts, names))
+    return variants
 
 
 def holds(parts: Parts, values: Mapping[str, float]) -> bool:
@@ -196,11 +200,11 @@ def record_settings(camera: Camera, chosen: Mapping[str, Any], values: Mapping[s
     def ray(settings, x, y):
         raw = with_settings(camera.record, model, {**chosen, **settings})
         made = model.from_blender(raw, raster).posed(camera.pose)
-        found = [part for vector in made.rays(x, y) for part in vector]
+        numbers = [component for vector in made.rays(x, y) for component in vector]
         for name, parts in values_of(made, raw, raster, x, y).items():
             names.append((name, len(parts)))
-            found += parts
-        return found
+            numbers += parts
+        return numbers
 
     return record_known(ray, values, 2), tuple(names)
 

@@ -57,5 +57,5 @@ def room_shapes(eye: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Shapes:
     """Return the room as shapes for the caster: balls, then walls, at time 0; ``eye`` is the origin."""
     balls = spheres([np.subtract(ball[1], eye) for ball in BALLS], [ball[2] for ball in BALLS])
     flats = SCENE["rectangles"]
-    walls = [planes(np.subtract(one["center"], eye), np.transpose((one["u"], one["v"]))) for one in flats]
+    walls = [planes(np.subtract(flat["center"], eye), np.transpose((flat["u"], flat["v"]))) for flat in flats]
     return join(balls, *walls)

@@ -52,7 +52,7 @@ def scene_data(camera: Camera, shapes: Shapes) -> dict[str, Any]:
     scale = float(np.median(away)) / 5 if len(away) and np.median(away) > 0 else 1.0
     balls: list[dict[str, Any]] = []
     flats: list[dict[str, Any]] = []
-    rest = []
+    in_triangles = []
     for k in range(len(shapes)):
         lengths = np.linalg.norm(frames[k], axis=0)
         is_ball = shapes.kind[k] == SPHERE and np.ptp(lengths) <= UNIFORM * lengths.max()
@@ -63,17 +63,17 @@ def scene_data(camera: Camera, shapes: Shapes) -> dict[str, Any]:
             size = ENDLESS * scale / lengths[:2] if shapes.kind[k] == INFINITE_PLANE else np.ones(2)
             flats.append({**common, "u": _rounded(frames[k][:, 0] * size[0]), "v": _rounded(frames[k][:, 1] * size[1])})
         else:
-            rest.append(k)
-    meshes, coarser = _coarse([_facets(shapes, k) for k in rest])
+            in_triangles.append(k)
+    meshes, coarser = _coarse([_facets(shapes, k) for k in in_triangles])
     parts, left_out, count = [], [], 0
-    for triangles, color, k in sorted(meshes, key=lambda one: len(one[0])):
+    for triangles, color, k in sorted(meshes, key=lambda mesh: len(mesh[0])):
         count += len(triangles)
         if count > MOST_FACETS:
             left_out.append(names[k])
         elif len(triangles):
             parts.append((triangles, color, np.full(len(triangles), k)))
-    low = [(ball["center"][1] - ball["radius"]) for ball in balls] + [float(part[0][..., 1].min()) for part in parts]
-    low += [flat["center"][1] for flat in flats]
+    low = [ball["center"][1] - ball["radius"] for ball in balls] + [flat["center"][1] for flat in flats]
+    low += [float(triangles[..., 1].min()) for triangles, *_ in parts]
     return {
         "spheres": balls, "rectangles": flats, "turn": (0.0, 0.0), "height": 0.0, "near": 1e-5 * scale,
         "floor": min(low, default=float(eye[1])), "scale": scale, "still": True, "left_out": sorted(set(left_out)),
@@ -112,17 +112,17 @@ def _coarse(meshes: list[Facets]) -> tuple[list[Facets], list[int]]:
     if total <= MOST_FACETS:
         return meshes, []
     for cells in GRIDS:
-        found, coarser = [], []
+        thinner, coarser = [], []
         for triangles, color, k in meshes:
             if len(triangles) > FEW:
                 kept, corners = _thinned(triangles, cells)
                 if kept.sum() < len(triangles):
                     triangles, color = corners[kept], color[kept]
                     coarser.append(k)
-            found.append((triangles, color, k))
-        if sum(len(triangles) for triangles, _, _ in found) <= MOST_FACETS:
+            thinner.append((triangles, color, k))
+        if sum(len(triangles) for triangles, _, _ in thinner) <= MOST_FACETS:
             break
-    return found, coarser
+    return thinner, coarser
 
 
 def _thinned(triangles: np.ndarray, cells: int) -> tuple[np.ndarray, np.ndarray]:
@@ -130,12 +130,12 @@ def _thinned(triangles: np.ndarray, cells: int) -> tuple[np.ndarray, np.ndarray]
     flat = triangles.reshape(-1, 3)
     low, size = flat.min(axis=0), np.maximum(np.ptp(flat, axis=0), np.finfo(float).tiny)
     keys = np.minimum((flat - low) / size * cells, cells - 1).astype(np.int64) @ np.array([1, 1 << 10, 1 << 20])
-    _, first, which = np.unique(keys, return_index=True, return_inverse=True)
-    which = which.reshape(-1, 3)
-    ends = np.sort(which, axis=1)
+    _, first, cell_of = np.unique(keys, return_index=True, return_inverse=True)
+    cell_of = cell_of.reshape(-1, 3)
+    ends = np.sort(cell_of, axis=1)
     single = np.zeros(len(ends), bool)
     single[np.unique(ends @ np.array([1, 1 << 20, 1 << 40]), return_index=True)[1]] = True
-    return single & (np.diff(ends, axis=1) > 0).all(axis=1), flat[first][which]
+    return single & (np.diff(ends, axis=1) > 0).all(axis=1), flat[first][cell_of]
 
 
 def _globe(around: int = 24, up: int = 12) -> np.ndarray:
@@ -164,27 +164,29 @@ def _tree(parts: list[tuple[np.ndarray, np.ndarray, np.ndarray]], names: list[st
     order: list[np.ndarray] = []
     first = 0
 
-    def add(which: np.ndarray) -> None:
+    def add(members: np.ndarray) -> None:
         nonlocal first
         here = len(nodes)
-        nodes.extend(([*low[which].min(axis=0), 0.0], [*high[which].max(axis=0), -1.0]))
-        if len(which) <= LEAF:
-            nodes[here + 1][3] = 8.0 * first + len(which)
-            order.append(which)
-            first += len(which)
+        nodes.extend(([*low[members].min(axis=0), 0.0], [*high[members].max(axis=0), -1.0]))
+        if len(members) <= LEAF:
+            nodes[here + 1][3] = 8.0 * first + len(members)
+            order.append(members)
+            first += len(members)
         else:
-            spread = np.ptp(middle[which], axis=0)
-            which = which[np.argsort(middle[which, spread.argmax()], kind="stable")]
-            add(which[: len(which) // 2])
-            add(which[len(which) // 2 :])
+            spread = np.ptp(middle[members], axis=0)
+            members = members[np.argsort(middle[members, spread.argmax()], kind="stable")]
+            add(members[: len(members) // 2])
+            add(members[len(members) // 2 :])
         nodes[here][3] = len(nodes) / 2
 
     add(np.arange(len(corners)))
     sorted_ = np.concatenate(order)
-    used, place = np.unique(shape[sorted_], return_inverse=True)
+    used, name_index = np.unique(shape[sorted_], return_inverse=True)
     bits = np.rint(255 * np.clip(colors[sorted_], 0, 1) ** (1 / 2.2)) @ (1.0, 256.0, 65536.0)
     a, b, c = (corners[sorted_, k] for k in range(3))
-    texels = np.concatenate([np.column_stack(one) for one in ((a, place), (b - a, bits), (c - a, 0 * bits))], axis=1)
+    texels = np.concatenate(
+        [np.column_stack(columns) for columns in ((a, name_index), (b - a, bits), (c - a, 0 * bits))], axis=1
+    )
     data = np.concatenate((np.array(nodes), texels.reshape(-1, 4))).astype("<f4")
     return {
         "nodes": len(nodes) // 2, "triangles": len(corners), "names": [names[k] for k in used],

@@ -17,12 +17,12 @@ RAY = 6
 
 @dataclass(frozen=True)
 class Parts:
-    """Two records. ``first`` returns conditions and then the kept numbers; ``rest`` takes x, y and these, and returns
+    """Two records. ``first`` returns conditions and then the kept numbers; ``second`` takes x, y and these, and returns
     the RAY numbers of a ray, then others.
     """
 
     first: Record
-    rest: Record
+    second: Record
     conditions: int
     """Number of conditions under which the record is that of the formula."""
     truths: tuple[bool, ...]
@@ -32,11 +32,11 @@ class Parts:
 def split(record: Record, count: int) -> Parts:
     """Return the parts of a record of ``count`` numbers and conditions, as ``record_known`` makes it."""
     varying: set[int] = set()
-    for place, step in enumerate(record.steps):
+    for index, step in enumerate(record.steps):
         if step.operation == "input" or not varying.isdisjoint(step.operands):
-            varying.add(place)
+            varying.add(index)
     values, conditions = record.outputs[:count], record.outputs[count:]
-    steps: list[Operation] = [Operation("input", fixed=(place,)) for place in range(INPUTS)]
+    steps: list[Operation] = [Operation("input", fixed=(index,)) for index in range(INPUTS)]
     places: dict[int, int] = {}
     kept: dict[int, None] = {}
 
@@ -87,11 +87,11 @@ def functions(parts: Parts) -> dict[str, str]:
     conditions, kept = known[: parts.conditions], known[parts.conditions :]
     holds = " && ".join(conditions) or "true"
     made = {"prepare": ["(s) => {", *first.tables, *first.lines, f" return {holds} ? [{', '.join(kept)}] : null;", "}"]}
-    for name, outputs in (("rays", parts.rest.outputs[:RAY]), ("values", parts.rest.outputs[RAY:])):
-        rest = JavaScriptWriter(Constants(JavaScriptWriter), _indent=" ")
-        inputs = [Term("x"), Term("y"), *(Term(f"k[{place}]") for place in range(len(kept)))]
-        found = ", ".join(term.text for term in rest.write(needed(parts.rest.steps, outputs), inputs))
-        made[name] = ["(k, x, y) => {", *rest.tables, *rest.lines, f" return [{found}];", "}"]
+    for name, outputs in (("rays", parts.second.outputs[:RAY]), ("values", parts.second.outputs[RAY:])):
+        writer = JavaScriptWriter(Constants(JavaScriptWriter), _indent=" ")
+        inputs = [Term("x"), Term("y"), *(Term(f"k[{k}]") for k in range(len(kept)))]
+        values = ", ".join(term.text for term in writer.write(needed(parts.second.steps, outputs), inputs))
+        made[name] = ["(k, x, y) => {", *writer.tables, *writer.lines, f" return [{values}];", "}"]
     return {name: "\n".join(lines) for name, lines in made.items()}
 
 
@@ -100,10 +100,10 @@ def glsl(parts: Parts) -> tuple[str, set[str]]:
     it calls. It returns whether there is a ray; the kept numbers are its uniforms ``k``, 1 for true.
     """
     writer = GlslWriter(Constants(GlslWriter), _indent=" ")
-    kept = [Term(f"(k[{place}] != 0.0)" if truth else f"k[{place}]") for place, truth in enumerate(parts.truths)]
-    ray = writer.write(needed(parts.rest.steps, parts.rest.outputs[:RAY]), [Term("x"), Term("y"), *kept])
-    none = writer.either(*(part.none for part in ray)) or writer.NO
-    texts = [part.text for part in ray]
+    kept = [Term(f"(k[{k}] != 0.0)" if truth else f"k[{k}]") for k, truth in enumerate(parts.truths)]
+    ray = writer.write(needed(parts.second.steps, parts.second.outputs[:RAY]), [Term("x"), Term("y"), *kept])
+    none = writer.either(*(term.none for term in ray)) or writer.NO
+    texts = [term.text for term in ray]
     return "\n".join((
         "bool ray(float x, float y, out vec3 o, out vec3 d) {", *writer.tables, *writer.lines,
         f" o = vec3({', '.join(texts[:3])});", f" d = vec3({', '.join(texts[3:])});", f" return !({none});", "}",

@@ -24,16 +24,16 @@ NORMALIZED = "view_x", "view_y"
 
 def values_of(model: Model, raw: BlenderCamera, raster: Raster, x, y) -> dict[str, tuple[Any, ...]]:
     """Return one number or three by name, at a pixel: those that the steps name, and that can be recorded."""
-    found: dict[str, tuple[Any, ...]] = {}
-    for part in (_film, _window, _matrix, _calibration, _own):
+    values: dict[str, tuple[Any, ...]] = {}
+    for source in (_film, _window, _matrix, _calibration, _own):
         try:
-            given = dict(part(model, raw, raster, x, y))
+            computed = dict(source(model, raw, raster, x, y))
         except (NotRecordable, InputError, ValueError):  # what cannot be recorded is shown without its number
             continue
-        found |= {name: tuple(value) if np.ndim(value) else (value,) for name, value in given.items()}
+        values |= {name: tuple(value) if np.ndim(value) else (value,) for name, value in computed.items()}
     named = {name for step in model.steps for name in NAME.findall(step.symbols)}
     named |= set(NORMALIZED) if any(OVER in step.words for step in model.steps) else set()
-    return {name: parts for name, parts in found.items() if name in named}
+    return {name: parts for name, parts in values.items() if name in named}
 
 
 OVER = "[-1, 1]²"
