@@ -191,24 +191,51 @@ def examples(user, scenes):
     assert bpy.context.scene.camera.data.camera_ray_caster.slit_2 is not None
 
 
+SIDES = {"OUTSIDE": (0.13, "PERSP"), "SIDE": (0.34, "ORTHO"), "ABOVE": (0.55, "ORTHO"), "BACK": (0.76, "CAMERA")}
+"""Where the buttons are in the sidebar's width, and the view's perspective after a click."""
+ROW = 26
+"""Height of a row of buttons and the space between two, in pixels."""
+
+
+def look_from(user, side):
+    """Press the button that looks at the ray from a side."""
+    command, view = f"{BUTTON}ray_view(side='{side}'", user.area().spaces.active.region_3d
+    share, perspective = SIDES[side]
+    yield from user.find(command, share=share)
+    user.send("click", 1)
+    yield from user.until(lambda: view.view_perspective == perspective, f"the ray is seen: {side}")
+    yield from user.wait(0.7)
+
+
 def lecture(user, scenes):
-    """A lecture shows the formula large on the picture; Page Down and Page Up change the step."""
+    """A lecture shows the formula large on the picture, its steps by Page Down and Page Up, its ray from all sides."""
     yield from load(user, scenes, "toys")
     lesson, place = addon("view3d.lesson"), bpy.context.window_manager.camera_ray_caster_place
-    user.area().spaces.active.region_3d.view_perspective = "CAMERA"
+    view, panel = user.area().spaces.active.region_3d, user.region()
+    view.view_perspective = "CAMERA"
     lesson.pixels[:] = [(150, 120)]
     yield from user.wait(0.7)
     off = user.cut(user.picture("lecture_off"), user.region("WINDOW"))
-    place.lecture = True
-    yield from user.wait(0.7)
+    yield from look_from(user, "ABOVE")
+    row = user.known[f"{BUTTON}ray_view(side='ABOVE'"]
+    yield from user.click(panel.x + panel.width // 3, row + ROW)
+    assert place.lecture
+    user.known |= {f"{BUTTON}ray_view(side='{side}'": row - ROW for side in SIDES}  # More Digits is above them
+    for side in ("BACK", "OUTSIDE", "SIDE", "ABOVE", "BACK"):
+        yield from look_from(user, side)
+        user.picture(f"lecture_{side.lower()}")
+        assert lesson.pixels == [(150, 120)]
     on = user.cut(user.picture("lecture_formula"), user.region("WINDOW"))
     assert np.count_nonzero(np.abs(on - off).max(axis=2) > 0.1) > 5000
     yield from user.point(*place_of(user, 300, 200))
-    for key, step in (("Next", 1), ("Next", 2), ("Prior", 1)):
+    for key, step in (("Next", 1), ("Next", 2), ("Next", 3), ("Next", 4), ("Prior", 3)):
         yield from user.key(key)
         yield from user.until(lambda step=step: place.step == step, f"{key} shows step {step}")
     user.picture("lecture_numbers")
-    place.lecture, place.step = False, 0
+    place.all_digits = True
+    yield from user.wait(0.5)
+    user.picture("lecture_all_digits")
+    place.lecture, place.all_digits, place.step = False, False, 0
     lesson.forget()
 
 

@@ -31,6 +31,7 @@ from .ui import (
     gallery_panels,
     hide_overlays,
     in_steps,
+    lecture_operators,
     left_out_panels,
     lens_operators,
     lesson_operators,
@@ -63,7 +64,7 @@ CLASSES = (
     *see_through.CLASSES, *see_through_here.CLASSES, *select_seen.CLASSES,
     *camera_panels.CLASSES, *in_steps.CLASSES, *cast_all.CLASSES,
     *cameras_list.CLASSES, *show_result.CLASSES, *cast_panels.CLASSES, *verify_panels.CLASSES,
-    *left_out_panels.CLASSES, *lens_operators.CLASSES, *lesson_operators.CLASSES,
+    *left_out_panels.CLASSES, *lens_operators.CLASSES, *lesson_operators.CLASSES, *lecture_operators.CLASSES,
     *point_operators.CLASSES, *gallery_operators.CLASSES,
     *open_lesson.CLASSES, *lesson_panels.CLASSES, *facts_panels.CLASSES, *overlay_panels.CLASSES,
     *cloud_operators.CLASSES, *object_panels.CLASSES, *through_model.CLASSES,
@@ -73,8 +74,8 @@ CLASSES = (
 MODULES = (
     groups, paths, kept, follow, reports, images, gallery, lens_icon, scene_cache, engine, viewport, cast_operator,
     overlay, points, lesson, live, notice, render_panels, menus, gallery_panels, gallery_operators, lesson_operators,
-    presets, export_operators, rig_operators, commands, other_engine, see_through, hide_overlays, select_seen,
-    in_steps,
+    lecture_operators, presets, export_operators, rig_operators, commands, other_engine, see_through, hide_overlays,
+    select_seen, in_steps,
 )  # fmt: skip
 """Modules that register more than classes. Their ``register(undo)`` gives ``undo`` the callbacks that undo it."""
 

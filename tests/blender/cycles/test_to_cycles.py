@@ -265,7 +265,7 @@ def test_a_blender_without_osl_is_refused_in_one_line(scene, monkeypatch):
     import _cycles
 
     monkeypatch.setattr(_cycles, "with_osl", False)
-    with pytest.raises(InputError, match="without the Open Shading Language"):
+    with pytest.raises(InputError, match="without the Open Shading Language: Cycles renders this camera as it is"):
         to_cycles(scene)
     assert scene.camera.data.type == "PERSP"
 

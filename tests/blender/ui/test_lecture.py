@@ -1,33 +1,83 @@
-"""Lecture mode of Step Through: its steps, its keys' operator, and the size of its text."""
+"""Lecture mode of Step Through: its steps, its keys' operator, the size of its text, and views of its ray."""
 
 from types import SimpleNamespace
 
+import numpy as np
+import pytest
+
+from camera_ray_caster.blender.ui import lecture_operators
 from camera_ray_caster.blender.view3d import lecture, lesson
 
 
-def test_a_lecture_writes_one_step_large_and_keys_stay_within_the_steps(blender, scene, monkeypatch):
-    place, written = blender.context.window_manager.camera_ray_caster_place, []
+@pytest.fixture
+def place(blender):
+    place = blender.context.window_manager.camera_ray_caster_place
+    yield place
+    place.lecture, place.step, place.all_digits = False, 0, False
+    lesson.forget()
+
+
+def test_a_lecture_writes_one_step_large_and_keys_stay_within_the_steps(blender, scene, place, monkeypatch):
+    written = []
     step = blender.ops.camera_ray_caster.lecture_step
     lesson.pixels[:] = [(12, 8)]
-    try:
-        assert not step.poll()
-        place.lecture = True
-        (explained,) = lesson.lessons(blender.context).values()
-        seen = [step(by=by) and place.step for by in (-1, 1, 1, 100, -1)]
-        assert seen == [0, 1, 2, len(explained.steps), len(explained.steps) - 1]
-        monkeypatch.setattr(lecture.text, "write", lambda context, lines, place, size: written.append((lines, size)))
-        monkeypatch.setattr(lecture.text, "wrapped", lambda context, line, width, size: [line])
-        monkeypatch.setattr(lecture.text, "uncovered", lambda context: (0, 900))
-        preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=2.0),
-                                      ui_styles=[SimpleNamespace(widget=SimpleNamespace(points=11))])  # fmt: skip
-        for height in (2000, 300):
-            view = SimpleNamespace(preferences=preferences, region=SimpleNamespace(height=height))
-            lecture.write_step(view, explained, 0)
-        (large, size), (small, least) = written
-        assert size == 2.4 * 22
-        assert large[0] == ("", f"Perspective  1/{len(explained.steps) + 1}")
-        assert least < size
-        assert 1.5 * least * len(small) <= 300
-    finally:
-        place.lecture, place.step = False, 0
-        lesson.forget()
+    assert not step.poll()
+    place.lecture = True
+    (explained,) = lesson.lessons(blender.context).values()
+    seen = [step(by=by) and place.step for by in (-1, 1, 1, 100, -1)]
+    assert seen == [0, 1, 2, len(explained.steps), len(explained.steps) - 1]
+    note = lambda view, lines, place, size, hidden: written.append((lines, size))  # noqa: E731
+    monkeypatch.setattr(lecture.text, "write", note)
+    monkeypatch.setattr(lecture.text, "wrapped", lambda context, line, width, size: [line])
+    monkeypatch.setattr(lecture.text, "uncovered", lambda context: (0, 900))
+    preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=2.0),
+                                  ui_styles=[SimpleNamespace(widget=SimpleNamespace(points=11))])  # fmt: skip
+    for height in (2000, 300):
+        view = SimpleNamespace(preferences=preferences, region=SimpleNamespace(height=height))
+        lecture.write_step(view, explained, 0)
+    (large, size), (small, least) = written
+    assert size == 2.4 * 22
+    assert large[0] == ("", f"Perspective (1/{len(explained.steps) + 1})")
+    assert least < size
+    assert 1.5 * least * len(small) <= 300
+
+
+def test_a_lecture_without_a_pixel_begins_in_the_middle_with_four_digits_until_more_are_asked_for(
+    blender, scene, place
+):
+    place.lecture = True
+    width, height = scene.render.resolution_x, scene.render.resolution_y
+    assert lesson.pixels == [(width // 2, height // 2)]
+    (few,) = lesson.lessons(blender.context).values()
+    place.all_digits = True
+    (all_digits,) = lesson.lessons(blender.context).values()
+    place.lecture = False
+    (usual,) = lesson.lessons(blender.context).values()
+    assert len(str(few)) < len(str(all_digits))
+    assert str(all_digits) == str(usual)
+
+
+@pytest.mark.parametrize("side", ["SIDE", "ABOVE"])
+def test_a_view_of_the_ray_shows_eye_and_hit_below_the_text_and_beside_the_sidebar(
+    blender, scene, place, monkeypatch, side
+):
+    lesson.pixels[:] = [(12, 8)]
+    (explained,) = lesson.lessons(blender.context).values()
+    view, region = SimpleNamespace(view_perspective="CAMERA"), SimpleNamespace(width=900, height=600)
+    space = SimpleNamespace(overlay=SimpleNamespace(show_overlays=False), lens=40.0)
+    context = SimpleNamespace(region_data=view, region=region, space_data=space, scene=scene)
+    monkeypatch.setattr(lecture_operators.text, "uncovered", lambda context: (60, 640))
+    monkeypatch.setattr(lecture_operators, "cached_scene", lambda _: lesson.cached_scene(blender.context))
+    lecture_operators.look_at(context, explained, side)
+    assert (view.view_perspective, space.overlay.show_overlays) == ("ORTHO", True)
+    right, up, _ = np.array(view.view_rotation.to_matrix()).T
+    pixel = view.view_distance * 72 / space.lens / region.width
+
+    def seen(point):
+        away = point - view.view_location
+        return away @ right / pixel + region.width / 2, away @ up / pixel + region.height / 2
+
+    eye, hit = seen(explained.seen.origin), seen(explained.point)
+    assert all(60 <= x <= 640 and 0 <= y <= 330 for x, y in (eye, hit)), (eye, hit)
+    axis = 0 if side == "SIDE" else 1
+    assert hit[axis] - eye[axis] > 150

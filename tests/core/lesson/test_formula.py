@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.cameras import MODELS
-from camera_ray_caster.core.lesson.formula import assignments, digits, shown, value, with_numbers, worked_out
+from camera_ray_caster.core.lesson.formula import assignments, at_most, digits, shown, value, with_numbers, worked_out
 from camera_ray_caster.core.lesson.lesson import lesson
 from camera_ray_caster.core.records import no_shapes
 
@@ -125,3 +125,26 @@ def test_the_formula_of_a_model_gives_its_rays_with_numbers_in_every_step(model)
                 assert shown == pytest.approx(ray, abs=1e-5, rel=1e-5)
                 compared += 1
     assert compared > 0
+
+
+def test_what_rounding_leaves_is_zero_by_the_numbers_that_it_comes_from():
+    """Sums of large numbers leave more, small numbers of their own are no noise."""
+    formulas = [("a = big cos(90°), b = 1 - cos(tiny), c = k4 tiny, d = 2 a", {})]
+    lines = dict(line.split(" = ", 1) for line in worked_out(formulas, {"big": 1000.0, "tiny": 1e-9, "k4": 1e-18})[0])
+    assert {name: text.rpartition(" = ")[2] for name, text in lines.items()} == {
+        "a": "0", "b": "0", "c": "1e-27", "d": "0",
+    }  # fmt: skip
+    assert (lines["c"], lines["d"]) == ("1e-18 · 1e-09 = 1e-27", "2 · 0 = 0")
+
+
+def test_a_lecture_has_four_digits_and_begins_with_the_formula():
+    with at_most(4):
+        assert [digits(number) for number in (-0.123456, 12345.678, 1.23456e6, 450)] == [
+            "-0.1235", "12346", "1.235e+06", "450",
+        ]  # fmt: skip
+        explained = lesson(camera("PERSP"), no_shapes(), 3, 2)
+    assert explained.screens[0] == ("Perspective", explained.formula)
+    assert explained.screens[1:] == list(explained.steps)
+    numbers = re.findall(r"\d+\.\d+", str(explained))
+    assert numbers
+    assert max(len(number.replace(".", "").lstrip("0")) for number in numbers) == 4

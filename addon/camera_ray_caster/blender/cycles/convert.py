@@ -22,6 +22,9 @@ from .shader import check_cycles, check_enabled, clear_shader, set_inputs, set_s
 MOST_FRAMES = 10_000
 """Maximum number of frames with keyframes: almost seven minutes of film. Evaluating them takes about 20 s."""
 
+FIT, BACK = "use Fit Blender's Lens", "go Back to Blender's Camera"
+"""What to do, by the buttons that are drawn then, where Cycles runs no shader."""
+
 GRID = 5
 """Number of pixels per side at which an eye is compared with the camera."""
 
@@ -41,9 +44,10 @@ def to_cycles(scene, camera_object=None) -> list[str]:
     Raises InputError for cameras that ``read_camera`` refuses, for linked cameras, for spherical stereo, for pixel
     times in another order than Cycles', and if this Blender has no OSL. The camera is then unchanged.
     """
-    check_cycles()
+    check_enabled()
     with evaluated_camera(scene, camera_object) as (active, depsgraph):
         raw, camera = camera_at(active, depsgraph)
+        check_cycles(f"{FIT}, or an official build" if raw.model else "Cycles renders this camera as it is")
         _check(raw, camera, active)
         now = frame_of(scene)
         at_frames = {now: (raw, camera)}
@@ -60,7 +64,8 @@ def to_cycles(scene, camera_object=None) -> list[str]:
         said = _keyframe_notes(shaders)
     set_inputs(active.data, shader)
     said += [f"Cycles reads the rays from {path!r}, which has to stay there" for path in shader.textures]
-    return said + set_up_time(scene, raw, camera) + _engine_notes(scene) + device_notes(scene)
+    otherwise = f"{BACK} and {FIT}" if raw.model else BACK
+    return said + set_up_time(scene, raw, camera) + _engine_notes(scene) + device_notes(scene, otherwise)
 
 
 def from_cycles(camera_object) -> None:

@@ -41,12 +41,14 @@ def use_device(scene, kind: str) -> None:
             device.use = True
 
 
-def device_notes(scene) -> list[str]:
-    """Return a line on what the scene's device does with a custom camera; none if the camera works there."""
+def device_notes(scene, otherwise: str = "use Fit Blender's Lens") -> list[str]:
+    """Return a line on what the scene's device does with a custom camera, and what to do or ``otherwise``; none if the
+    camera works there.
+    """
     device = device_of(scene)
     if device in WITH_OSL:
         return []
     return [
         f"Cycles renders on {device}, which does not support camera shaders, so the picture will be black: set Device "
-        "to CPU (Render properties), choose OptiX (Preferences, System), or use Fit Blender's Lens instead"
+        f"to CPU (Render properties), choose OptiX (Preferences, System), or {otherwise}"
     ]

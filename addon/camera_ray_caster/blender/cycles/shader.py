@@ -31,15 +31,13 @@ def check_enabled() -> None:
         raise InputError("Cycles is disabled: enable Cycles Render Engine in the Preferences, Add-ons")
 
 
-def check_cycles() -> None:
-    """Raise InputError if this Blender cannot compile shaders of cameras."""
+def check_cycles(remedy: str = "use an official build") -> None:
+    """Raise InputError if this Blender cannot compile shaders of cameras; the message says what to do instead."""
     check_enabled()
     import _cycles
 
     if not _cycles.with_osl:
-        raise InputError(
-            "this Blender was built without the Open Shading Language: use Fit Blender's Lens, or an official build"
-        )
+        raise InputError(f"this Blender was built without the Open Shading Language: {remedy}")
 
 
 def set_shader(camera, shader: CameraShader) -> None:

@@ -5,7 +5,6 @@ from math import floor
 import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty, PointerProperty
 
-from ...core.lesson.lecture import screens
 from ..read.scene_cache import cached_scene
 from ..view3d import lesson
 from ..view3d.camera_frame import frame_in
@@ -184,11 +183,26 @@ class Place(bpy.types.PropertyGroup):
                      precision=4, get=_get(0, True), set=_set(0, True))  # fmt: skip
     y: FloatProperty(name="y", description="View coordinate of the pixel's center, -1 below to 1 above", min=-1, max=1,
                      precision=4, get=_get(1, True), set=_set(1, True))  # fmt: skip
-    lecture: BoolProperty(name="Lecture", description="Show a step of the latest pixel large on the camera's picture. "
-                          "Page Down and Page Up show the next and the previous step",
-                          update=lambda self, context: redraw(context))  # fmt: skip
+    lecture: BoolProperty(name="Lecture", description="Show the model's formula and each step of the latest pixel in "
+                          "large letters. Page Down and Page Up show the next and the previous step",
+                          update=lambda self, context: begin_lecture(context))  # fmt: skip
     step: IntProperty(name="Step", description="Step that a lecture shows, counted from 0", min=0,
                       update=lambda self, context: redraw(context))  # fmt: skip
+    all_digits: BoolProperty(name="More Digits", description="Show numbers with all digits instead of four",
+                             update=lambda self, context: redraw(context))  # fmt: skip
+
+    @property
+    def most_digits(self) -> int:
+        """Maximum number of significant digits in the steps."""
+        return 4 if self.lecture and not self.all_digits else 17
+
+
+def begin_lecture(context) -> None:
+    """Begin with the pixel in the middle if none is chosen, or end."""
+    width, height = _sides(context)
+    if not lesson.pixels:
+        lesson.pixels[:] = [(width // 2, height // 2)]
+    redraw(context)
 
 
 class OfLesson:
@@ -229,29 +243,7 @@ class ClearSteps(OfLesson, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class LectureStep(bpy.types.Operator):
-    """Show the next or the previous step of the lecture"""
-
-    bl_idname = "camera_ray_caster.lecture_step"
-    bl_label = "Lecture Step"
-    bl_options = {"REGISTER"}
-    by: IntProperty(name="By", description="Number of steps, negative for previous ones", default=1)
-
-    @classmethod
-    def poll(cls, context):
-        """Leave the keys to Blender without a lecture."""
-        cls.poll_message_set("First click a pixel with Step Through, and switch on Lecture")
-        return context.window_manager.camera_ray_caster_place.lecture and bool(lesson.lessons(context))
-
-    def execute(self, context):
-        """Change the step, within those of the latest pixel."""
-        place, (*_, latest) = context.window_manager.camera_ray_caster_place, lesson.lessons(context).values()
-        last = len(screens(latest)) - 1
-        place.step = min(max(min(place.step, last) + self.by, 0), last)
-        return {"FINISHED"}
-
-
-CLASSES = (Place, StepThrough, CopySteps, ClearSteps, LectureStep)
+CLASSES = (Place, StepThrough, CopySteps, ClearSteps)
 
 
 def register(undo) -> None:
@@ -259,10 +251,3 @@ def register(undo) -> None:
     bpy.types.WindowManager.camera_ray_caster_place = PointerProperty(type=Place)
     undo.callback(delattr, bpy.types.WindowManager, "camera_ray_caster_place")
     undo.callback(end)
-    keys = bpy.context.window_manager.keyconfigs.addon
-    for name, space in (("3D View", "VIEW_3D"), ("Image", "IMAGE_EDITOR")) if keys else ():  # None in background
-        keymap = keys.keymaps.new(name, space_type=space)
-        for key, by in (("PAGE_DOWN", 1), ("PAGE_UP", -1)):
-            item = keymap.keymap_items.new(LectureStep.bl_idname, key, "PRESS", repeat=True)
-            item.properties.by = by
-            undo.callback(keymap.keymap_items.remove, item)

@@ -10,7 +10,8 @@ from ..view3d import lens_icon
 from ..view3d.camera_frame import is_picture
 from ..view3d.lesson import lessons
 from .drawing import Sidebar, draw_message
-from .lesson_operators import ClearSteps, CopySteps, LectureStep, StepThrough
+from .lecture_operators import SIDES, LectureStep, RayView
+from .lesson_operators import ClearSteps, CopySteps, StepThrough
 from .open_lesson import OpenLesson
 from .point_operators import EmptyAtHit, PixelOfPoint
 
@@ -33,20 +34,20 @@ class Steps:
         """Draw the buttons, and the steps of the latest pixel in foldable panels."""
         layout = self.layout
         layout.operator(StepThrough.bl_idname, icon="EYEDROPPER", text="Click a Pixel")
+        place, found = context.window_manager.camera_ray_caster_place, lessons(context)
+        draw_lecture(layout, place, bool(found))
+        if place.lecture:
+            draw_place(layout, place)
+            return
         layout.operator(PixelOfPoint.bl_idname, icon="PIVOT_CURSOR", text="Pixel of 3D Cursor")
         layout.operator(OpenLesson.bl_idname, icon="URL")
-        found = lessons(context)
         if not found:
             return
         layout.operator(EmptyAtHit.bl_idname, icon="EMPTY_SINGLE_ARROW")
         row = layout.row(align=True)
         row.operator(CopySteps.bl_idname, icon="COPYDOWN")
         row.operator(ClearSteps.bl_idname, icon="X")
-        row = layout.row(align=True)
-        row.prop(context.window_manager.camera_ray_caster_place, "lecture", toggle=True)
-        for icon, by in (("TRIA_LEFT", -1), ("TRIA_RIGHT", 1)):
-            row.operator(LectureStep.bl_idname, icon=icon, text="").by = by
-        draw_place(layout, context)
+        draw_place(layout, place)
         *others, latest = found.values()
         if others:
             pixels = ", ".join(f"({x}, {y})" for x, y in (one.seen.pixel for one in others))
@@ -63,9 +64,22 @@ class Steps:
                     draw_message(body, context, line, "BLANK1" if line.startswith(" ") else "DOT")
 
 
-def draw_place(layout, context) -> None:
+def draw_lecture(layout, place, has_pixel: bool) -> None:
+    """Draw the switch of the lecture and its step's arrows, and buttons that look at the ray from other sides."""
+    row = layout.row(align=True)
+    row.prop(place, "lecture", toggle=True, icon="TEXT")
+    if place.lecture:
+        for icon, by in (("TRIA_LEFT", -1), ("TRIA_RIGHT", 1)):
+            row.operator(LectureStep.bl_idname, icon=icon, text="").by = by
+        layout.prop(place, "all_digits")
+    if has_pixel:
+        row = layout.row(align=True)
+        for side, (label, *_) in SIDES.items():
+            row.operator(RayView.bl_idname, text=label).side = side
+
+
+def draw_place(layout, place) -> None:
     """Draw the latest pixel's place as sliders, in pixels and in view coordinates."""
-    place = context.window_manager.camera_ray_caster_place
     for names in (("column", "row"), ("x", "y")):
         row = layout.row(align=True)
         for name in names:

@@ -16,6 +16,7 @@ import numpy as np
 from bpy.app.handlers import persistent
 
 from ...core.lesson.diagram import pixel_outline
+from ...core.lesson.formula import at_most
 from ...core.lesson.in_picture import lines_in_picture, points_in_picture
 from ...core.lesson.lesson import Lesson, lesson
 from ..properties.declared import SHADING
@@ -46,17 +47,20 @@ _read: list[tuple[CachedScene, dict[str, Any], dict[tuple[int, int], Lesson]]] =
 def lessons(context) -> dict[tuple[int, int], Lesson]:
     """Return the explanations of the pixels inside the frame, updated after a change of the scene or its settings."""
     scene, settings = cached_scene(context), context.scene.camera_ray_caster
-    look = {"shading": settings.shading or SHADING.default, "samples": settings.samples}
-    if not _read or _read[0][0] is not scene or _read[0][1] != look:
-        _read[:] = [(scene, look, {})]
+    look: dict[str, Any] = {"shading": settings.shading or SHADING.default, "samples": settings.samples}
+    most_digits = context.window_manager.camera_ray_caster_place.most_digits
+    known_by = look | {"most_digits": most_digits}
+    if not _read or _read[0][0] is not scene or _read[0][1] != known_by:
+        _read[:] = [(scene, known_by, {})]
     known = _read[0][2]
     if scene.camera is None:
         return {}
     raster = scene.camera.raster
     shown = [(x, y) for x, y in pixels if x < raster.width and y < raster.height]
-    for pixel in shown:
-        if pixel not in known:
-            known[pixel] = lesson(scene.camera, scene.shapes, *pixel, max_samples=MOST_SAMPLES, **look)
+    with at_most(most_digits):
+        for pixel in shown:
+            if pixel not in known:
+                known[pixel] = lesson(scene.camera, scene.shapes, *pixel, max_samples=MOST_SAMPLES, **look)
     return {pixel: known[pixel] for pixel in shown}
 
 
@@ -133,6 +137,9 @@ def _draw_marks(context, shown) -> None:
     every = lessons(context) if shown and context.space_data.overlay.show_overlays else {}
     found = {pixel: one for pixel, one in every.items() if pixel in shown}
     frame = frame_in(context, cached_scene(context).camera.raster) if found else None
+    place = context.window_manager.camera_ray_caster_place
+    if place.lecture and pixels[-1] in found and (frame is not None or context.area.type == "VIEW_3D"):
+        write_step(context, found[pixels[-1]], place.step)
     if frame is None:
         return
     raster, scale = cached_scene(context).camera.raster, context.preferences.system.ui_scale
@@ -153,9 +160,6 @@ def _draw_marks(context, shown) -> None:
         blf.position(0, x[1] + MARK * scale, middle[1] - TEXT * scale / 3, 0)
         blf.draw(0, f"{pixel[0]}, {pixel[1]}")
         blf.disable(0, blf.SHADOW)
-    place = context.window_manager.camera_ray_caster_place
-    if place.lecture and pixels[-1] in found:
-        write_step(context, found[pixels[-1]], place.step)
 
 
 @persistent

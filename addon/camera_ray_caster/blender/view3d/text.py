@@ -19,17 +19,20 @@ def write(
     lines: Sequence[tuple[str, str]],
     place: Callable[[float, float], tuple[float, float]],
     size: float | None = None,
+    hidden: float = 0.0,
 ) -> None:
     """Write (name, text) lines; ``place(width, height)`` returns the left and top of the text in the region.
 
-    size: of the font in pixels; None for that of notices.
+    size: of the font in pixels; None for that of notices. hidden: height up to which the background hides what is
+    behind it; 0 for a transparent background around the text.
     """
     size = _set_size(context, size)
     longest = max(_width(name) for name, _ in lines)
     names = longest + size if longest else 0.0
     width, step = names + max(_width(text) for _, text in lines), 1.5 * size
     x, y = place(width, step * len(lines))
-    _ground(x - size, x + width + size, y - step * len(lines) - size, y + size / 2)
+    low, high = y - step * len(lines) - size, max(y + size / 2, hidden)
+    _ground(x - size, x + width + size, low, high, 1.0 if hidden else 0.78)
     for name, text in lines:
         y -= step
         for offset, color, word in ((0, 0.65, name), (names, 0.95, text)):
@@ -72,11 +75,11 @@ def _width(text: str) -> float:
     return blf.dimensions(FONT, text)[0]
 
 
-def _ground(left, right, bottom, top) -> None:
+def _ground(left, right, bottom, top, alpha: float) -> None:
     shader = gpu.shader.from_builtin("UNIFORM_COLOR")
     corners = ((left, bottom), (right, bottom), (left, top), (right, top))
     gpu.state.blend_set("ALPHA")
     shader.bind()
-    shader.uniform_float("color", (0.06, 0.06, 0.06, 0.78))
+    shader.uniform_float("color", (0.06, 0.06, 0.06, alpha))
     batch_for_shader(shader, "TRI_STRIP", {"pos": corners}).draw(shader)
     gpu.state.blend_set("NONE")

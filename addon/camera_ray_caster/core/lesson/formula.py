@@ -10,6 +10,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any
 
 import numpy as np
@@ -37,7 +39,7 @@ class Product:
         return self._of(self._first, second)
 
 
-SIGNS = {"degree": np.pi / 180, "cross": Product(np.cross), "dot": Product(np.vdot)}
+SIGNS = {"cross": Product(np.cross), "dot": Product(np.vdot)}
 PRODUCTS = {"×": "@cross@", ".": "@dot@"}
 NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*'?")
 PRODUCT = re.compile(r"(?<=[\w)⁰¹²³⁴⁵⁶⁷⁸⁹°'])\s+(?=[\w(])")
@@ -46,6 +48,19 @@ ASSIGNMENT = re.compile(r"([A-Za-z_][A-Za-z_0-9]*'?) = (.*)")
 
 NOISE = 2e-15
 """What rounding leaves of sums and angles of numbers around 1, as of the cosine of 90°: 9 units in the last place."""
+
+_most = ContextVar("most", default=17)
+"""Maximum number of significant digits that are written."""
+
+
+@contextmanager
+def at_most(count: int) -> Iterator[None]:
+    """Write numbers with at most this many significant digits inside the context."""
+    token = _most.set(count)
+    try:
+        yield
+    finally:
+        _most.reset(token)
 
 
 def assignments(symbols: str) -> Iterator[tuple[str, str]]:
@@ -68,82 +83,119 @@ def assignments(symbols: str) -> Iterator[tuple[str, str]]:
 
 def value(expression: str, known: Mapping[str, Any]) -> Any:
     """Return the value of an expression, a number or a vector; None if it is malformed or has unknown names."""
-    words, at, ended = [], 0, False
+    return value_and_noise(expression, known)[0]
+
+
+def value_and_noise(expression: str, known: Mapping[str, Any], noise: Mapping[str, float] | None = None) -> tuple:
+    """Return the value of an expression, or None, and what rounding can have added to it, in the value's shape.
+
+    noise: of known values, if it is more than their own rounding. To first order: the sum of what the value changes by
+    if each number in the expression changes by NOISE times itself, or by its noise.
+    """
+    words, terms, at, ended = [], list[tuple[Any, float]](), 0, False
     expression = expression.rstrip()
     while at < len(expression):
         match = TOKEN.match(expression, at)
         if match is None:
-            return None
+            return None, 0.0
         at = match.end()
         number, name, power, degrees, sign = match.groups()
-        begins = number or name or sign == "("
-        if begins and ended:
+        if (number or name or sign == "(") and ended:
             words.append("*")
-        if name and name not in FUNCTIONS:
-            if name not in known:
-                return None
-            words.append(f"known[{name!r}]")
+        if name in FUNCTIONS:
+            words.append(name)
+        elif number or name or degrees:
+            if name and name not in known:
+                return None, 0.0
+            term = known[name] if name else float(number) if number else np.pi / 180
+            words += ["*"] * bool(degrees) + [f"terms[{len(terms)}]"]
+            terms.append((term, np.maximum(NOISE * np.abs(term), (noise or {}).get(name, 0.0))))
         else:
-            sign = sign and PRODUCTS.get(sign.strip(), sign)
-            words.append(number or name or sign or (degrees and "*degree") or f"**{power.translate(POWERS)}")
+            words.append(PRODUCTS.get(sign.strip(), sign) if sign else f"**{power.translate(POWERS)}")
         ended = bool(sign == ")" if sign else name not in FUNCTIONS)
     try:
         with np.errstate(all="ignore"):  # NaN means: no ray
-            return eval("".join(words), {"__builtins__": {}}, FUNCTIONS | SIGNS | {"known": known})
+            code = compile("".join(words), "<formula>", "eval")
+            values = [term for term, _ in terms]
+            result = _evaluated(code, values)
+            moved = (_evaluated(code, [*values[:k], term + step, *values[k + 1 :]])
+                     for k, (term, step) in enumerate(terms))  # fmt: skip
+            return result, sum(np.abs(np.subtract(other, result)) for other in moved)
     except (SyntaxError, TypeError, ValueError, ZeroDivisionError):
-        return None
+        return None, 0.0
 
 
-def worked_out(formulas: Sequence[tuple[str, Mapping[str, Any]]], known: Mapping[str, Any]) -> list[list[str]]:
+def _evaluated(code, terms: Sequence) -> Any:
+    return eval(code, {"__builtins__": {}}, FUNCTIONS | SIGNS | {"terms": terms})
+
+
+def worked_out(
+    formulas: Sequence[tuple[str, Mapping[str, Any]]],
+    known: Mapping[str, Any],
+    noise: Mapping[str, float] | None = None,
+) -> list[list[str]]:
     """Return for each formula the assignments that can be evaluated, with numbers and results.
 
     formulas: pairs of a formula and the values that only this formula knows. An assignment may use the result of a
-    later one. Values in ``known`` of names that are assigned are ignored.
+    later one. Values in ``known`` of names that are assigned are ignored. A result that may be rounding alone is 0.
+    noise: what rounding has added to known values, if it is more than their own.
     """
     parts = [(k, *pair) for k, (symbols, _) in enumerate(formulas) for pair in assignments(symbols)]
     known = {name: number for name, number in known.items() if name not in {name for _, name, _ in parts}}
+    noise = dict(noise or {})
     lines: dict[int, str] = {}
     before = -1
     while before < len(lines):
         before = len(lines)
         for at, (k, name, expression) in enumerate(parts):
+            if at in lines:
+                continue
             names = known | dict(formulas[k][1])
-            number = None if at in lines else value(expression, names)
+            number, error = value_and_noise(expression, names, noise)
             if number is not None:
-                put_in, result = with_numbers(expression, names), shown(number)
+                put_in, result = with_numbers(expression, names, noise), shown(number, error)
                 lines[at] = f"{name} = {result}" if put_in == result else f"{name} = {put_in} = {result}"
-                known[name] = number
+                known[name], noise[name] = number, np.max(error)
                 if np.ndim(number):
-                    known |= {f"{name}_{axis}": component for axis, component in zip("xyz", number, strict=True)}
+                    for axis, component, step in zip("xyz", number, np.broadcast_to(error, 3), strict=True):
+                        known[f"{name}_{axis}"], noise[f"{name}_{axis}"] = component, step
     return [[lines[at] for at in sorted(lines) if parts[at][0] == k] for k in range(len(formulas))]
 
 
-def digits(number: float, sign: str = "-") -> str:
-    """Return a number with six digits, and with ``sign`` "+" a sign in any case; 0 for one below NOISE."""
-    return f"{0.0 if abs(number) < NOISE else number:{sign}.6g}"
+def digits(number: float, sign: str = "-", noise: float = NOISE, count: int = 6) -> str:
+    """Return a number as text, 0 if it is no more than ``noise``, what rounding can have added to it.
+
+    It has ``count`` significant digits, or fewer within ``at_most``, but all digits of its whole part up to a million.
+    With ``sign`` "+" it has a sign in any case.
+    """
+    count, number = min(count, _most.get()), 0.0 if abs(number) <= noise else number
+    return f"{number:{sign}.0f}" if 10**count <= abs(number) < 1e6 else f"{number:{sign}.{count}g}"
 
 
-def shown(number: Any) -> str:
-    """Return a number, or a vector, with six digits; a component is 0 that is less than half a millionth, or than that
-    of the longest component if this is below 1.
+def shown(number: Any, noise: Any = NOISE) -> str:
+    """Return a number, or a vector, as text: see ``digits``; a component is 0 that is less than half a millionth, or
+    than that of the longest component if this is below 1.
     """
     if np.ndim(number) == 0:
-        return digits(number)
+        return digits(number, noise=noise)
     parts = np.asarray(number, np.float64)
     with np.errstate(invalid="ignore"):
         least = 5e-7 * np.minimum(np.abs(parts).max(initial=0.0), 1.0)
         parts = np.where(np.abs(parts) < least, 0.0, parts) + 0.0  # no -0
-    return f"({', '.join(f'{component:.6g}' for component in parts)})"
+    return f"({', '.join(digits(component, noise=0.0) for component in parts)})"
 
 
-def with_numbers(expression: str, known: Mapping[str, Any]) -> str:
-    """Return an expression with numbers in place of known names; vectors and unknown names stay. Products are dots."""
+def with_numbers(expression: str, known: Mapping[str, Any], noise: Mapping[str, float] | None = None) -> str:
+    """Return an expression with numbers in place of known names; vectors and unknown names stay. Products are dots.
+
+    noise: what rounding has added to known values.
+    """
 
     def number(match: re.Match) -> str:
         name = match.group()
         if np.ndim(known.get(name, ())):
             return name
-        text = shown(known[name])
+        text = shown(known[name], (noise or {}).get(name, 0.0))
         return f"({text})" if text.startswith("-") else text
 
     text = re.sub(r"\(\((-[^()]*)\)\)", r"(\1)", NAME.sub(number, expression))

@@ -14,6 +14,7 @@ import numpy as np
 from ..cameras.real_lens import RealLens
 from ..lenses.trace import LensSurface, trace
 from ..maths.vector import cross, norm, unit
+from .formula import digits
 
 ARC_POINTS, CIRCLE_POINTS = 33, 49
 """Points along a surface's section, and around a rim."""
@@ -89,12 +90,12 @@ def refraction_lines(model: RealLens, x: float, y: float) -> Iterator[str]:
     for refraction in path.refractions:
         surface = model.optics.surfaces[refraction.surface]
         name = lens.in_words(refraction.surface) if lens else f"surface {refraction.surface + 1}"
-        shape = f"radius {1 / surface.curvature:.6g} mm" if surface.curvature else "plane"
+        shape = f"radius {digits(1 / surface.curvature)} mm" if surface.curvature else "plane"
         sines = " = ".join(
-            f"{index:.6g} sin {np.degrees(angle):.5g}°"
+            f"{digits(index)} sin {digits(np.degrees(angle))}°"
             for index, angle in ((refraction.before, refraction.in_front), (refraction.behind, refraction.at_back))
         )
-        yield f"{name}, {shape}: {sines} = {refraction.before * np.sin(refraction.in_front):.6g}"
+        yield f"{name}, {shape}: {sines} = {digits(refraction.before * np.sin(refraction.in_front))}"
     if path.direction is None:
         yield "the ray is stopped by a rim: the pixel has no chief ray"
 

@@ -23,7 +23,7 @@ from ..casting.plan import make_plan
 from ..casting.request import MATERIAL, Request
 from ..records import InputError, Shapes
 from .diagram import PROBED, Probe, probe_of
-from .formula import shown, worked_out
+from .formula import NOISE, digits, shown, worked_out
 from .glass import refraction_lines
 from .light import color_lines
 from .meetings import Meeting, meetings, nearest, words
@@ -53,6 +53,11 @@ class Lesson:
     label: str = ""
     formula: tuple[str, ...] = ()
     """The model's name and its formula in symbols."""
+
+    @property
+    def screens(self) -> list[tuple[str, tuple[str, ...]]]:
+        """The pages of a lecture: the model's formula in symbols, then the steps, in which it has its numbers."""
+        return [(self.label, self.formula), *self.steps]
 
     def lines(self) -> list[str]:
         """Return all steps as lines of text."""
@@ -159,7 +164,7 @@ def _seen(seen: Probe, point: np.ndarray, normal: np.ndarray, depth: float) -> t
         return ("nothing",)
     return (
         f"{seen.name!r}, shape_index {seen.shape_index}",
-        f"point o + t r = {words(point)}, distance {seen.distance:.9g}, depth {depth:.9g}",
+        f"point o + t r = {words(point)}, distance {digits(seen.distance, count=9)}, depth {digits(depth, count=9)}",
         f"unit normal, turned towards the ray {words(normal)}",
     )
 
@@ -181,7 +186,7 @@ def _raster(camera: Camera, seen: Probe):
     yield (
         f"View coordinates {NORMALIZED}",
         tuple(
-            f"2 {name}/{side} - 1 = 2 · {pixel:g}/{pixels} - 1 = {coordinate:.6g}"
+            f"2 {name}/{side} - 1 = 2 · {pixel:g}/{pixels} - 1 = {digits(coordinate)}"
             for name, side, pixel, pixels, coordinate in zip(
                 "xy", "WH", (x, y), (width, height), seen.view, strict=True
             )
@@ -205,7 +210,8 @@ def _formula(camera: Camera, seen: Probe):
         pitch = lens.window.pitch_x, lens.window.pitch_y
         moved = {name: 2 * X / (q * side) for name, X, q, side in zip("xy", plane, pitch, model.frame, strict=True)}
     formulas = [(step.symbols, moved if NORMALIZED in step.words else {}) for step in model.steps]
-    for step, lines in zip(model.steps, worked_out(formulas, _known(camera, x, y) | values), strict=True):
+    noise = dict.fromkeys(values, NOISE)
+    for step, lines in zip(model.steps, worked_out(formulas, _known(camera, x, y) | values, noise), strict=True):
         yield f"{step.words}: {step.symbols}"
         yield from (f"  {line}" for line in lines)
     with np.errstate(all="ignore"):  # NaN means: no ray
@@ -213,11 +219,11 @@ def _formula(camera: Camera, seen: Probe):
     if np.isnan(direction).any():
         return
     if isinstance(lens, WindowModel):
-        yield f"on the image plane: ({plane[0]:.6g}, {plane[1]:.6g})"
+        yield f"on the image plane: ({digits(plane[0])}, {digits(plane[1])})"
     yield f"in the camera's frame (x right, y up, -z ahead): origin {words(origin)}"
-    length = np.linalg.norm(direction)
+    length = float(np.linalg.norm(direction))
     angle = np.degrees(np.arctan2(np.hypot(*direction[:2]), -direction[2]))
-    yield f"direction {words(direction)}, of length {length:.6g}; {angle:.6g}° from the axis"
+    yield f"direction {words(direction)}, of length {digits(length)}; {digits(angle)}° from the axis"
 
 
 def _known(camera: Camera, x: float, y: float) -> dict[str, Any]:
@@ -265,4 +271,4 @@ def _shapes(met: list[Meeting]):
             face = f"{crossing.face}; " if crossing.face else ""
             is_seen = first is not None and crossing is first[1]
             why = crossing.objection or ("seen: the nearest that counts" if is_seen else "hidden behind the nearest")
-            yield f"  t = {crossing.t:.9g}: {face}{why}"
+            yield f"  t = {digits(crossing.t, count=9)}: {face}{why}"

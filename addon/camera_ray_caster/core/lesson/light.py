@@ -9,6 +9,7 @@ import numpy as np
 
 from ..casting.hit_values import HitValues
 from ..casting.shading import HEADLIGHT, POINT, SUN, Light, grid_factor, irradiance, lights, material_color, paint
+from .formula import digits
 from .meetings import words
 
 MOST = 12
@@ -53,14 +54,14 @@ def color_lines(values: HitValues, color: np.ndarray) -> Iterator[str]:
 def _told(light: Light, number: int) -> tuple[str, str]:
     """Return the place of a light, and the formula of what it gives."""
     beam = _one(light.beam)
-    cosine = f"cosine {_one(light.gain * light.square) / beam if beam else 0.0:.6g}"
+    cosine = f"cosine {digits(_one(light.gain * light.square) / beam if beam else 0.0)}"
     if light.kind == HEADLIGHT:
         return f"headlight along the ray, as there are no lamps: {cosine}", "cosine"
     towards = np.array([_one(component) for component in light.towards])
     line = f"{light.kind} {number} towards {words(towards / np.linalg.norm(towards))}, {cosine}"
     if light.kind != SUN:
-        beam_text = "" if light.kind == POINT else f"beam {beam:.6g}, "
-        line = f"{line}, {beam_text}distance = {np.sqrt(_one(light.square)):.6g}, P = {words(light.power)}"
+        beam_text = "" if light.kind == POINT else f"beam {digits(beam)}, "
+        line = f"{line}, {beam_text}distance = {digits(np.sqrt(_one(light.square)))}, P = {words(light.power)}"
         return line, f"P {'beam ' if beam_text else ''}cosine / (4 pi² distance²)"
     return f"{line}, E = {words(light.power)}", "E cosine / pi"
 

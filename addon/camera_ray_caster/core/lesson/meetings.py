@@ -10,14 +10,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..camera.camera import Camera
-from ..maths.vector import cross, inverse
+from ..maths.vector import cross, inverse, norm
 from ..records import INFINITE_PLANE, MESH, PLANE, SPHERE, Shapes
 from ..shapes.cutouts import Cutouts, crossings
 from ..shapes.in_camera import in_camera
 from ..shapes.kinds import by_kind
 from ..shapes.mesh.surface import TRIANGLES, HitTriangles
 from ..tuning import MESH_BLOCK
-from .formula import digits, shown
+from .formula import NOISE, digits, shown
 
 MOST = 12
 """Maximum number of intersections listed per mesh."""
@@ -109,9 +109,12 @@ def _half_sizes(shapes: Shapes, at: np.ndarray) -> np.ndarray:
 def _sphere(shapes, k, at, along):
     a, b, c = along @ along, 2 * (at @ along), at @ at - 1
     under = b * b - 4 * a * c
+    length, away = np.sqrt(a), np.sqrt(c + 1)
+    noise = NOISE * 2 * length * away, NOISE * (c + 2), NOISE * 4 * a * (away + 1) ** 2
     lines = (
         f"own frame, where it is the unit sphere: |p + t d|² = 1, p = {words(at)}, d = {words(along)}",
-        f"{digits(a)} t² {digits(b, '+')} t {digits(c, '+')} = 0, discriminant {digits(under)}",
+        f"{digits(a)} t² {digits(b, '+', noise[0])} t {digits(c, '+', noise[1])} = 0, "
+        f"discriminant {digits(under, noise=noise[2])}",
     )
     if under < 0:
         return lines, []
@@ -125,8 +128,10 @@ def _plane(shapes, k, at, along):
         return (), []
     t = float(-at[2] / along[2])
     x, y = (at + t * along)[:2]
-    position = f"x = {digits(x)}, y = {digits(y)}"
-    line = f"own frame, where it is z = 0: {digits(at[2])} {digits(along[2], '+')} t = 0 at {position}"
+    noise, far = NOISE * norm(at), NOISE * (norm(at) + abs(t) * norm(along))
+    position = f"x = {digits(x, noise=far)}, y = {digits(y, noise=far)}"
+    z = f"{digits(at[2], noise=noise)} {digits(along[2], '+', NOISE * norm(along))} t"
+    line = f"own frame, where it is z = 0: {z} = 0 at {position}"
     return (line,), [(t, "", -1)] if endless or max(abs(x), abs(y)) <= 1 else []
 
 
@@ -194,8 +199,8 @@ def _clipped(camera: Camera, t: float, depth: float) -> str:
     if t < 0:
         return "behind the ray's origin"
     if depth < camera.clip_start:
-        return f"nearer than the clip start, {camera.clip_start:.6g}"
-    return f"farther than the clip end, {camera.clip_end:.6g}" if depth > camera.clip_end else ""
+        return f"nearer than the clip start, {digits(camera.clip_start)}"
+    return f"farther than the clip end, {digits(camera.clip_end)}" if depth > camera.clip_end else ""
 
 
 def words(vector) -> str:
