@@ -67,8 +67,9 @@ def cast(
     preview: ``preview(combined, rows, samples)`` is called in the calling thread with pictures to look at while a cast
         takes long, without a change of its result: first every 8th pixel, then every 4th and 2nd if that costs less
         than 2 % of the time, then the mean of the first 1, 2, 4, ... samples. ``combined`` is (rows, columns, 4)
-        float32 or of ``dtype``, of which ``rows``, a slice, are new; ``samples`` is 0 while it is coarse. Pictures
-        with times of their own for pixels, and of scanners, have none. More than 2**24 pixels have no means.
+        float32 or of ``dtype``, of which ``rows``, a slice, are new; ``samples`` is 0 while it is coarse. If pixels
+        have times of their own, those of every 64th time come first, then of every 32nd, ..., and fill the picture.
+        Pictures of scanners have no previews. More than 2**24 pixels have no means.
     into: the images of an earlier cast, which are written and returned, so that a series of pictures needs no new
         memory. Each requested pass must be there with the shape and type of this cast, writable, C-contiguous and
         without memory of another; other passes are removed, and its camera, shapes, plan and seconds are replaced. Its
@@ -130,8 +131,7 @@ def cast(
     rays = sum(count for part, count in parts if part.passes)
     images.rays = shape[0] * shape[1] * rays
     effort = Effort(len(tiles) * rays)
-    shows = preview if time is None and "combined" in passes else None
-    previews = Previews(whole, samples if sampled else 1, shows)
+    previews = Previews(whole, time, samples if sampled else 1, preview if "combined" in passes else None)
     last = previews.spans[-1]
     open_tiles = list(tiles)
 
@@ -174,12 +174,11 @@ def cast(
 
     def rounds() -> Iterator[list[tuple[range, Tile]]]:
         nonlocal write
-        for span in previews.spans:
-            yield [(span, tile) for tile in tiles]
-            if span is not last:
-                since = perf_counter()
-                previews.block(images["combined"], span.stop)
-                write += perf_counter() - since
+        for span, some in previews.rounds(tiles):
+            yield [(span, tile) for tile in some]
+            since = perf_counter()
+            previews.show(images, span, some)
+            write += perf_counter() - since
 
     alone = len(tiles) == 1 and bool(is_small)
     busy = in_threads(run, rounds(), workers, effort, progress, end, alone, meanwhile)

@@ -1,11 +1,16 @@
 """Pictures to look at while a cast runs: coarse ones, then means of the samples so far; the result is the same."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from camera_ray_caster.core.camera.pixel_time import ImageTime, LinearTime
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting import previews
+from camera_ray_caster.core.motion.evaluations import resolve
 
+from .neighbors import with_motion
 from .test_cast import camera_at, shapes_of
 from .test_stopping import many_spheres
 
@@ -56,3 +61,26 @@ def test_a_quick_cast_shows_nothing_and_rays_are_counted_with_samples():
     images = cast(camera, shapes, passes=("depth", "combined"), preview=lambda *one: found.append(one))
     assert (found, images.rays) == ([], 1200)
     assert cast(camera, shapes, passes=("depth", "combined"), samples=16).rays == 1200 * 17
+
+
+@pytest.mark.parametrize(("time", "axis"), [
+    (LinearTime(0.0, 0.0, 0.1, 0.05, 12.95, 0.1, 256), 0),
+    (LinearTime(0.0, 0.1, 0.0, 0.05, 15.95, 0.1, 256), 1),
+    (ImageTime(np.arange(160).repeat(130).reshape(160, 130).T / 10, 0.1, 256), 1),
+], ids=["rows", "columns", "image"])  # fmt: skip
+def test_every_64th_time_comes_first_and_fills_the_picture(monkeypatch, time, axis):
+    """Each pixel that is not cast yet is the last one before it that is; all have their bits in the end."""
+    still, shapes = camera_at(resolution_x=160, resolution_y=130), many_spheres(30)
+
+    def evaluate(frame):
+        return still, replace(shapes, center=shapes.center + np.array((0.1 * frame, 0, 0)))
+
+    moving = with_motion(replace(still, pixel_time=time), shapes, resolve(evaluate, 0.0, 16.0, 0.1, 64))
+    options = {"passes": "combined", "samples": 2, "threads": 2}
+    expected = cast(*moving, **options)["combined"]
+    images, found = shown(monkeypatch, *moving, **options)
+    assert np.array_equal(images["combined"], expected)
+    assert all((rows, samples) == (slice(0, 130), 0) for _, rows, samples in found)
+    for (picture, _, _), step in zip(found, (64, 32, 16, 8, 4, 2), strict=True):
+        places = np.arange(expected.shape[axis]) // step * step
+        assert np.array_equal(picture, expected.take(places, axis)), step

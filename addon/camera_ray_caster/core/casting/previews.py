@@ -1,23 +1,31 @@
-"""Pictures to look at while a cast runs: every 8th pixel first, then finer, then the mean of the samples so far."""
+"""Pictures to look at while a cast runs: every 8th pixel first, then finer, then the mean of the samples so far.
+
+Pixels with times of their own are cast time by time: every 64th time first, whose pixels fill the picture, then finer.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import groupby
 from time import process_time, thread_time
 
 import numpy as np
 
+from ..camera.times import LinearTime, PixelTime
 from ..records import Cancelled
 from .pixels import hits_at
 from .plan import Plan
 from .store import store
-from .tiles import LISTEN, Effort
+from .tiles import LISTEN, Effort, Tile
 
 Show = Callable[[np.ndarray, slice, int], object]
 """Called with the combined pass, the rows of it that are new, and its samples per pixel; 0 while it is coarse."""
 
 STEPS = 8, 4, 2
 """Distances of the pixels of coarse pictures; each of these pixels fills a square."""
+
+TIMES = 64
+"""Distance of the times whose pixels are cast first, a power of 2."""
 
 DELAY = 0.4
 """Processor seconds after which coarse pictures begin: a faster cast needs none."""
@@ -35,22 +43,58 @@ MOST_SAMPLES, MOST_PIXELS = 16, 1 << 24
 class Previews:
     """Decides what is shown, and casts coarse pictures in the calling thread while other threads cast the picture."""
 
-    def __init__(self, plan: Plan, samples: int, show: Show | None):
+    def __init__(self, plan: Plan, time: PixelTime | None, samples: int, show: Show | None):
         self._plan, self._show = plan, show
-        self._steps = list(STEPS) if show else []
+        self._steps = list(STEPS) if show and time is None else []
         self._began, self._spent, self._last = process_time(), 0.0, 0.0
         height, width = plan.camera.raster.shape
-        passes = show is not None and samples > 1 and height * width <= MOST_PIXELS
+        passes = show is not None and time is None and samples > 1 and height * width <= MOST_PIXELS
         self.spans = list(_spans(samples) if passes else [range(samples)])
         """The samples in the blocks after each of which a picture is shown."""
         self.sums = np.zeros((height, width, 4)) if len(self.spans) > 1 else None
         """Sums of the samples so far; None for one block."""
+        if isinstance(time, LinearTime):  # rows or columns as a whole
+            height, width = (1, width) if time.per_column else (height, 1)
+        self._is_cast = np.zeros((height, width) if show and time else (0, 0), bool)
+        """Of pixels with times of their own."""
+        self._axis = int(width > 1)
 
-    def block(self, combined: np.ndarray, samples: int) -> None:
-        """Show the mean of the first samples. Coarse pictures end with it."""
-        self._steps = []
-        if self._show is not None:
-            self._show(combined, slice(0, len(combined)), samples)
+    def rounds(self, tiles: Sequence[Tile]) -> Iterator[tuple[range, list[Tile]]]:
+        """Yield samples and tiles that are cast before a picture is shown."""
+        ranks = {k: min((k & -k) or TIMES, TIMES) if self._is_cast.size else 1 for k in range(len(tiles))}
+        for span in self.spans:
+            for _, some in groupby(sorted(ranks, key=lambda k: -ranks[k]), ranks.__getitem__):
+                yield span, [tiles[k] for k in some]
+
+    def show(self, images: Mapping[str, np.ndarray], span: range, tiles: Sequence[Tile]) -> None:
+        """Show the picture of the first samples, if more follow, or of the times that have been cast."""
+        if self._show is None:
+            return
+        if span is not self.spans[-1]:
+            self._steps = []  # coarse pictures end with it
+            self._show(images["combined"], slice(0, len(images["combined"])), span.stop)
+            return
+        for tile in tiles:
+            self._is_cast[tile.rows, tile.columns] |= True if tile.where is None else tile.where
+        used = process_time() - self._began - self._spent
+        if self._is_cast.all() or used < max(DELAY, self._last / SHARE):
+            return  # from one picture to the next the times double: all pictures together cost no more than SHARE
+        began, combined = thread_time(), self._of_times(images["combined"])
+        self._show(combined, slice(0, len(combined)), 0)
+        self._last = thread_time() - began
+        self._spent += self._last
+
+    def _of_times(self, combined: np.ndarray) -> np.ndarray:
+        """Return the picture of the times so far: each pixel that is not cast is the last one before it in its column,
+        if rows have times, or else in its row; black if there is none.
+        """
+        places = np.expand_dims(np.arange(combined.shape[self._axis]), 1 - self._axis)
+        source = np.maximum.accumulate(np.where(self._is_cast, places, 0), self._axis)
+        if 1 in source.shape:
+            return combined.take(source.ravel(), self._axis)
+        picture = np.take_along_axis(combined, source[..., None], self._axis)
+        picture[~np.take_along_axis(self._is_cast, source, self._axis)] = 0.0
+        return picture
 
     def look(self, effort: Effort, workers: int, rows: Iterable[slice], progress: Callable | None) -> None:
         """Show the next coarse picture in the rows that are not finished, if it is due and costs little. Raises
