@@ -25,11 +25,12 @@ def test_a_lecture_writes_one_step_large_and_keys_stay_within_the_steps(blender,
     place.lecture = True
     (explained,) = lesson.lessons(blender.context).values()
     seen = [step(by=by) and place.step for by in (-1, 1, 1, 100, -1)]
-    assert seen == [0, 1, 2, len(explained.steps), len(explained.steps) - 1]
-    note = lambda view, lines, place, size, hidden: written.append((lines, size))  # noqa: E731
+    assert seen == [0, 1, 2, len(explained.screens) - 1, len(explained.screens) - 2]
+    note = lambda view, lines, place, size, corner: written.append((lines, size))  # noqa: E731
     monkeypatch.setattr(lecture.text, "write", note)
     monkeypatch.setattr(lecture.text, "wrapped", lambda context, line, width, size: [line])
     monkeypatch.setattr(lecture.text, "uncovered", lambda context: (0, 900))
+    monkeypatch.setattr(lecture.text, "below_headers", lambda context: context.region.height)
     preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=2.0),
                                   ui_styles=[SimpleNamespace(widget=SimpleNamespace(points=11))])  # fmt: skip
     for height in (2000, 300):
@@ -37,7 +38,7 @@ def test_a_lecture_writes_one_step_large_and_keys_stay_within_the_steps(blender,
         lecture.write_step(view, explained, 0)
     (large, size), (small, least) = written
     assert size == 2.4 * 22
-    assert large[0] == ("", f"Perspective (1/{len(explained.steps) + 1})")
+    assert large[0] == ("", f"Perspective (1/{len(explained.screens)})")
     assert least < size
     assert 1.5 * least * len(small) <= 300
 

@@ -8,8 +8,8 @@ from . import text
 SIZES = 2.4, 2.0, 1.6, 1.3, 1.0
 """Font sizes in units of the interface's text: the first at which all lines fit into the upper half of the view."""
 MARGIN, BUTTONS = 3.0, 8.0
-"""Distance between the text and the view's edges, and width of Blender's navigation buttons at the right edge, in lines
-of the interface's text.
+"""Distance of the text from the view's left and lower edges, and width of Blender's navigation buttons at the right
+one, in lines of the interface's text.
 """
 
 
@@ -21,7 +21,7 @@ def write_step(context, lesson: Lesson, step: int) -> None:
     unit = preferences.ui_styles[0].widget.points * preferences.system.ui_scale
     left, right = text.uncovered(context)
     margin = MARGIN * unit
-    top, width = context.region.height - margin, right - left - margin - BUTTONS * unit
+    top, width = text.below_headers(context) - unit, right - left - margin - BUTTONS * unit
     for size in SIZES:
         heading = f"{title} ({step + 1}/{len(every)})"
         rows = [row for line in (heading, *lines)
@@ -30,5 +30,5 @@ def write_step(context, lesson: Lesson, step: int) -> None:
             break
     room = int((top - margin) / (1.5 * size * unit))
     rows = rows if len(rows) <= room else [*rows[: max(room - 1, 1)], "..."]
-    hidden = context.region.height  # Blender writes names of the view and the object in this corner
-    text.write(context, [("", row) for row in rows], lambda *_: (left + margin, top), size * unit, hidden)
+    corner = left, context.region.height  # in which Blender writes the names of the view and the object
+    text.write(context, [("", row) for row in rows], lambda *_: (left + margin, top), size * unit, corner)

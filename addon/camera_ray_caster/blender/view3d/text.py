@@ -19,20 +19,20 @@ def write(
     lines: Sequence[tuple[str, str]],
     place: Callable[[float, float], tuple[float, float]],
     size: float | None = None,
-    hidden: float = 0.0,
+    corner: tuple[float, float] | None = None,
 ) -> None:
     """Write (name, text) lines; ``place(width, height)`` returns the left and top of the text in the region.
 
-    size: of the font in pixels; None for that of notices. hidden: height up to which the background hides what is
-    behind it; 0 for a transparent background around the text.
+    size: of the font in pixels; None for that of notices. corner: left and top of an opaque background; None for a
+    transparent one around the text.
     """
     size = _set_size(context, size)
     longest = max(_width(name) for name, _ in lines)
     names = longest + size if longest else 0.0
     width, step = names + max(_width(text) for _, text in lines), 1.5 * size
     x, y = place(width, step * len(lines))
-    low, high = y - step * len(lines) - size, max(y + size / 2, hidden)
-    _ground(x - size, x + width + size, low, high, 1.0 if hidden else 0.78)
+    left, top = corner or (x - size, y + size / 2)
+    _ground(left, x + width + size, y - step * len(lines) - size, top, 1.0 if corner else 0.78)
     for name, text in lines:
         y -= step
         for offset, color, word in ((0, 0.65, name), (names, 0.95, text)):
@@ -62,6 +62,16 @@ def uncovered(context) -> tuple[int, int]:
             start = other.x - region.x
             left, right = (left, min(right, start)) if start > 0 else (max(left, start + other.width), right)
     return left, right
+
+
+def below_headers(context) -> int:
+    """Return the top of the region's part that no header at its top covers, in pixels."""
+    region = context.region
+    top = region.height
+    for other in context.area.regions:
+        if other.type in ("HEADER", "TOOL_HEADER") and other.height > 1 and other.y > region.y + region.height / 2:
+            top = min(top, other.y - region.y)
+    return top
 
 
 def _set_size(context, size: float | None) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -32,6 +33,9 @@ NORMALIZED = "[-1, 1]²"
 """Text in the words of a formula step whose x and y are view coordinates instead of pixels."""
 
 
+PAGE = 6
+"""Maximum number of lines of a page of a lecture: as many as a projector shows large in half a view."""
+
 GLASS = "Through the glass"
 """Title of the step of a real lens's surfaces."""
 
@@ -56,8 +60,19 @@ class Lesson:
 
     @property
     def screens(self) -> list[tuple[str, tuple[str, ...]]]:
-        """The pages of a lecture: the model's formula in symbols, then the steps, in which it has its numbers."""
-        return [(self.label, self.formula), *self.steps]
+        """The pages of a lecture: the model's formula in symbols, then the steps, in which it has its numbers. A step
+        of more than ``PAGE`` lines has several pages; a line and the indented lines below it stay together.
+        """
+        pages = [(self.label, self.formula)]
+        for title, lines in self.steps:
+            starts = [k for k, line in enumerate(lines) if not line.startswith(" ")] + [len(lines)]
+            first = starts[0]
+            for start, end in pairwise(starts):
+                if end - first > PAGE and start > first:
+                    pages.append((title, lines[first:start]))
+                    first = start
+            pages.append((title, lines[first:]))
+        return pages
 
     def lines(self) -> list[str]:
         """Return all steps as lines of text."""
