@@ -14,18 +14,25 @@ from camera_ray_caster.core.casting.pixels import passes_at
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.shapes.mesh.in_camera import MeshesInView
 
-from ..cameras.model_examples import EXAMPLES, camera
+from ..cameras.model_examples import EXAMPLES, IDENTITY, camera
+from ..cameras.table_examples import pinhole
 from ..casting.test_cast import camera_at
 from .meshes import ball, shapes_of, soup
 from .test_mesh import SMALL, each_model
 
 
-def test_meshes_pay_for_what_is_seen_of_them(monkeypatch):
+@pytest.mark.parametrize("key", ["PERSP", "RAY_TABLE"])
+def test_meshes_pay_for_what_is_seen_of_them(key, monkeypatch):
     """A mesh out of the picture is not bounded. One behind another is not placed, and none of its triangles is looked
-    at. Small meshes would be looked at together.
+    at, from one eye or from many near each other. Small meshes would be looked at together.
     """
     monkeypatch.setattr(tuning, "CHUNK", 1 << 10)
+    monkeypatch.setattr(tuning, "BALLS", 1 << 10)
     cam = camera_at(resolution_x=400, resolution_y=400)
+    if key == "RAY_TABLE":
+        rays = pinhole(20, 20, 0.7)
+        table = {"ray_directions": rays, "ray_origins": 0.02 * rays, "matrix_world": IDENTITY}
+        cam = camera(key, table | {"resolution_x": 400, "resolution_y": 400, "resolution_percentage": 100})
     front, apart = ball(40, 40), ball(9, 9)
     behind = ball(30, 30)
     shapes = shapes_of((front, (0, 0, -2), 1.0), (apart, (0, 50, -5), 1.0), (behind, (0.1, 0, -9), 0.5))

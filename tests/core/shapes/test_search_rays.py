@@ -46,8 +46,9 @@ def test_the_spans_of_cells_are_hits_and_leave_few_pixels_open(spread, monkeypat
     ends = [np.sort(random.integers(0, size + 1, (2, 300)), axis=0) for size in x.shape[::-1]]
     bounds = np.concatenate(ends).T
     edges, doubt = edge_vectors(corners, from_eye=not spread), np.full(300, 1e-14)
-    met, opened = RayCells(direction, moment, x.shape, 8).spans(edges, doubt, bounds)
-    at, windows = RayCells(direction, moment, x.shape, 32).windows(edges, doubt, bounds)
+    turns = np.arange(300 if spread else 0)
+    met, opened = RayCells(direction, moment, x.shape, 8).spans(edges, doubt, bounds, turns)
+    at, windows = RayCells(direction, moment, x.shape, 32).windows(edges, doubt, bounds, turns)
     asked, undecided, looked_at, bounded = 0, 0, 0, 0
     for k, (x0, x1, y0, y1) in enumerate(bounds.tolist()):
         places = corners[..., k, None, None] - origin

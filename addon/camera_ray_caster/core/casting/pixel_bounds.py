@@ -77,11 +77,14 @@ class CameraPixelBounds:
 
     def least_t(self, centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
         """See ``shapes.kind.PixelBounds``."""
-        if self.camera.model.planar:
+        if self.is_planar:
             return -centers[:, 2] - radii
-        if self.camera.is_rigid and self.camera.from_eye(self.sampled):
-            return np.sqrt((centers * centers).sum(axis=1)) - radii
-        return np.full(len(radii), -np.inf)
+        return np.sqrt((centers * centers).sum(axis=1)) - radii
+
+    @property
+    def is_planar(self) -> bool:
+        """See ``shapes.kind.PixelBounds``."""
+        return self.camera.model.planar
 
     @property
     def has_straight_lines(self) -> bool:

@@ -41,7 +41,11 @@ class PixelBounds(Protocol):
         """Return bounds of the picture, (n, 4), as bounds in the columns and rows of the picture that the plan has."""
 
     def least_t(self, centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
-        """Return a lower bound of t in each ball, (n,); -inf where none is known."""
+        """Return a lower bound, (n,), of t in each ball if t is depth, and else of the distance from the eye."""
+
+    @property
+    def is_planar(self) -> bool:
+        """Whether t is depth, wherever rays begin and however long their directions are."""
 
     @property
     def has_straight_lines(self) -> bool:

@@ -44,33 +44,40 @@ class RayCells:
     def __init__(self, direction: Any, moment: Any, shape: tuple[int, int], side: int):
         """Take components that broadcast to ``shape``, NaN where there is no ray; ``moment`` is None for the eye."""
         rows, self._wide = (-(-size // side) for size in shape)
-        self._width, self._side, self._is_turned = shape[1], side, moment is None
+        self._width, self._side = shape[1], side
         parts = [_linear(component, side) for component in (*direction, *(() if moment is None else moment))]
         whole = [[np.broadcast_to(term, (rows, self._wide)).reshape(-1) for term in part] for part in parts]
         self._terms = np.array(whole).swapaxes(0, 1).copy()
         """(4, c, cells): the value at the first pixel, its changes by column and row, and the largest deviation."""
 
-    def spans(self, edges: np.ndarray, doubt: np.ndarray, bounds: np.ndarray) -> tuple[Pixels, Pixels]:
+    def spans(
+        self, edges: np.ndarray, doubt: np.ndarray, bounds: np.ndarray, turns: np.ndarray
+    ) -> tuple[Pixels, Pixels]:
         """Return the triangles and pixels of hits, and those that have to be tested, within bounds (k, 4).
 
         edges: (3, c, k), the vectors whose products with a ray's direction and moment are the three ``volumes`` of a
-        triangle, to ``doubt``, (k,). All of them are positive at a hit; of rays with moments, they may all be negative.
+        triangle, to ``doubt``, (k,). All of them are positive at a hit; of triangles ``turns``, by index, they may all
+        be negative.
         """
-        each = self._parts(edges, doubt, bounds)
-        parts = _Parts.joined([part.only(np.flatnonzero(part.meets())) for part in each])
+        whole, turning = self._parts(edges, doubt, bounds, turns)
+        each = [part.only(np.flatnonzero(part.meets())) for part in (whole, whole.only(turning).turned())]
+        parts = _Parts(*(np.concatenate(values, -1) for values in zip(*each, strict=True))) if turning.size else each[0]
         rows = _rows(parts)
         return self._pixels(parts, rows.at, rows.row, rows.first, rows.last), self._open(parts, rows)
 
-    def windows(self, edges: np.ndarray, doubt: np.ndarray, bounds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def windows(
+        self, edges: np.ndarray, doubt: np.ndarray, bounds: np.ndarray, turns: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Return triangles and windows, (p,) and (p, 4), outside of which no ray hits them; see ``spans``."""
-        parts = self._parts(edges, doubt, bounds)
-        some = np.flatnonzero(np.logical_or.reduce([part.meets() for part in parts]))
-        part = parts[0].only(some)
+        whole, turning = self._parts(edges, doubt, bounds, turns)
+        meets = whole.meets()
+        meets[turning] |= whole.only(turning).turned().meets()
+        part = whole.only(np.flatnonzero(meets))
         y, x = np.divmod(part.place, self._width)
         return part.at, np.stack((x + part.x0, x + part.x1 + 1, y + part.y0, y + part.y1 + 1), axis=1)
 
-    def _parts(self, edges: np.ndarray, doubt: np.ndarray, bounds: np.ndarray) -> list[_Parts]:
-        """Return the triangles in all cells of their bounds, once for each sign that the volumes of a hit may have."""
+    def _parts(self, edges: np.ndarray, doubt: np.ndarray, bounds: np.ndarray, turns: np.ndarray):
+        """Return the triangles in all cells of their bounds, and the indices of those that may turn: see ``spans``."""
         side = self._side
         x0, x1, y0, y1 = bounds.T.astype(np.intp)
         first, last = x0 // side, -(-x1 // side)
@@ -89,10 +96,9 @@ class RayCells:
         x0, x1 = np.maximum(taken(x0, at) - x, 0), np.minimum(taken(x1, at) - x, side) - 1
         y0, y1 = np.maximum(taken(y0, at) - y, 0), np.minimum(taken(y1, at) - y, side) - 1
         place = y * self._width + x
-        whole = [_Parts(at, place, volumes, x0, x1, y0, y1)]
-        if not self._is_turned:
-            whole.append(_Parts(at, place, volumes * np.array((-1, -1, -1, 1))[:, None], x0, x1, y0, y1))
-        return whole
+        may_turn = np.zeros(len(bounds), bool)
+        may_turn[turns] = True
+        return _Parts(at, place, volumes, x0, x1, y0, y1), np.flatnonzero(taken(may_turn, at))
 
     def _open(self, parts: _Parts, rows: _Rows) -> Pixels:
         """Return the pixels of rows that may be hit and are not certainly."""
@@ -125,12 +131,12 @@ class _Parts(NamedTuple):
     y0: np.ndarray
     y1: np.ndarray
 
-    @classmethod
-    def joined(cls, parts: list[_Parts]) -> _Parts:
-        return parts[0] if len(parts) == 1 else cls(*(np.concatenate(each, -1) for each in zip(*parts, strict=True)))
-
     def only(self, some: np.ndarray) -> _Parts:
         return _Parts(*(taken(each, some) for each in self))
+
+    def turned(self) -> _Parts:
+        """Return the triangles with their other sides: hits have volumes of the other sign."""
+        return self._replace(volumes=self.volumes * np.array((-1, -1, -1, 1))[:, None])
 
     def meets(self) -> np.ndarray:
         """Return in which parts no edge is certainly missed."""

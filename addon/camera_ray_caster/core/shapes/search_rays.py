@@ -69,6 +69,13 @@ class SearchRays:
         return cross(tuple(np.asarray(component, float) for component in self.origin), self.direction)
 
     @lazy
+    def origin_ball(self) -> tuple[np.ndarray, float]:
+        """The middle of the origins, (3,), and a radius around it within which they lie."""
+        ends = np.array([(np.fmin.reduce(part, axis=None), np.fmax.reduce(part, axis=None)) for part in self.origin])
+        low, high = np.nan_to_num(ends.T)
+        return low / 2 + high / 2, float(np.linalg.norm(high - low)) / 2
+
+    @lazy
     def cells(self) -> RayCells:
         """The directions, and the moments of rays with many origins, in cells of the tile."""
         return RayCells(self.direction, self.moment, self.shape, tuning.RAY_CELL)

@@ -73,6 +73,7 @@ class MeshesInView:
         self.chunk = tuning.CHUNK if visible.pixels.has_straight_lines else tuning.BALLS
         """Number of triangles or blocks to be bounded at once."""
         self._vertices = HullPoints(visible.pixels, total)
+        self.is_planar = visible.pixels.is_planar
         self._index = np.int32 if total < 2**31 else np.int64
         rows = BlockRows(shapes, visible.at, self._start)
         self._boxing = Shared([

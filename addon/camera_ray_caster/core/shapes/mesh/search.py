@@ -11,10 +11,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ... import tuning
+from ...conventions import EPS
 from ...maths.speed import merged, taken
-from ...maths.vector import norm
+from ...maths.vector import difference, dot, norm
 from ...records import MESH
 from ..cutouts import Cutouts, crossings
+from ..frames import MARGIN
 from ..kind import Candidates, PixelBounds, ShapeSet
 from ..search_rays import SearchRays
 from ..windows import banded, in_tile, pixels_in, union
@@ -23,11 +25,16 @@ from .nearest import NONE, Nearest, SeenTriangles
 from .order import nearest_first, pieces, slabs
 from .spans import RayLattice, spans
 from .surface import TRIANGLES, HitTriangles
-from .triangles import VOLUME_ROUNDING, crossing, crossings_of, edge_vectors, from_origin, signs, volumes
+from .triangles import VOLUME_ROUNDING, crossing, crossings_of, edge_vectors, from_origin, plane, signs, volumes
 
 CELLS_ROUNDING = 8
 """Doubt of the volumes of a cell's linear functions over that of the volumes of single rays: their terms have up to
 three times the magnitude, and two more roundings.
+"""
+
+SIDE_ROUNDING = 32 * EPS
+"""Error bound of the distance of a point from a triangle's plane, over the sum of the point's distance from the eye and
+the corner's.
 """
 
 Reach = tuple[float, float]
@@ -87,7 +94,7 @@ class MeshSet(ShapeSet):
         found.met = None if whole.met is None else []
         lattice = RayLattice.of(rays)
         reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
-        near = blocks.near.take(here)
+        near = self._least_t(blocks.near.take(here), reach)
         cast = partial(self._in_spans, lattice) if lattice else self._in_cells
         for batch in nearest_first(near, blocks.count[here], self.meshes.chunk):
             batch = batch.take(found.may_show(bounds.take(batch, axis=0), near.take(batch)))
@@ -97,6 +104,7 @@ class MeshSet(ShapeSet):
             triangles = self.meshes.triangles(some)
             inside, parts = in_tile(self._in_plan(triangles.bounds), rays.corner, rays.shape)
             triangles = triangles.only(inside, parts.astype(np.intp))  # their products may exceed the type of bounds
+            triangles = replace(triangles, near=self._least_t(triangles.near, reach))
             for slab in slabs(triangles, found.t.size):
                 slab = slab.take(found.may_show(triangles.bounds.take(slab, axis=0), triangles.near.take(slab)))
                 tested = triangles.only(slab)
@@ -119,6 +127,13 @@ class MeshSet(ShapeSet):
         at = merged(known.at)
         at = at[None, None] if len(at) == 1 else at.take(of_pixel)[None]
         yield Candidates(at, corner, found.t[None], met[None])
+
+    def _least_t(self, near: np.ndarray, reach: Reach) -> np.ndarray:
+        """Return lower bounds of t, given those of ``PixelBounds.least_t``."""
+        if self.meshes.is_planar:
+            return near
+        gap = near - MARGIN * reach[1]
+        return np.where(gap > 0, gap / (MARGIN * reach[0]), -np.inf)
 
     def _in_plan(self, bounds: np.ndarray) -> np.ndarray:
         return bounds if self.pixels is None else self.pixels.within(bounds)
@@ -156,21 +171,35 @@ class MeshSet(ShapeSet):
         wide = triangles.only(place)
         which, bounds = banded(wide.bounds, tuning.WIDE_PIXELS)
         for some in pieces(bounds, tuning.WIDE_PIXELS):
-            meets, corners = self.meshes.facing(taken(wide.corners, which[some]))
+            meets, corners, turns = self._facing(rays, taken(wide.corners, which[some]))
             edges, doubt = edge_vectors(corners, rays.origin is None), _doubt(corners, reach)
-            at, windows = rays.wide_cells.windows(edges, CELLS_ROUNDING * doubt, bounds[some][meets])
+            at, windows = rays.wide_cells.windows(edges, CELLS_ROUNDING * doubt, bounds[some][meets], turns)
             parts.append((place[which[some][meets][at]], windows))
         at, windows = map(np.concatenate, zip(*parts, strict=True))
         order = np.argsort(at, kind="stable")
         return triangles.only(at[order], windows[order])
 
+    def _facing(self, rays: SearchRays, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return ``MeshesInView.facing`` of triangles, with corners ordered for most rays with many origins, too, and
+        the indices, among the triangles returned, of those that rays may hit on either side.
+        """
+        meets, corners = self.meshes.facing(corners)
+        if rays.origin is None:
+            return meets, corners, meets[:0]
+        middle, radius = rays.origin_ball
+        normal, away = plane(corners)[0], difference(corners[0], middle)
+        side, lengths = dot(normal, away), norm(corners[0]) + norm(middle)
+        turns = ~(np.abs(side) > (MARGIN * radius + SIDE_ROUNDING * lengths) * norm(normal))
+        corners[1:] = np.where(turns | (side > 0), corners[1:], corners[:0:-1])
+        return meets, corners, np.flatnonzero(turns)
+
     def _in_some_cells(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Nearest) -> Open:
         """Keep the hits on triangles that are certain, and return those pixels in which rounding could decide."""
-        meets, corners = self.meshes.facing(triangles.corners)
+        meets, corners, turns = self._facing(rays, triangles.corners)
         if len(meets) < len(triangles):
             triangles = triangles.only(meets)
         edges, doubt = edge_vectors(corners, rays.origin is None), _doubt(corners, reach)
-        met, open_ = rays.cells.spans(edges, CELLS_ROUNDING * doubt, triangles.bounds)
+        met, open_ = rays.cells.spans(edges, CELLS_ROUNDING * doubt, triangles.bounds, turns)
         hits, left = [met], []
         for first in range(0, len(open_.at), tuning.TRACED_PIXELS):
             some = open_.only(slice(first, first + tuning.TRACED_PIXELS))
