@@ -229,3 +229,28 @@ def test_the_operator_adds_the_cameras_and_refuses_what_is_none(blender, camera_
     with pytest.raises(RuntimeError, match="it has no poses that are read"):
         blender.ops.camera_ray_caster.add_cameras(filepath=str(tmp_path / "lens.json"))
     assert len(camera_scene.objects) == before
+
+
+def test_a_rolling_shutter_of_a_file_is_that_of_the_scene(blender, camera_scene, tmp_path):
+    """It is written again as it was read, up to Blender's float32."""
+    path = transforms(tmp_path, fl_x=20.0, fl_y=20.0)
+    text = json.loads((tmp_path / "transforms.json").read_text())
+    for frame in text["frames"]:
+        last = np.array(frame["transform_matrix"])
+        last[:3, 3] += 0.5, 0, 1
+        frame |= {"fl_x": 20.0, "fl_y": 20.0, "transform_matrix_rs": last.tolist(),
+                  "rolling_shutter": "ROLLING_LEFT_TO_RIGHT"}  # fmt: skip
+        frame["rolling_shutter_offsets"] = [(-0.25 + 0.5 / 32) / 24, 0.25 / 24]
+    (tmp_path / "transforms.json").write_text(json.dumps(text))
+    notes = []
+    (item,) = add_rig(camera_scene, [path], say=notes.append)
+    assert notes == []
+    assert item.data.camera_ray_caster.time_mode == "ROLLING_SHUTTER"
+    assert camera_scene.render.motion_blur_shutter == pytest.approx(0.5, rel=1e-6)
+    assert frames_of([item]) == [1, 3]
+    camera_scene.render.resolution_x, camera_scene.render.resolution_y = 32, 16
+    camera_scene.camera = item
+    _, (again,) = exports.write(camera_scene, "nerfstudio", [item], [1, 3], tmp_path / "again")
+    for one, other in zip(text["frames"], json.loads(again.read_text())["frames"], strict=True):
+        for name in ("transform_matrix", "transform_matrix_rs", "rolling_shutter_offsets"):
+            np.testing.assert_allclose(other[name], one[name], rtol=0, atol=1e-5)

@@ -16,6 +16,7 @@ import bpy
 import numpy as np
 from mathutils import Quaternion
 
+from ..core.camera.pixel_time import MODE, ROLLING_SHUTTER, SETTINGS, rolling_shutter
 from ..core.cameras.parts.calibration import FILE, FILE_CAMERA
 from ..core.maths.rotations import polar, quaternion
 from ..core.programs.parts.lens import Lens
@@ -26,6 +27,7 @@ from ..core.records import InputError
 from .properties.calibration import READING, set_lens, settings_in
 from .properties.declared import GROUP, MODEL
 from .properties.labels import label_of
+from .properties.owners import owner_of
 from .read.frames import frame_rate
 from .read.lengths import meters_of
 from .read.size import SIZE, size_of
@@ -60,8 +62,9 @@ def add_rig(
         empty.matrix_parent_inverse = FROM_BLENDER
     with _linear():
         if trajectories and cameras:
-            _place(empty, trajectories[0])
-        objects = [_camera(scene, one, empty) for one in cameras or trajectories]
+            _place(empty, zip(trajectories[0].frames, trajectories[0].poses, strict=True))
+            empty[KEYED] = trajectories[0].frames
+        objects = [_camera(scene, one, empty, say) for one in cameras or trajectories]
     if scene.camera is None and objects:
         scene.camera = objects[0]
     _mark(scene, cameras or trajectories, objects)
@@ -110,7 +113,7 @@ KEYED = "frames_of_poses"
 """Name of a custom property with the frames of an object's poses in its file."""
 
 
-def _camera(scene, one: Mounted, parent):
+def _camera(scene, one: Mounted, parent, say):
     data = bpy.data.cameras.new(one.name)
     item = bpy.data.objects.new(one.name, data)
     scene.collection.objects.link(item)
@@ -121,8 +124,37 @@ def _camera(scene, one: Mounted, parent):
         _key_lens(data, one)
     if one.size is not None:
         item[SIZE] = one.size
-    _place(item, one)
+    poses = list(zip(one.frames, one.poses, strict=True))
+    if any(one.rolling):
+        poses = _rolled(scene, data, one, say)
+    _place(item, poses)
+    if None not in one.frames:
+        item[KEYED] = one.frames
     return item
+
+
+def _rolled(scene, data, one: Mounted, say) -> list[tuple[float, np.ndarray]]:
+    """Set the rolling shutter of a camera and of its scene; return the times of its first and last rows with the poses
+    there.
+    """
+    poses, shutters = [], {}
+    for frame, pose, rolling in zip(one.frames, one.poses, one.rolling, strict=True):
+        if rolling is None:
+            poses.append((frame, pose))
+            continue
+        frames = [offset * frame_rate(scene) for offset in rolling.offsets]
+        settings, times = rolling_shutter(rolling.readout, frames, one.size or size_of(scene))
+        shutters[tuple(np.round(frames, 6)), rolling.readout] = settings
+        poses += [(frame + times[0], pose), (frame + times[1], rolling.pose)]
+    for setting in (MODE, *SETTINGS[ROLLING_SHUTTER]):
+        owner = owner_of(setting, data, scene)
+        if owner is not None:
+            setattr(owner, setting.name, settings[setting.name])
+    moved = float(np.abs(times - frames).max())
+    if len(shutters) > 1 or moved > 1e-6:
+        change = "varies: that of its last frame is set" if len(shutters) > 1 else f"is moved by {moved:.3g} frames"
+        say(f"the rolling shutter of {one.name!r} {change}; its rows keep their poses")
+    return poses
 
 
 def _link(data, lens: Lens, one: Mounted) -> None:
@@ -143,11 +175,11 @@ def _key_lens(data, one: Mounted) -> None:
             owner.keyframe_insert(name, frame=frame)
 
 
-def _place(item, one: Mounted) -> None:
+def _place(item, poses: Iterable[tuple[float | None, np.ndarray]]) -> None:
     """Set or key the place of an object; turns between keyframes take the shorter way."""
     item.rotation_mode = "QUATERNION"
     before = None
-    for frame, pose in zip(one.frames, one.poses, strict=True):
+    for frame, pose in poses:
         turn = quaternion(polar(pose[None, :3, :3])[0][0])
         turn = -turn if before is not None and np.dot(turn, before) < 0 else turn
         before = turn
@@ -155,8 +187,6 @@ def _place(item, one: Mounted) -> None:
         if frame is not None:
             item.keyframe_insert("location", frame=frame)
             item.keyframe_insert("rotation_quaternion", frame=frame)
-    if None not in one.frames:
-        item[KEYED] = one.frames
 
 
 def _mark(scene, cameras: list[Mounted], objects: list) -> None:

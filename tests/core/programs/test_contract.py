@@ -148,7 +148,8 @@ def test_what_is_read_and_written_and_read_is_the_same_to_the_bit(program, tmp_p
         for frame, one in enumerate(own, 1):
             name = f"camera{number}"
             pose = np.eye(4) if one is None else one.pose
-            records.append(CameraRecord(name, f"{name}_{frame_digits(frame)}", lens, pose, frame))
+            rolling = None if one is None else one.rolling
+            records.append(CameraRecord(name, f"{name}_{frame_digits(frame)}", lens, pose, frame, rolling=rolling))
     able = [one for one in records if program.export.refusal(one) is None]
     assert able
     for name, content in program.export.files(able):
@@ -159,7 +160,12 @@ def test_what_is_read_and_written_and_read_is_the_same_to_the_bit(program, tmp_p
     assert settings == {repr(plain(one.lens)) for one in able}
     if placed and program.poses is not None:
         poses = list(chain.from_iterable(read(path, poses_of) for path in files))
-        assert sorted(repr(one.pose.tolist()) for one in poses) == sorted(repr(one.pose.tolist()) for one in able)
+        assert sorted(map(numbers, poses)) == sorted(map(numbers, able))
+
+
+def numbers(one):
+    """The pose, and the rolling shutter, as text."""
+    return repr((one.pose.tolist(), one.rolling and (*one.rolling[:2], one.rolling.pose.tolist())))
 
 
 def plain(lens):

@@ -11,7 +11,8 @@ Source: G. Levin, An Informal Catalogue of Slit-Scan Video Artworks (2005).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -92,6 +93,8 @@ SETTINGS: dict[str, tuple[Setting, ...]] = {
 }
 """The settings that each item of MODE reads, in the order of the panel."""
 
+READ_BY_ROWS = "TOP_TO_BOTTOM", "BOTTOM_TO_TOP"
+
 SHUTTER_STARTS = {"START": 0.0, "CENTER": -0.5, "END": -1.0}
 """Start of the shutter interval relative to the frame, in lengths of the interval."""
 
@@ -171,7 +174,7 @@ def _image(raw: BlenderCamera, raster: Raster) -> ImageTime:
 def _rolling_shutter(raw: BlenderCamera, raster: Raster) -> LinearTime:
     shutter, duration, readout = SHUTTER.read(raw), DURATION.read(raw), READOUT.read(raw)
     opened = raw.settings["frame"] + (SHUTTER_STARTS[POSITION.read(raw)] + duration / 2) * shutter
-    by_rows = readout in ("TOP_TO_BOTTOM", "BOTTOM_TO_TOP")
+    by_rows = readout in READ_BY_ROWS
     count = raster.height if by_rows else raster.width
     step = shutter * (1 - duration) / count
     # row or column number k in the order of reading has its center k - 1/2 from the edge that is read first
@@ -180,6 +183,25 @@ def _rolling_shutter(raw: BlenderCamera, raster: Raster) -> LinearTime:
     else:
         origin = opened + step / 2
     return _linear(raw, origin, 0.0, step, raster) if by_rows else _linear(raw, origin, step, 0.0, raster)
+
+
+def rolling_shutter(readout: str, offsets: Sequence[float], size: Sequence[int]) -> tuple[dict[str, Any], np.ndarray]:
+    """Return the settings of a rolling shutter whose first row, or column, that is read has the one offset, in frames
+    from the camera's, and the last one the other; and the offsets that these settings have. A shutter opens at its
+    frame, closes there, or has it in the middle: one that does not is moved to the nearest of these.
+    """
+    count = size[1 if readout in READ_BY_ROWS else 0]
+    first, last = offsets
+    read = (last - first) * count / max(1, count - 1)
+    opened = first - read / count
+    position = min(max(-1.0, round(2 * opened / read) / 2), 0.0)
+    shutter = read + 2 * max(opened, -read - opened, 0.0)
+    duration = 1 - read / shutter
+    times = (position + duration / 2) * shutter + read * np.array((1 / count, 1.0))
+    where = next(word for word, start in SHUTTER_STARTS.items() if start == position)
+    values = {MODE: ROLLING_SHUTTER, READOUT: readout, POSITION: where, SHUTTER: shutter, DURATION: duration}
+    defaults = {setting.name: setting.default for setting in SETTINGS[ROLLING_SHUTTER]}
+    return defaults | {setting.name: value for setting, value in values.items()}, times
 
 
 MAKERS: dict[str, Callable[[BlenderCamera, Raster], PixelTime]] = {

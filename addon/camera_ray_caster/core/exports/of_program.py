@@ -10,7 +10,8 @@ from ..camera.camera import Camera
 from ..camera.pixel_time import MODE, READOUT, ROLLING_SHUTTER
 from ..camera.times import LinearTime
 from ..programs.parts.lens import Lens, Models, beyond, word_of
-from ..programs.parts.program import CameraRecord, ProgramFiles, Rolling
+from ..programs.parts.placed import Rolling
+from ..programs.parts.program import CameraRecord, ProgramFiles
 from .format import OWN_TIMES, Format, Shot
 from .lenses import calibrations
 

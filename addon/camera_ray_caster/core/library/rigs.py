@@ -6,14 +6,21 @@ import os
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
+from typing import cast
 
 import numpy as np
 
 from ..arguments import chosen, number, shown
 from ..camera.camera import Camera
+from ..camera.pixel_time import rolling_shutter
+from ..camera.times import LinearTime
 from ..maths.rotations import polar
+from ..motion.evaluations import Motion
+from ..motion.interpolation import TimeInterval
+from ..programs.parts.placed import Rolling
 from ..programs.reading.mounted import Mounted, mounted
-from ..records import InputError
+from ..records import InputError, no_shapes
+from ..timeline import Timeline
 from .cameras import checked_path, of_lens, pair_of_pixels, size_of
 from .models import models
 
@@ -40,10 +47,12 @@ class RigCamera(Camera):
         return (self.others or (self,))[index]
 
     def at(self, frame: float) -> Camera:
-        """Return the camera at one of its frames. Raises InputError for a frame at which the file has no pose."""
-        if not self.others:
-            return super().at(frame)
+        """Return the camera at one of its frames, or at a time of its rows at the first one. Raises InputError for a
+        frame at which the file has no pose.
+        """
         camera = next((other for other, time in zip(self.others, self.frames, strict=True) if time == frame), None)
+        if camera is None and (not self.others or self.pixel_time is not None):
+            return super().at(frame)
         if camera is None:
             nearest = min(self.frames, key=lambda time: abs(time - frame))
             raise InputError(f"camera {self.name!r} has no pose at frame {frame:g}: the nearest is {nearest:g}")
@@ -57,8 +66,9 @@ def load_rig(
     that the table of programs lists.
 
     A camera that moves is the camera at its first frame; ``camera.frames`` are all of them, ``camera.at(frame)`` is the
-    camera at another one, and ``for one in camera`` goes through them. Blender units are meters; the world is the
-    file's, or the body of a rig. Rotations are the nearest ones to the file's.
+    camera at another one, and ``for one in camera`` goes through them. One with a rolling shutter moves from the pose
+    of its first row to that of its last. Blender units are meters; the world is the file's, or the body of a rig.
+    Rotations are the nearest ones to the file's.
 
     size: (width, height) of the pictures; default that which the file tells.
     model: key of the model of a file that does not name its own, such as "OPENCV_FISHEYE" for one of OpenCV.
@@ -77,13 +87,14 @@ def load_rig(
         warnings.warn(note, stacklevel=2)
     if not all(mounted_camera.lenses for mounted_camera in mounted_cameras):
         raise InputError(f"file {file!r} is a trajectory, which has no lens: give a file with lenses and poses")
-    return {mounted_camera.name: _of(mounted_camera, frame) for mounted_camera in mounted_cameras}
+    return {mounted_camera.name: _of(mounted_camera, frame, rate) for mounted_camera in mounted_cameras}
 
 
-def _of(mounted_camera: Mounted, frame: tuple[int, int] | None) -> RigCamera:
+def _of(mounted_camera: Mounted, frame: tuple[int, int] | None, rate: float) -> RigCamera:
     by_lens: dict[int, Camera] = {}
     cameras = []
-    for lens, time, pose in zip(mounted_camera.lenses, mounted_camera.frames, mounted_camera.poses, strict=True):
+    poses = zip(mounted_camera.poses, mounted_camera.rolling or [None] * len(mounted_camera.poses), strict=True)
+    for lens, time, (pose, rolling) in zip(mounted_camera.lenses, mounted_camera.frames, poses, strict=True):
         if id(lens) not in by_lens:
             size, chosen = frame or size_of(mounted_camera.file, lens), "" if mounted_camera.alone else lens.name
             by_lens[id(lens)] = of_lens(mounted_camera.file, lens, chosen, size, None, mounted_camera.name)
@@ -91,9 +102,24 @@ def _of(mounted_camera: Mounted, frame: tuple[int, int] | None) -> RigCamera:
         if time is not None:
             settings = {**camera.record.settings, "frame": float(time)}
             camera = replace(camera, record=replace(camera.record, settings=settings))
-        cameras.append(camera)
+        cameras.append(camera if rolling is None else _rolling(camera, rolling, rate))
     first = {field.name: getattr(cameras[0], field.name) for field in fields(Camera)}
     return RigCamera(**first, others=() if mounted_camera.frames == [None] else tuple(cameras))
+
+
+def _rolling(camera: Camera, rolling: Rolling, rate: float) -> Camera:
+    """Return a camera with a rolling shutter, at whose last row it has another pose."""
+    shutter, _ = rolling_shutter(rolling.readout, [offset * rate for offset in rolling.offsets], camera.raster.size)
+    settings = {**camera.record.settings, **shutter}
+    first = Camera.from_record(replace(camera.record, settings=settings))
+    last, times = first.with_pose(rigid(rolling.pose)), cast("LinearTime", first.pixel_time)
+    if np.array_equal(first.record.matrix_world, last.record.matrix_world):
+        return first
+    states = {times.first: (first, no_shapes()), times.last: (last, no_shapes())}
+    motion = Motion((TimeInterval.of(states, (times.first, times.last)),), states, times.tolerance, 0.0, ())
+    middle, pose = motion.camera_at(min(max(settings["frame"], times.first), times.last)).pose, np.eye(4)
+    pose[:3, :3], pose[:3, 3] = middle.basis, middle.eye
+    return replace(first.with_pose(pose), timeline=Timeline(motion))
 
 
 def rigid(pose: np.ndarray) -> np.ndarray:

@@ -22,7 +22,7 @@ from ..text_forms.json_text import as_text
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens, matrix, matrix_of, word_of
-from .parts.placed import FROM_BLENDER, Placed, pose_in
+from .parts.placed import FROM_BLENDER, Placed, Rolling, pose_in
 from .parts.program import SEPARATELY, CameraRecord, FileWriter, ProgramFiles, written
 
 MODELS = {
@@ -43,6 +43,9 @@ OF_ARIA = "k1", "k2", "k3", "k4", "k5", "k6", "p2", "p1", "s1", "s2", "s3", "s4"
 SIZES, FOCAL, CENTER = ("w", "h"), ("fl_x", "fl_y", "camera_angle_x", "camera_angle_y"), ("cx", "cy")
 OF_LENS = (*SIZES, *FOCAL, *CENTER, *COEFFICIENTS, LIST, "camera_model", "is_fisheye")
 """All entries of which a lens is made."""
+LAST_ROW, READOUT, ROW_TIMES = "transform_matrix_rs", "rolling_shutter", "rolling_shutter_offsets"
+READOUTS = "TOP_TO_BOTTOM", "BOTTOM_TO_TOP", "LEFT_TO_RIGHT", "RIGHT_TO_LEFT"
+SHUTTER = -0.25 / 24, 0.25 / 24
 
 
 def looks(document: Document) -> bool:
@@ -75,9 +78,19 @@ def poses(document: Document) -> list[Placed]:
     for number, (frame, lens) in enumerate(zip(frames, _of_frames(document, frames), strict=True)):
         document.check()
         name = frame.text("file_path", str(number))
-        pose = pose_in(frame.labeled(name), "transform_matrix") @ FROM_BLENDER
-        placed.append(Placed(lens.name, name, None, pose))
+        named = frame.labeled(name)
+        pose = pose_in(named, "transform_matrix") @ FROM_BLENDER
+        placed.append(Placed(lens.name, name, None, pose, rolling=_rolling(named) if frame.has(LAST_ROW) else None))
     return placed
+
+
+def _rolling(frame: Fields) -> Rolling:
+    """Return the rolling shutter of a frame; without times of its rows it is open for half a frame in 24 a second."""
+    first, last = frame.numbers(ROW_TIMES, 2, SHUTTER)
+    if first >= last:
+        raise frame.refusal(ROW_TIMES, "the seconds from the frame's time to the first row and, later, the last one")
+    readout = frame.word(READOUT, [f"ROLLING_{one}" for one in READOUTS], f"ROLLING_{READOUTS[0]}")
+    return Rolling(readout.removeprefix("ROLLING_"), (first, last), pose_in(frame, LAST_ROW) @ FROM_BLENDER)
 
 
 def _of_frames(document: Document, frames: list[Fields]) -> list[Lens]:
@@ -184,9 +197,9 @@ def frame_of(record: CameraRecord) -> dict[str, Any]:
     pose = {"transform_matrix": record.blenders.tolist()}
     if record.rolling is not None:
         pose |= {
-            "transform_matrix_rs": (record.rolling.pose @ FROM_BLENDER).tolist(),
-            "rolling_shutter": f"ROLLING_{record.rolling.readout}",
-            "rolling_shutter_offsets": list(record.rolling.offsets),
+            LAST_ROW: (record.rolling.pose @ FROM_BLENDER).tolist(),
+            READOUT: f"ROLLING_{record.rolling.readout}",
+            ROW_TIMES: list(record.rolling.offsets),
         }
     return size | lens | pose | record.remark
 

@@ -6,7 +6,7 @@ world of a reconstruction, or the body of a rig. Lengths are in the file's unit.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +25,17 @@ NOT_TURNED = 1e-3
 """Largest departure of a rotation's products of columns from those of a rotation: files have from 4 digits on."""
 
 
+class Rolling(NamedTuple):
+    """A rolling shutter, from the first row or column that is read to the last."""
+
+    readout: str
+    """Order in which they are read: TOP_TO_BOTTOM, BOTTOM_TO_TOP, LEFT_TO_RIGHT or RIGHT_TO_LEFT."""
+    offsets: tuple[float, float]
+    """Times of the first and the last one, in seconds from that of the frame."""
+    pose: np.ndarray
+    """(4, 4): the pose at the last one."""
+
+
 class Placed(NamedTuple):
     """A camera at a place."""
 
@@ -39,6 +50,13 @@ class Placed(NamedTuple):
     """Seconds, if the file tells them."""
     moves: bool = False
     """Whether it is of a trajectory with frames; one with times has these."""
+    rolling: Rolling | None = None
+    """Of a rolling shutter, whose ``pose`` is that of the first row that is read."""
+
+    def changed(self, change: Callable[[np.ndarray], np.ndarray]) -> Placed:
+        """Return the camera with other poses, as a function of each."""
+        rolling = None if self.rolling is None else self.rolling._replace(pose=change(self.rolling.pose))
+        return self._replace(pose=change(self.pose), rolling=rolling)
 
 
 def pose_of(document: FileSource, value, name: str) -> np.ndarray:

@@ -18,7 +18,7 @@ from ...records import InputError
 from ...units import BLENDER_UNITS, Unit
 from .document import Document
 from .lens import Lens, Models
-from .placed import FROM_BLENDER, Placed, inverted
+from .placed import FROM_BLENDER, Placed, Rolling, inverted
 
 Content = str | bytes | np.ndarray | Iterator[str]
 """Content of a file: text, also in parts, bytes, or an image, (rows, columns, 3) float32 from the bottom up, stored as
@@ -28,17 +28,6 @@ float32 EXR.
 
 SEPARATELY = "export them separately, each by its name (--cameras NAME)"
 """What to do if lenses do not fit into one file."""
-
-
-class Rolling(NamedTuple):
-    """A rolling shutter, from the first row or column that is read to the last."""
-
-    readout: str
-    """Order in which they are read: TOP_TO_BOTTOM, BOTTOM_TO_TOP, LEFT_TO_RIGHT or RIGHT_TO_LEFT."""
-    offsets: tuple[float, float]
-    """Times of the first and the last one, in seconds from that of the frame."""
-    pose: np.ndarray
-    """(4, 4): the pose at the last one."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,7 +12,7 @@ from ...records import InputError
 from .. import program_of
 from ..parts.document import Document
 from ..parts.lens import Lens
-from ..parts.placed import FROM_BLENDER, Placed
+from ..parts.placed import FROM_BLENDER, Placed, Rolling
 from .folders import nearest, number_of, pair_of, pictures_in
 from .lenses import lenses_of
 from .poses import object_and_frame, placed_in
@@ -40,6 +40,8 @@ class Mounted:
     """(4, 4) float64: from Blender's camera frame to the file's, for a trajectory from the moving frame."""
     note: str = ""
     """What to know of it, in one line."""
+    rolling: list[Rolling | None] = field(default_factory=list)
+    """The rolling shutter at each pose; none of a trajectory or a folder of pictures."""
 
     @property
     def lens(self) -> Lens | None:
@@ -88,7 +90,9 @@ def mounted(path: str, key: str, frame: tuple[int, int] | None, rate: float, met
         camera = cameras.setdefault(name, Mounted(name, lens_file, len(lenses) == 1))
         camera.lenses.append(lens)
         camera.frames.append(number)
-        camera.poses.append(one.pose @ FROM_BLENDER)
+        one = one.changed(lambda pose: pose @ FROM_BLENDER)
+        camera.poses.append(one.pose)
+        camera.rolling.append(one.rolling)
     program = program_of(document)
     note = program.note(document) if program is not None else ""
     for camera in cameras.values():

@@ -38,7 +38,7 @@ def placed_in(document: Document, meters: float) -> list[Placed]:
         raise document.refusal(f"it has no poses that are read: give a file of {PLACED}")
     size = np.ones((4, 4))
     size[:3, 3] = factor(program.unit, meters)
-    return [one._replace(pose=one.pose / size) for one in placed]
+    return [one.changed(lambda pose: pose / size) for one in placed]
 
 
 def object_and_frame(image: str) -> tuple[str, float | None]:
