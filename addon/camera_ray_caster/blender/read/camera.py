@@ -79,7 +79,7 @@ def camera_record(camera_object, depsgraph) -> BlenderCamera:
     if takes_port(find_model(raw)) and own_value(data, PORT) != PORT.default:
         raw = replace(raw, settings={**raw.settings, PORT.name: own_value(data, PORT)})
     read = (*find_model(raw).SETTINGS, *pixel_time.SETTINGS[mode])
-    values = {one.name: _value(one, data, depsgraph) for one in read if one.name not in RECORD_FIELDS}
+    values = {setting.name: _value(setting, data, depsgraph) for setting in read if setting.name not in RECORD_FIELDS}
     return replace(raw, settings={**raw.settings, **values})
 
 
@@ -133,11 +133,11 @@ def copied(source, names) -> dict[str, object]:
 def find_camera(scene, name):
     """Return the scene's camera object of that name. Raises InputError that lists the cameras for an unknown name."""
     cameras = [item for item in scene.objects if item.type == "CAMERA"]
-    found = named(name, cameras)
-    if found is None:
+    camera = named(name, cameras)
+    if camera is None:
         known = ", ".join(map(repr, by_name(cameras))) or "none at all"
         raise InputError(f"scene {scene.name!r} has no camera {name!r}; its cameras are: {known}")
-    return found
+    return camera
 
 
 ALL = "ALL"
@@ -189,7 +189,7 @@ def eye_object(scene, view: str, camera=None):
         return camera
     if view not in views:
         raise InputError(f"scene {scene.name!r} has no view {shown(view)}: its views are {', '.join(views.keys())}")
-    name = camera_name(camera.name, views[view].camera_suffix, [one.camera_suffix for one in views])
+    name = camera_name(camera.name, views[view].camera_suffix, [item.camera_suffix for item in views])
     return scene.objects.get(name, camera)
 
 
@@ -205,7 +205,11 @@ def is_removed(item) -> bool:
 def check_camera(scene, camera_object) -> None:
     """Raise InputError unless the object is a camera of this file. Blender itself accepts any object as a camera."""
     if camera_object is None:
-        others = [one.name for one in bpy.data.scenes if one != scene and one.camera is not None]
+        others = [
+            other_scene.name
+            for other_scene in bpy.data.scenes
+            if other_scene != scene and other_scene.camera is not None
+        ]
         raise InputError(
             f"scene {scene.name!r} has no active camera: add a camera, or set a camera in the Scene properties, or "
             "name a camera (--camera NAME)" + (f"; scene {others[0]!r} has one (--scene)" if others else "")

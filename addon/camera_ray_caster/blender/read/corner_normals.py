@@ -30,9 +30,9 @@ def smooth_across(normals: np.ndarray, mesh: MeshArrays, sharp: np.ndarray) -> N
     before[following] = np.arange(len(vertex))
     touched = np.zeros(len(mesh.vertices), bool)
     touched[vertex[crossed[edge]]] = touched[vertex[following[crossed[edge]]]] = True
-    own = np.flatnonzero(touched[vertex])
-    edges = np.array([edge[own], edge[before[own]]])
-    normals[own] = normals[own[_last_corners(vertex[own], edges, ~sharp[edges])]]
+    corners = np.flatnonzero(touched[vertex])
+    edges = np.array([edge[corners], edge[before[corners]]])
+    normals[corners] = normals[corners[_last_corners(vertex[corners], edges, ~sharp[edges])]]
 
 
 def _last_corners(vertex: np.ndarray, edges: np.ndarray, joins: np.ndarray) -> np.ndarray:
@@ -46,7 +46,7 @@ def _last_corners(vertex: np.ndarray, edges: np.ndarray, joins: np.ndarray) -> n
         known = np.zeros(int(spoke.max()) + 1, np.intp)
         for ends, joined in zip(spoke, joins, strict=True):
             np.maximum.at(known, ends[joined], last[joined])
-        found = np.maximum(last, np.where(joins, known[spoke], 0).max(axis=0))
-        if np.array_equal(found, last):
+        latest = np.maximum(last, np.where(joins, known[spoke], 0).max(axis=0))
+        if np.array_equal(latest, last):
             return last
-        last = found
+        last = latest

@@ -28,21 +28,21 @@ def evaluated_otherwise(depsgraph) -> tuple[str, ...]:
     """
     layer, render = depsgraph.view_layer, depsgraph.scene.render
     simplified = render.use_simplify and render.simplify_subdivision != render.simplify_subdivision_render
-    own = set(layer.objects)
+    layer_objects = set(layer.objects)
     return tuple(sorted(
         item.name
         for item in ItemVisibility(depsgraph).rendered
         if (item.type not in UNSEEN or item.is_instancer)
-        and ((item in own and not item.visible_get(view_layer=layer)) or _differs(item, simplified))
+        and ((item in layer_objects and not item.visible_get(view_layer=layer)) or _differs(item, simplified))
     ))  # fmt: skip
 
 
 def _differs(item, simplified: bool) -> bool:
     modifiers, systems = item.modifiers, item.particle_systems
     return (
-        any(getattr(one, here, None) != getattr(one, there, None)
-            for one in modifiers for here, there in OF_MODIFIERS if hasattr(one, here) and hasattr(one, there))
+        any(getattr(modifier, here, None) != getattr(modifier, there, None) for modifier in modifiers
+            for here, there in OF_MODIFIERS if hasattr(modifier, here) and hasattr(modifier, there))
         or any(getattr(item.data, there, 0) not in (0, getattr(item.data, here, 0)) for here, there in OF_DATA)
         or any(system.settings.display_percentage < 100 for system in systems)
-        or (simplified and any(one.type in {"SUBSURF", "MULTIRES"} for one in modifiers))
+        or (simplified and any(modifier.type in {"SUBSURF", "MULTIRES"} for modifier in modifiers))
     )  # fmt: skip

@@ -35,9 +35,7 @@ NOTHING = None, ""
 """Result for data of which a render shows nothing."""
 
 
-def shapes_of(
-    item, setting: str, layers: Collection[str] = (), moves: Sequence[Displacement | None] = ()
-) -> Found:
+def shapes_of(item, setting: str, layers: Collection[str] = (), moves: Sequence[Displacement | None] = ()) -> Found:
     """Return the shapes of an evaluated object's data, in object space, or the reason why it cannot be cast.
 
     ``setting`` is AUTOMATIC, MESH or a key of FORCED; ``layers`` are those of the mesh that its materials need,
@@ -50,12 +48,12 @@ def shapes_of(
         return None, f"it is of type {data.bl_rna.name.lower()}, but only surfaces and point clouds are cast"
     try:  # a mesh in Edit Mode has its faces only there
         mesh = item.to_mesh()
-        found, reason = mesh_shapes(mesh, setting, slot_count(item))
-        if found is not None and layers:
-            found = with_layers(found, mesh, item.original.data, layers)
-        if found is not None and found.mesh is not None and any(moves):
-            found = mesh_primitive(displaced(found.mesh, normals_before(mesh, found.mesh.polygon), moves))
-        return found, reason
+        primitive, reason = mesh_shapes(mesh, setting, slot_count(item))
+        if primitive is not None and layers:
+            primitive = with_layers(primitive, mesh, item.original.data, layers)
+        if primitive is not None and primitive.mesh is not None and any(moves):
+            primitive = mesh_primitive(displaced(primitive.mesh, normals_before(mesh, primitive.mesh.polygon), moves))
+        return primitive, reason
     finally:
         item.to_mesh_clear()
 
@@ -72,14 +70,14 @@ def mesh_shapes(mesh, setting: str, slots: int = 0) -> Found:
         return NOTHING if kind is None else _enclosing(kind, vertices(mesh))
     arrays = mesh_arrays(mesh)
     wrong = defect(arrays)
-    found = wrong if wrong or setting == "MESH" else _recognized(arrays)
+    recognized = wrong if wrong or setting == "MESH" else _recognized(arrays)
     if kind is not None:
-        if isinstance(found, Primitive) and (found.kind == SPHERE) == (kind == SPHERE):
-            return _mapped(replace(found, kind=kind), mesh, arrays), ""
+        if isinstance(recognized, Primitive) and (recognized.kind == SPHERE) == (kind == SPHERE):
+            return _mapped(replace(recognized, kind=kind), mesh, arrays), ""
         forced, reason = _enclosing(kind, arrays.vertices)
         return (forced, reason) if forced is None or wrong else (_mapped(forced, mesh, arrays), "")
-    if isinstance(found, Primitive) and not _is_solid(found, mesh) and not _is_colorful(mesh, slots):
-        exact = _mapped(found, mesh, arrays)
+    if isinstance(recognized, Primitive) and not _is_solid(recognized, mesh) and not _is_colorful(mesh, slots):
+        exact = _mapped(recognized, mesh, arrays)
         if exact.kind == SPHERE or not exact.note:
             return exact, ""
     if wrong:
@@ -99,9 +97,9 @@ def _mapped(exact: Primitive, mesh, arrays: MeshArrays) -> Primitive:
     return with_map(exact, arrays.vertices[arrays.loop_vertices], uv_map(mesh))
 
 
-def _is_solid(found: Primitive, mesh) -> bool:
+def _is_solid(primitive: Primitive, mesh) -> bool:
     """Return whether a mesh recognized as a sphere is too coarse for a sphere, with faces that are not all smooth."""
-    return found.kind == SPHERE and found.apart > COARSE and not is_smooth(mesh)
+    return primitive.kind == SPHERE and primitive.apart > COARSE and not is_smooth(mesh)
 
 
 def _is_colorful(mesh, count: int) -> bool:
@@ -139,8 +137,8 @@ def _of_points(cloud, kind) -> Found:
         return _enclosing(kind, positions)
     radius = cloud.attributes.get("radius")
     radii = fetched(radius.data, "value", np.float32) if radius else np.full(len(positions), DEFAULT_RADIUS, np.float32)
-    given = cloud.attributes.get("id")
-    ids = fetched(given.data, "value", np.int32) if given else np.arange(len(positions))
+    id_attribute = cloud.attributes.get("id")
+    ids = fetched(id_attribute.data, "value", np.int32) if id_attribute else np.arange(len(positions))
     primitive = replace(points_primitive(positions, radii, ids), uv=NO_MAP)
     missing = len(radii) - len(primitive)
     return primitive, (

@@ -75,8 +75,8 @@ class Placings:
     def __len__(self) -> int:
         return len(self.matrices)
 
-    def __getitem__(self, some: np.ndarray) -> "Placings":
-        return Placings(self.matrices[some], self.identities[some])
+    def __getitem__(self, selected: np.ndarray) -> "Placings":
+        return Placings(self.matrices[selected], self.identities[selected])
 
     def all_of(self, primitive: Primitive) -> np.ndarray:
         """Return the identities (k n,) of n shapes under each of the instances, as ``put_in_world`` orders them."""
@@ -111,8 +111,8 @@ def gathered(groups: list[Group], left_out: Counter, world: World) -> Shapes:
     ends = np.cumsum(counts, dtype=int)
     center, axes = np.empty((sum(counts), 3)), np.empty((sum(counts), 3, 3))
     for group, placed, count, end in zip(cast, placings, counts, ends, strict=True):
-        own = slice(end - count, end)
-        put_in_world(group.primitive, placed.matrices, center[own], axes[own])
+        block = slice(end - count, end)
+        put_in_world(group.primitive, placed.matrices, center[block], axes[block])
 
     def column(values, dtype, width=()):
         return np.repeat(np.array(values, dtype).reshape(len(cast), *width), counts, axis=0)
@@ -124,8 +124,8 @@ def gathered(groups: list[Group], left_out: Counter, world: World) -> Shapes:
     surfaces = dict.fromkeys(look.surface for group in cast for look in group.looks if look.surface is not None)
     places = {surface: number for number, surface in enumerate(surfaces)}
 
-    def numbers_of(some: Iterable[Look]) -> list[int]:
-        return [-1 if look.surface is None else places[look.surface] for look in some]
+    def numbers_of(looks: Iterable[Look]) -> list[int]:
+        return [-1 if look.surface is None else places[look.surface] for look in looks]
 
     return Shapes(
         kind=column([group.primitive.kind for group in cast], np.uint8),
@@ -137,7 +137,9 @@ def gathered(groups: list[Group], left_out: Counter, world: World) -> Shapes:
         name_index=column(range(len(cast)), np.int32),
         names=tuple(group.name for group in cast),
         instanced=tuple(group.is_instanced for group in cast),
-        lights=lights_in_world([(one.is_sun, one.looks[0].color, one.cone, one.placings().matrices) for one in lights]),
+        lights=lights_in_world(
+            [(light.is_sun, light.looks[0].color, light.cone, light.placings().matrices) for light in lights]
+        ),
         world_color=world.color,
         background=world.background,
         left_out=listed(left_out),
@@ -178,15 +180,15 @@ def _castable(there: list[tuple[Group, Placings]], left_out: Counter) -> Iterato
     for (group, placed), well in zip(there, usable, strict=True):
         if well.any():
             yield group, placed[well]
-        rest = placed[~well]
-        triangles = group.flattened()[0] if len(rest) and group.flattened is not None else None
+        singular = placed[~well]
+        triangles = group.flattened()[0] if len(singular) and group.flattened is not None else None
         if triangles is not None:
-            (flat,) = castable([(triangles, rest.matrices)])
+            (flat,) = castable([(triangles, singular.matrices)])
             if flat.any():
-                yield replace(group, primitive=triangles), rest[flat]
-            rest = rest[~flat]
-        if len(rest):
-            left_out[group.name, SINGULAR] += len(rest)
+                yield replace(group, primitive=triangles), singular[flat]
+            singular = singular[~flat]
+        if len(singular):
+            left_out[group.name, SINGULAR] += len(singular)
 
 
 def _slots(groups, column, surfaces_of) -> Slots | None:
@@ -206,8 +208,8 @@ def _slots(groups, column, surfaces_of) -> Slots | None:
 
 def _notes(groups: Iterable[Group]) -> dict[tuple[str, str], None]:
     """Return the notes on the groups, each with the name of its object, once."""
-    found = ((group.name, note) for group in groups for note in (group.primitive.note, *group.notes) if note)
-    return dict.fromkeys(found)
+    named_notes = ((group.name, note) for group in groups for note in (group.primitive.note, *group.notes) if note)
+    return dict.fromkeys(named_notes)
 
 
 def listed(left_out: Counter) -> tuple[tuple[str, str], ...]:

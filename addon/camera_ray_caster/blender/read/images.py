@@ -46,11 +46,11 @@ def image_of(image) -> Texels | None:
     before = _known.get(key)
     if before is not None and before[0] == state and not image.is_dirty:
         return before[1]
-    found = _read(image) if wide * high else None
-    if before is not None and _same(before[1], found):
-        found = before[1]
-    _known[key] = state, found
-    return found
+    texels = _read(image) if wide * high else None
+    if before is not None and _same(before[1], texels):
+        texels = before[1]
+    _known[key] = state, texels
+    return texels
 
 
 def _kind(image) -> str:
@@ -93,11 +93,11 @@ def _read(image) -> Texels:
     stored = (_loaded(image) if is_file else None) if wide * high else None
     if stored is None:
         stored = _fetched(image)
-    for own in _strips(stored):
+    for strip in _strips(stored):
         if image.alpha_mode == "NONE":
-            own[:, 3] = 1 if image.is_float else 255
+            strip[:, 3] = 1 if image.is_float else 255
         if not (is_data or image.is_float):  # colors of bytes are multiplied by alpha, as Cycles stores them
-            own[:, :3] = (own[:, :3].astype(np.uint16) * own[:, 3:] + 127) // 255
+            strip[:, :3] = (strip[:, :3].astype(np.uint16) * strip[:, 3:] + 127) // 255
     return Texels(image.name, stored.reshape(high, wide, 4), space.name == "sRGB" and not image.is_float, is_data)
 
 
@@ -149,12 +149,12 @@ def _strips(texels: np.ndarray) -> Iterator[np.ndarray]:
     return (texels[first : first + STRIP] for first in range(0, len(texels), STRIP))
 
 
-def _same(one: Texels | None, other: Texels | None) -> bool:
-    return one is other or (
-        one is not None
-        and other is not None
-        and (one.is_srgb, one.is_data) == (other.is_srgb, other.is_data)
-        and np.array_equal(one.texels, other.texels)
+def _same(first: Texels | None, second: Texels | None) -> bool:
+    return first is second or (
+        first is not None
+        and second is not None
+        and (first.is_srgb, first.is_data) == (second.is_srgb, second.is_data)
+        and np.array_equal(first.texels, second.texels)
     )
 
 

@@ -35,13 +35,13 @@ PACKAGE = __name__.rpartition("blender.")[0]
 
 @dataclass
 class _Entry:
-    found: Found
+    geometry: Found
     owners: set[int] = field(default_factory=set)
     """The session_uid of the objects that the data was evaluated for; empty if something may have changed since."""
 
     @property
     def mesh(self) -> Mesh | None:
-        primitive, _ = self.found
+        primitive, _ = self.geometry
         return None if primitive is None else primitive.mesh
 
 
@@ -70,7 +70,7 @@ class Reading:
             self._used[key] = entry
         if not getattr(data, "is_editmode", False):
             entry.owners.add(uid)
-        return entry.found
+        return entry.geometry
 
     def _shared(self, entry: _Entry) -> _Entry:
         """Return an entry with the cached record of the same triangles, if there is one; otherwise ``entry`` itself."""
@@ -80,7 +80,7 @@ class Reading:
         known = self._meshes.setdefault(_sample(mesh), mesh)
         if known is mesh or not same(known, mesh):
             return entry
-        primitive, reason = entry.found
+        primitive, reason = entry.geometry
         return _Entry((replace(primitive, mesh=known), reason))
 
     @cached_property
@@ -102,7 +102,9 @@ def _is_told() -> bool:
     """Whether this module's handlers are registered, and no handlers of others, whose changes it may miss."""
     for event in ("depsgraph_update_post", "frame_change_post"):
         handlers = getattr(bpy.app.handlers, event)
-        if tag not in handlers or not all(str(getattr(one, "__module__", "")).startswith(PACKAGE) for one in handlers):
+        if tag not in handlers or not all(
+            str(getattr(handler, "__module__", "")).startswith(PACKAGE) for handler in handlers
+        ):
             return False
     return True
 

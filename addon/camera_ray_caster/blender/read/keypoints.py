@@ -52,9 +52,9 @@ def _points_of(item, evaluated) -> list[KeyPoint]:
     places = vertices(mesh) @ matrix[:3, :3].T + matrix[:3, 3]
     index = {group.name: group.index for group in evaluated.vertex_groups}  # modifiers may add groups, also before
     total, weight = np.zeros((len(index), 3)), np.zeros(len(index))
-    for place, vertex in zip(places, mesh.vertices, strict=True):
+    for position, vertex in zip(places, mesh.vertices, strict=True):
         for entry in vertex.groups:
-            total[entry.group] += entry.weight * place
+            total[entry.group] += entry.weight * position
             weight[entry.group] += entry.weight
     named = [(group.name, index[group.name]) for group in item.vertex_groups if group.name in index]
     owner = _name(item)

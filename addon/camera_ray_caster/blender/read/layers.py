@@ -12,16 +12,16 @@ from .meshes import mesh_arrays, triangle_loops
 from .value_nodes import GENERATED
 
 
-def with_layers(found: Primitive, mesh, original, names: Collection[str]) -> Primitive:
+def with_layers(primitive: Primitive, mesh, original, names: Collection[str]) -> Primitive:
     """Return a primitive whose triangles have the layers of these names that an evaluated mesh has; unchanged if it is
     an exact shape. "uv:NAME" is a UV map, "color:NAME" an attribute as RGBA, without a name the render color attribute,
     GENERATED the texture space. ``original`` is the data that the mesh was evaluated from.
     """
-    if found.mesh is None:
-        return found
+    if primitive.mesh is None:
+        return primitive
     loops = triangle_loops(mesh)
     layers = tuple((name, values[loops]) for name, values in _layers(mesh, mesh_arrays(mesh), original, names))
-    return replace(found, mesh=replace(found.mesh, layers=layers))
+    return replace(primitive, mesh=replace(primitive.mesh, layers=layers))
 
 
 def _layers(mesh, arrays: MeshArrays, original, names: Collection[str]) -> Iterator[tuple[str, np.ndarray]]:
@@ -32,9 +32,9 @@ def _layers(mesh, arrays: MeshArrays, original, names: Collection[str]) -> Itera
             uv = _values(mesh.uv_layers[label].uv, "vector", 2)
             yield name, np.hstack((uv, np.zeros((len(uv), 1), np.float32)))
         elif kind == "color":
-            found = _color(mesh, arrays, label)
-            if found is not None:
-                yield name, found
+            color = _color(mesh, arrays, label)
+            if color is not None:
+                yield name, color
         elif kind == GENERATED:
             yield name, _generated(mesh, original)[arrays.loop_vertices]
 
@@ -82,7 +82,7 @@ def _generated(mesh, original) -> np.ndarray:
     as_evaluated = np.array_equal(places, _values(mesh.vertices, "co", 3))
     if as_evaluated and isinstance(original, bpy.types.Mesh) and len(original.vertices) == len(places):
         places = _values(original.vertices, "co", 3)
-    size, middle = (np.array(tuple(one), np.float64) for one in (mesh.texspace_size, mesh.texspace_location))
+    size, middle = (np.array(tuple(vector), np.float64) for vector in (mesh.texspace_size, mesh.texspace_location))
     scale = np.where(size != 0, 0.5 / np.where(size != 0, size, 1.0), 1.0)
     return ((places.astype(np.float64) - middle) * scale + 0.5).astype(np.float32)
 

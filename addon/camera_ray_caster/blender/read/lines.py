@@ -27,7 +27,7 @@ def _evaluated(item, objects):
     namesake = objects.get(item.name)
     if namesake is None or namesake.original == item.original:
         return namesake
-    return next((one for one in objects if one.original == item.original), None)
+    return next((candidate for candidate in objects if candidate.original == item.original), None)
 
 
 def _ends(item):

@@ -64,7 +64,7 @@ class Look(NamedTuple):
 
     def held_out(self) -> "Look":
         """Return the look of a holdout: a hole, with the same transparent points."""
-        surface = self.surface and replace(self.surface, lit=constant(0, 0, 0), own=None, glow=None)
+        surface = self.surface and replace(self.surface, lit=constant(0, 0, 0), emission=None, glow=None)
         return self._replace(color=(0.0,) * 4, surface=surface)
 
 
@@ -114,11 +114,13 @@ class Looks:
 
     def _of_slot(self, item, slot: int) -> Look:
         """Return the look of a slot, or of the last one for slots after it."""
-        slots, own = item.material_slots, item.original.material_slots
-        place = min(slot, slot_count(item) - 1)
-        material = slots[place].material if place >= 0 else None
-        if OWN_IS_EMPTY and 0 <= place < len(own) and own[place].link == "OBJECT" and own[place].material is None:
-            material = None
+        slots, original_slots = item.material_slots, item.original.material_slots
+        index = min(slot, slot_count(item) - 1)
+        material = slots[index].material if index >= 0 else None
+        if OWN_IS_EMPTY and 0 <= index < len(original_slots):
+            original = original_slots[index]
+            if original.link == "OBJECT" and original.material is None:
+                material = None
         return Look(0, NO_MATERIAL) if material is None else self._of(material)
 
     def _of(self, material) -> Look:
@@ -188,13 +190,13 @@ def _colored(material, output: Output, plain: Look, threshold: float, has_colors
     left_out += tuple(f"{_image(name)} is missing: its alpha is 1" for name in sorted(of_alpha))
     needs = set(plain.needs | nodes.needs if alpha is not None else plain.needs)
     lit: Value = constant(*viewport)
-    own = glow = None
+    emission = glow = None
     try:
         painted = nodes if has_colors else material_nodes(reads_images=False)
         parts = _divided(colors(painted, socket, groups, through is not None), through, alpha)
         needs |= painted.needs
-        base, own, glow = (part and as_color(part) for part in parts)
-        lit = constant(0, 0, 0) if base is None else function_of(lambda one: np.maximum(one, 0), base)
+        base, emission, glow = (color and as_color(color) for color in parts)
+        lit = constant(0, 0, 0) if base is None else function_of(lambda values: np.maximum(values, 0), base)
     except Unread as error:
         unread.append(f"its color is not read: {error}. {VIEWPORT_COLOR}")
     unread += [f"{_image(name)} is missing: {MAGENTA}" for name in sorted(nodes.missing - of_alpha)]
@@ -203,9 +205,9 @@ def _colored(material, output: Output, plain: Look, threshold: float, has_colors
     if isinstance(alpha, Constant) and not is_hole:
         alpha = None
     look = plain._replace(left_out=left_out, unread=tuple(unread), notes=notes)
-    if alpha is None and own is None and glow is None and isinstance(lit, Constant):
+    if alpha is None and emission is None and glow is None and isinstance(lit, Constant):
         return look._replace(color=shown((*lit.values[:, 0].tolist(), opacity)))
-    return look._replace(surface=Surface(lit, own, glow, alpha, threshold), needs=frozenset(needs))
+    return look._replace(surface=Surface(lit, emission, glow, alpha, threshold), needs=frozenset(needs))
 
 
 def _image(name: str) -> str:
@@ -216,11 +218,11 @@ def _divided(parts: ShaderParts, through: Value | None, alpha: Value | None) -> 
     """Return the parts over alpha: the hit surface is shown unblended."""
     if through is None or alpha is None:
         return parts
-    return tuple(part and function_of(lambda a, b: a / np.where(b > 0, b, 1.0), part, alpha) for part in parts)
+    return tuple(color and function_of(lambda a, b: a / np.where(b > 0, b, 1.0), color, alpha) for color in parts)
 
 
-def as_color(part: Value) -> Value:
+def as_color(color: Value) -> Value:
     """Return a part with three channels that are finite."""
-    if isinstance(part, Constant):
-        return constant(*np.broadcast_to(part.values[:, 0], 3))
-    return function_of(lambda one: np.nan_to_num(np.broadcast_to(one, (3, one.shape[1]))), part)
+    if isinstance(color, Constant):
+        return constant(*np.broadcast_to(color.values[:, 0], 3))
+    return function_of(lambda values: np.nan_to_num(np.broadcast_to(values, (3, values.shape[1]))), color)

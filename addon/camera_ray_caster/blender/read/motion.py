@@ -25,7 +25,7 @@ NEIGHBOR_STEPS = {NEXT: 1.0, PREVIOUS: -1.0}
 
 
 def with_other_frames(
-    found: Scene,
+    scene: Scene,
     depsgraph,
     camera_object,
     frame: float,
@@ -41,12 +41,12 @@ def with_other_frames(
     neighbors = {name: frame + NEIGHBOR_STEPS[name] for name in frames_of(passes)}
     if neighbors:
         prepare(depsgraph, neighbors.values())
-    motion = motion_of(found.camera, depsgraph, camera_object, visit, read)
+    motion = motion_of(scene.camera, depsgraph, camera_object, visit, read)
     others = {}
     for name, other in neighbors.items():
         there = read(camera_object, visit(other))
         others[name] = there.with_timeline(motion_of(there.camera, depsgraph, camera_object, visit, read))
-    return found.with_timeline(motion, **others)
+    return scene.with_timeline(motion, **others)
 
 
 def motion_of(camera: Camera, depsgraph, camera_object, visit: Callable, read: Read) -> Motion | None:
@@ -62,8 +62,8 @@ def motion_of(camera: Camera, depsgraph, camera_object, visit: Callable, read: R
     def evaluate(frame: float) -> tuple[Camera, Shapes]:
         depsgraph = visit(frame)
         raise_if_stopping()
-        found = read(camera_object, depsgraph)
-        return replace(found.camera, pixel_time=pixel_time), found.shapes
+        scene = read(camera_object, depsgraph)
+        return replace(scene.camera, pixel_time=pixel_time), scene.shapes
 
     first, last = pixel_time.first, pixel_time.last
     prepare(depsgraph, (first, last))

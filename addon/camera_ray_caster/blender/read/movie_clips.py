@@ -24,19 +24,19 @@ def notes(scene, camera_object, group: str) -> tuple[tuple[str, str], ...]:
     """Return the clips with distortion of a scene and a camera, each with a note; none for a model of a ``group`` that
     has distortion itself.
     """
-    found = {clip.name: distortion for clip in _clips(scene, camera_object) if (distortion := _distortion(clip))}
+    distorted = {clip.name: distortion for clip in _clips(scene, camera_object) if (distortion := _distortion(clip))}
     return tuple(
         (name, f"this movie clip is tracked with lens distortion ({distortion}), and camera {camera_object.name!r} "
                "casts without: rays do not fit the clip's pictures. Use Lens of Movie Clip, or undistort the clip")
-        for name, distortion in found.items() if group != CALIBRATED
+        for name, distortion in distorted.items() if group != CALIBRATED
     )  # fmt: skip
 
 
 def _clips(scene, camera_object) -> Iterator:
     """Yield the clips of the scene, of the camera's background images and of its solvers."""
-    shown = [one for one in camera_object.data.background_images if one.source == "MOVIE_CLIP"]
-    solvers = [one for one in camera_object.constraints if one.type == "CAMERA_SOLVER"]
-    yield from (clip for clip in (scene.active_clip, *(one.clip for one in (*shown, *solvers))) if clip is not None)
+    shown = [background for background in camera_object.data.background_images if background.source == "MOVIE_CLIP"]
+    solvers = [constraint for constraint in camera_object.constraints if constraint.type == "CAMERA_SOLVER"]
+    yield from (clip for clip in (scene.active_clip, *(user.clip for user in (*shown, *solvers))) if clip is not None)
 
 
 def clips_of(scene, camera_object) -> list:
@@ -76,7 +76,9 @@ def lens_of(clip) -> Lens:
 def _coefficients(camera) -> list[float]:
     """Return k1, k2, k3, k4, p1 and p2 of a clip's camera; 0 for those that its model does not have."""
     names = {name.rpartition("_")[2]: name for name in COEFFICIENTS.get(camera.distortion_model, ())}
-    return [float(getattr(camera, names[one])) if one in names else 0.0 for one in ("k1", "k2", "k3", "k4", "p1", "p2")]
+    return [
+        float(getattr(camera, names[term])) if term in names else 0.0 for term in ("k1", "k2", "k3", "k4", "p1", "p2")
+    ]
 
 
 def _distortion(clip) -> str:

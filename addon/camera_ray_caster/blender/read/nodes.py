@@ -71,7 +71,7 @@ def _has_output(tree, known: dict[int, bool]) -> bool:
         known[key] = False
         inner = (node.node_tree for node in tree.nodes if node.type == "GROUP" and node.node_tree is not None)
         known[key] = any(node.bl_idname in OUTPUTS for node in tree.nodes) or any(
-            _has_output(one, known) for one in inner
+            _has_output(group, known) for group in inner
         )
     return known[key]
 
@@ -97,9 +97,9 @@ def _chosen(outputs: list):
     usable = [node for node in outputs if node.target != "EEVEE"]
     active = next((node for node in (usable if ONLY_USABLE else outputs) if node.is_active_output), None)
     for target in ("CYCLES", "ALL"):
-        some = [node for node in usable if node.target == target]
-        if some:
-            return active if active in some else some[0]
+        candidates = [node for node in usable if node.target == target]
+        if candidates:
+            return active if active in candidates else candidates[0]
     return None
 
 
@@ -135,7 +135,7 @@ class Nodes:
                 following = _by_identifier(outer.inputs, output.identifier)
             elif node.type == "GROUP" and node.node_tree is not None:
                 inside = node.node_tree.nodes
-                ends = [one for one in inside if one.type == "GROUP_OUTPUT" and one.is_active_output]
+                ends = [node for node in inside if node.type == "GROUP_OUTPUT" and node.is_active_output]
                 following = _by_identifier(ends[0].inputs, output.identifier) if ends else None
                 groups = (*groups, node)
             else:
@@ -157,14 +157,14 @@ class Nodes:
         read = self.read.get(node.bl_idname)
         if read is None:
             raise Unread(f"node {node.name!r} ({node.bl_rna.name})")
-        own = Node(self, node, groups)
-        return self.once(own, output.identifier, lambda: read(self, own, output))
+        node_in_group = Node(self, node, groups)
+        return self.once(node_in_group, output.identifier, lambda: read(self, node_in_group, output))
 
-    def once(self, node: "Node", what: str, read: Callable[[], T]) -> T:
+    def once(self, node: "Node", name: str, read: Callable[[], T]) -> T:
         """Return what is read of a node, by name: it is read at its first use. Raises Unread in a loop, and if more
         than DEEPEST nodes are in a row.
         """
-        key = node.as_pointer(), what, tuple(one.as_pointer() for one in node.groups)
+        key = node.as_pointer(), name, tuple(group.as_pointer() for group in node.groups)
         if key in self._open:
             raise Unread("its nodes form a loop")
         if len(self._open) >= DEEPEST:
@@ -201,9 +201,9 @@ class Node:
         """Whether an input gets its value from another node."""
         return self.nodes.source(self.socket(key), self.groups)[0] is not None
 
-    def unread(self, what: str) -> Unread:
+    def unread(self, setting: str) -> Unread:
         """Return the error that names a setting of the node."""
-        return Unread(f"node {self.node.name!r} ({self.node.bl_rna.name}): {what}")
+        return Unread(f"node {self.node.name!r} ({self.node.bl_rna.name}): {setting}")
 
 
 def own_value(socket) -> Value:
@@ -219,8 +219,8 @@ def converted(value: Value, of: str, to: str) -> Value:
         return value
     if to in NUMBERS:
         return gray(value) if of == "RGBA" else mean(value)
-    return function_of(lambda one: np.repeat(one, 3, axis=0), value)
+    return function_of(lambda values: np.repeat(values, 3, axis=0), value)
 
 
 def _by_identifier(sockets, identifier: str):
-    return next((one for one in sockets if one.identifier == identifier), None)
+    return next((socket for socket in sockets if socket.identifier == identifier), None)

@@ -40,18 +40,18 @@ def channels_of(path: str) -> dict[str, np.ndarray]:
     if file is None:
         raise ValueError(f"it cannot be read: {_line(library.geterror())}")
     channels: dict[str, np.ndarray] = {}
-    part = 0
-    while file.seek_subimage(part, 0):
+    subimage = 0
+    while file.seek_subimage(subimage, 0):
         spec = file.spec()
         kinds = spec.channelformats or [spec.format] * spec.nchannels
         size = 8 * spec.width * spec.height * spec.nchannels
         memory.require(size, f"the channels of {path!r}", "give a smaller file")
-        pixels = file.read_image(part, 0, 0, spec.nchannels, "float")
+        pixels = file.read_image(subimage, 0, 0, spec.nchannels, "float")
         if pixels is None:
             raise ValueError(f"it is damaged: {_line(file.geterror())}")
         for k, (name, kind) in enumerate(zip(spec.channelnames, kinds, strict=True)):
             channels[name] = pixels[..., k].astype(np.float16 if str(kind) == "half" else np.float32, copy=False)
-        part += 1
+        subimage += 1
     file.close()
     return channels
 

@@ -27,10 +27,10 @@ def displacement_of(material, output: Output) -> tuple[Displacement | None, froz
     Raises Unread. Camera rays, which a Light Path node could ask for, have no part in a displacement.
     """
     nodes = Nodes({kind: how for kind, how in READ.items() if kind != "ShaderNodeLightPath"})
-    found, _, groups = nodes.source(*output["Displacement"])
-    if found is None or material.displacement_method == "BUMP":
+    source, _, groups = nodes.source(*output["Displacement"])
+    if source is None or material.displacement_method == "BUMP":
         return None, frozenset()
-    node = Node(nodes, found, groups)
+    node = Node(nodes, source, groups)
     if node.bl_idname not in SHIFTS:
         raise Unread(f"node {node.name!r} ({node.bl_rna.name})")
     if node.space != "OBJECT":

@@ -68,17 +68,18 @@ def simulate(depsgraph, frame: float) -> None:
         return
     _keep(kept, False)
     every = list(unbaked(depsgraph))
-    for one in every:
-        if one.obstacle and frame - 1 > one.first:  # at its first frame nothing is simulated; ``frame`` is for flow
-            raise one.refusal(one.obstacle)
-    found = [one for one in every if not one.obstacle]
-    for one in found:
-        one.item.update_tag(refresh={"DATA"})  # the file may hold frames that were simulated from others
-    if found:
-        first = min(one.first for one in found)
-        last = max(first, math.ceil(min(frame, max(one.last for one in found))))
+    for simulation in every:
+        # at its first frame nothing is simulated; ``frame`` is for flow
+        if simulation.obstacle and frame - 1 > simulation.first:
+            raise simulation.refusal(simulation.obstacle)
+    playable = [simulation for simulation in every if not simulation.obstacle]
+    for simulation in playable:
+        simulation.item.update_tag(refresh={"DATA"})  # the file may hold frames that were simulated from others
+    if playable:
+        first = min(simulation.first for simulation in playable)
+        last = max(first, math.ceil(min(frame, max(simulation.last for simulation in playable))))
         _play(scene, first, last)
-        kept = [one.cache for one in found if one.cache is not None]
+        kept = [simulation.cache for simulation in playable if simulation.cache is not None]
         _keep(kept, True)
         _simulated[scene.session_uid] = max(last, math.ceil(frame)), kept
 
@@ -99,17 +100,17 @@ def prepare(depsgraph, frames: Iterable[float]) -> None:
     a render. The frame is not restored.
     """
     last = math.ceil(max(frames))
-    found = list(unbaked(depsgraph))
-    for one in _jumped(found, last):
-        raise one.refusal(f"frame {last} was not simulated")
+    simulations = list(unbaked(depsgraph))
+    for simulation in _jumped(simulations, last):
+        raise simulation.refusal(f"frame {last} was not simulated")
     reached, _ = _simulated.get(depsgraph.scene.session_uid, (-math.inf, []))
-    if found and last > reached and depsgraph.mode == "VIEWPORT":
-        _play(depsgraph.scene, min(one.first for one in found), last + 1)
+    if simulations and last > reached and depsgraph.mode == "VIEWPORT":
+        _play(depsgraph.scene, min(simulation.first for simulation in simulations), last + 1)
 
 
 def warning(depsgraph, frame: float) -> tuple[str, ...]:
     """Return a line, in a tuple, if physics are not baked and a frame is after their first; else ()."""
-    names = [one.item.name for one in _jumped(unbaked(depsgraph), frame)]
+    names = [simulation.item.name for simulation in _jumped(unbaked(depsgraph), frame)]
     if not names:
         return ()
     return (f"the physics of {names[0]!r} is not baked: unless all frames were rendered in order, bake it first",)
@@ -123,12 +124,12 @@ def unbaked(depsgraph) -> Iterator[Physics]:
     world = scene.rigidbody_world
     if world is not None and world.enabled and world.collection is not None:
         bodies = sorted(world.collection.objects, key=lambda item: item.name)
-        for item in [one for one in bodies if one.rigid_body is not None and one.rigid_body.type == "ACTIVE"][:1]:
+        for item in [body for body in bodies if body.rigid_body is not None and body.rigid_body.type == "ACTIVE"][:1]:
             yield from _of_cache(item, world.point_cache, skips)
-    own = set(layer.objects)
+    layer_objects = set(layer.objects)
     evaluated = {item.original for item in depsgraph.ids if isinstance(item, bpy.types.Object)}
-    for item in sorted(own | evaluated, key=lambda item: item.name):
-        hidden = item in own and not item.hide_render and not item.visible_get(view_layer=layer)
+    for item in sorted(layer_objects | evaluated, key=lambda item: item.name):
+        hidden = item in layer_objects and not item.hide_render and not item.visible_get(view_layer=layer)
         for modifier in item.modifiers:
             if modifier.show_render:
                 unseen = hidden or not modifier.show_viewport
@@ -181,8 +182,8 @@ def _has_files(modifier, bake) -> bool:
     return any((folder / "meta").glob("*.json"))
 
 
-def _jumped(found: Iterable[Physics], frame: float) -> list[Physics]:
-    return [one for one in found if one.is_known and frame > one.first]
+def _jumped(simulations: Iterable[Physics], frame: float) -> list[Physics]:
+    return [simulation for simulation in simulations if simulation.is_known and frame > simulation.first]
 
 
 def _play(scene, first: int, last: int) -> None:

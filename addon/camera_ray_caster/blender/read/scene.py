@@ -88,8 +88,8 @@ def read_shapes(scene, camera_object=None, *, frame=None, view="") -> Shapes:
 def _with_motion(scene, camera_object, depsgraph, view: str, passes=()) -> Scene:
     eye, frame = partial(eye_record, view=view), frame_of(depsgraph.scene_eval)
     read = partial(scene_at, eye=eye)
-    found = read(camera_object, depsgraph)
-    return with_other_frames(found, depsgraph, camera_object, frame, passes, partial(go_to, scene), read)
+    record = read(camera_object, depsgraph)
+    return with_other_frames(record, depsgraph, camera_object, frame, passes, partial(go_to, scene), read)
 
 
 _readings: list[bool] = []

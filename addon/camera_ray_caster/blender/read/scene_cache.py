@@ -52,9 +52,9 @@ def cached_scene(context) -> CachedScene:
     else:
         shapes, otherwise = shapes_record(depsgraph), evaluated_otherwise(depsgraph)
     raw, camera, reason = _camera(scene.camera, depsgraph)
-    said = tuple(differences(camera, scene))
+    messages = tuple(differences(camera, scene))
     camera = camera and replace(camera, pixel_time=None)
-    _read[:] = [CachedScene(key, raw, camera, shapes, reason, said, otherwise)]
+    _read[:] = [CachedScene(key, raw, camera, shapes, reason, messages, otherwise)]
     _stale.clear()
     return _read[0]
 

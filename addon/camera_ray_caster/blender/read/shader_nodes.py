@@ -37,7 +37,7 @@ class ShaderParts(NamedTuple):
 
     lit: Value | None = None
     """Color in light."""
-    own: Value | None = None
+    emission: Value | None = None
     """Color of emission, before its strength."""
     glow: Value | None = None
     """Emission."""
@@ -45,10 +45,10 @@ class ShaderParts(NamedTuple):
 
 def transparency(nodes: Nodes, socket, groups: tuple) -> Value | None:
     """Return what the shader at a socket lets through, three channels or one; None for nothing. Raises Unread."""
-    found, output, groups = nodes.source(socket, groups)
-    if found is None or output.type != "SHADER":
+    source, output, groups = nodes.source(socket, groups)
+    if source is None or output.type != "SHADER":
         return None
-    node = Node(nodes, found, groups)
+    node = Node(nodes, source, groups)
     return nodes.once(node, "transparency", lambda: _transparency(nodes, node))
 
 
@@ -58,8 +58,8 @@ def _transparency(nodes: Nodes, node: Node) -> Value | None:
         return node.input("Color")
     if kind == PRINCIPLED:
         alpha = node.input("Alpha")
-        rest = function_of(lambda one: 1 - saturated(one), alpha)
-        return None if isinstance(rest, Constant) and not rest.values.any() else rest
+        transmission = function_of(lambda values: 1 - saturated(values), alpha)
+        return None if isinstance(transmission, Constant) and not transmission.values.any() else transmission
     if kind in {MIX, ADD}:
         parts = [transparency(nodes, node.inputs[k], node.groups) for k in shaders(kind)]
         return None if parts == [None, None] else _combined(node, *parts)
@@ -72,13 +72,13 @@ def colors(nodes: Nodes, socket, groups: tuple, weighs: bool) -> ShaderParts:
     """Return the colors of the shader at a socket. ``weighs``: whether the alpha of Principled BSDFs weights theirs.
     Raises Unread.
     """
-    found, output, inner = nodes.source(socket, groups)
+    source, output, inner = nodes.source(socket, groups)
     if output.type != "SHADER":  # Cycles lets it emit
         value = nodes.value(socket, groups, "RGBA")
         return ShaderParts(None, value, value)
-    if found is None:
+    if source is None:
         return ShaderParts()
-    node = Node(nodes, found, inner)
+    node = Node(nodes, source, inner)
     return nodes.once(node, f"colors {weighs}", lambda: _colors(nodes, node, weighs))
 
 
@@ -97,8 +97,8 @@ def _colors(nodes: Nodes, node: Node, weighs: bool) -> ShaderParts:
         return ShaderParts(None, color, function_of(lambda a, b: a * b, color, node.input("Strength")))
     if kind in {MIX, ADD}:
         first, second = (colors(nodes, node.inputs[k], node.groups, weighs) for k in shaders(kind))
-        return ShaderParts(*(None if one is other is None else _combined(node, one, other)
-                       for one, other in zip(first, second, strict=True)))  # fmt: skip
+        return ShaderParts(*(None if color is other_color is None else _combined(node, color, other_color)
+                       for color, other_color in zip(first, second, strict=True)))  # fmt: skip
     raise Unread(f"node {node.name!r} ({node.bl_rna.name})")
 
 
@@ -108,7 +108,7 @@ def _principled(node: Node, weighs: bool) -> ShaderParts:
     if not (isinstance(strength, Constant) and not strength.values.any()):
         parts[1] = function_of(lambda a, b: a * b, node.input("Emission Color"), strength)
     if not (isinstance(alpha, Constant) and (alpha.values >= 1).all()):
-        parts = [part and function_of(lambda a, b: a * saturated(b), part, alpha) for part in parts]
+        parts = [color and function_of(lambda a, b: a * saturated(b), color, alpha) for color in parts]
     return ShaderParts(parts[0], None, parts[1])
 
 
@@ -127,7 +127,7 @@ def _combined(node: Node, first: Value | None, second: Value | None) -> Value:
 
 def alpha_of(through: Value) -> Value:
     """Return the alpha of a surface that lets this part of the light through."""
-    return mean(function_of(lambda one: saturated(1 - one), through))
+    return mean(function_of(lambda values: saturated(1 - values), through))
 
 
 def material_nodes(reads_images: bool = True) -> Nodes:

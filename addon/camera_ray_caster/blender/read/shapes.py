@@ -138,11 +138,10 @@ class _Scene:
             group.notes += (HOLDOUT,)
 
     def geometry(self, instance) -> Hashable:
-        """Return a key of Cycles' geometry of an instance: its data, or its object if that has its own material slots.
-        """
+        """Return a key of Cycles' geometry of an instance: its data, or its object if that has its own materials."""
         data, item = instance.object.data, instance.instance_object or instance.object
-        own = item.data == data and any(slot.link == "OBJECT" for slot in item.material_slots)
-        return item.original.session_uid if own else data.as_pointer()
+        has_slots = item.data == data and any(slot.link == "OBJECT" for slot in item.material_slots)
+        return item.original.session_uid if has_slots else data.as_pointer()
 
     def record(self) -> Shapes:
         """Return the record of all groups."""

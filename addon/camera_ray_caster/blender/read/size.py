@@ -14,10 +14,10 @@ def own_size(camera_object) -> tuple[int, int] | None:
 
     Raises InputError for a property that is no size.
     """
-    given = camera_object.get(SIZE)
-    if given is None:
+    stored = camera_object.get(SIZE)
+    if stored is None:
         return None
-    sides = given.to_list() if hasattr(given, "to_list") else []
+    sides = stored.to_list() if hasattr(stored, "to_list") else []
     if len(sides) != 2 or not all(isinstance(side, int) and side >= 4 for side in sides):
         raise InputError(f"{SIZE} of {camera_object.name!r} must be two whole numbers, width and height, 4 or more")
     return sides[0], sides[1]

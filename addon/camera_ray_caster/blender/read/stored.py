@@ -82,5 +82,5 @@ def _animated(owner) -> Iterator[str]:
     strips = [strip for track in animation.nla_tracks for strip in track.strips]
     for user in (animation, *strips):
         if user.action is not None and user.action_slot is not None:
-            bags = (part.channelbag(user.action_slot) for layer in user.action.layers for part in layer.strips)
+            bags = (strip.channelbag(user.action_slot) for layer in user.action.layers for strip in layer.strips)
             yield from (curve.data_path for bag in bags if bag is not None for curve in bag.fcurves)

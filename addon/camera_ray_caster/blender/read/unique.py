@@ -33,8 +33,7 @@ def by_name(items: Iterable) -> dict[str, object]:
 
 
 def named(name: str, items: Iterable):
-    """Return the object of this unique name, or the only one that is called so in its own file; None if there is none.
-    """
-    found = by_name(items)
-    own = [item for item in found.values() if item.name == name]
-    return found.get(name) or (own[0] if len(own) == 1 else None)
+    """Return the object of this unique name, or the only one called so in its own file; None if there is none."""
+    known = by_name(items)
+    local = [item for item in known.values() if item.name == name]
+    return known.get(name) or (local[0] if len(local) == 1 else None)

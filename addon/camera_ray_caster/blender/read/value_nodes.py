@@ -105,9 +105,9 @@ def _attribute(nodes: Nodes, node: Node, output) -> Value:
     return function_of(lambda values: values.mean(axis=0, keepdims=True), vector)
 
 
-def _color_layer(nodes: Nodes, name: str, part: str) -> Value:
+def _color_layer(nodes: Nodes, name: str, output_name: str) -> Value:
     rgba = _layer(nodes, f"color:{name}", 4)
-    return channel(rgba, 3) if part == "Alpha" else function_of(lambda values: values[:3], rgba)
+    return channel(rgba, 3) if output_name == "Alpha" else function_of(lambda values: values[:3], rgba)
 
 
 def _layer(nodes: Nodes, name: str, channels: int) -> Value:
@@ -145,8 +145,8 @@ def _blended(node: Node, factor: Value, first: Value, second: Value, clamps: boo
         raise node.unread(f"blend type {node.blend_type.lower()}")
     if getattr(node.node, "clamp_factor", True):
         factor = function_of(do.saturated, factor)
-    found = function_of(lambda f, a, b: do.mix(f, a, blend(a, b)), factor, first, second)
-    return function_of(do.saturated, found) if clamps else found
+    blended = function_of(lambda f, a, b: do.mix(f, a, blend(a, b)), factor, first, second)
+    return function_of(do.saturated, blended) if clamps else blended
 
 
 def _ramp(nodes: Nodes, node: Node, output) -> Value:
@@ -157,8 +157,8 @@ def _ramp(nodes: Nodes, node: Node, output) -> Value:
 
 
 def _checker(nodes: Nodes, node: Node, output) -> Value:
-    place = node.input("Vector") if node.is_linked("Vector") else _generated(nodes)
-    first = function_of(do.checker, place, node.input("Scale"))
+    position = node.input("Vector") if node.is_linked("Vector") else _generated(nodes)
+    first = function_of(do.checker, position, node.input("Scale"))
     if output.name != "Color":
         return first
     return function_of(do.mix, first, node.input("Color2"), node.input("Color1"))
@@ -168,8 +168,8 @@ def _math(nodes: Nodes, node: Node, output) -> Value:
     how = do.MATHS.get(node.operation)
     if how is None:
         raise node.unread(f"operation {node.operation.lower()}")
-    found = function_of(how, *(node.input(k) for k in range(3)))
-    return function_of(do.saturated, found) if node.use_clamp else found
+    result = function_of(how, *(node.input(k) for k in range(3)))
+    return function_of(do.saturated, result) if node.use_clamp else result
 
 
 def _vector_math(nodes: Nodes, node: Node, output) -> Value:
@@ -183,8 +183,8 @@ def _vector_math(nodes: Nodes, node: Node, output) -> Value:
 
 def _mapping(nodes: Nodes, node: Node, output) -> Value:
     none = constant(0, 0, 0)
-    place = node.input("Location") if node.vector_type in {"POINT", "TEXTURE"} else none
-    return function_of(partial(do.mapped, node.vector_type), node.input("Vector"), place, node.input("Rotation"),
+    location = node.input("Location") if node.vector_type in {"POINT", "TEXTURE"} else none
+    return function_of(partial(do.mapped, node.vector_type), node.input("Vector"), location, node.input("Rotation"),
                        node.input("Scale"))  # fmt: skip
 
 
@@ -193,10 +193,10 @@ def _map_range(nodes: Nodes, node: Node, output) -> Value:
         raise node.unread("other than linear, of a value")
     names = "Value", "From Min", "From Max", "To Min", "To Max"
     inputs = [node.input(name) for name in names]
-    found = function_of(do.map_range, *inputs)
+    mapped = function_of(do.map_range, *inputs)
     if not node.clamp:
-        return found
-    return function_of(lambda x, a, b: np.clip(x, np.minimum(a, b), np.maximum(a, b)), found, *inputs[3:])
+        return mapped
+    return function_of(lambda x, a, b: np.clip(x, np.minimum(a, b), np.maximum(a, b)), mapped, *inputs[3:])
 
 
 def _clamp(nodes: Nodes, node: Node, output) -> Value:
@@ -209,8 +209,8 @@ def _clamp(nodes: Nodes, node: Node, output) -> Value:
 def _separate(nodes: Nodes, node: Node, output) -> Value:
     if getattr(node.node, "mode", "RGB") != "RGB":
         raise node.unread(f"mode {node.mode}")
-    place = [one.identifier for one in node.outputs].index(output.identifier)
-    return channel(node.input(0), place)
+    index = [socket.identifier for socket in node.outputs].index(output.identifier)
+    return channel(node.input(0), index)
 
 
 def _combine(nodes: Nodes, node: Node, output) -> Value:

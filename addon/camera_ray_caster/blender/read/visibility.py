@@ -60,19 +60,23 @@ class ItemVisibility:
     def strands(self, item) -> list[str]:
         """Return the names of the particle systems whose hair a render draws on an evaluated object."""
         systems = () if self.in_viewport and item.original not in self.rendered else item.particle_systems
-        return [one.name for one in systems if one.settings.type == "HAIR" and one.settings.render_type == "PATH"]
+        return [
+            system.name
+            for system in systems
+            if system.settings.type == "HAIR" and system.settings.render_type == "PATH"
+        ]
 
     def unlisted(self, listed: set, instanced: set) -> list:
         """Return the objects that a render shows and the viewport has not evaluated, by name.
 
         listed: the objects that the depsgraph lists where they stand; instanced: those whose instances it lists.
         """
-        own = {item for item in self.rendered - listed if _shows_itself(item) or _instances_others(item)}
+        missing = {item for item in self.rendered - listed if _shows_itself(item) or _instances_others(item)}
         sources = {item for item in self.rendered if _is_instanced(item) and item.parent in self.rendered}
         for item in self.rendered:
             if item.instance_type == "COLLECTION" and item.instance_collection is not None:
                 sources.update(_of_collection(item.instance_collection))
-        return sorted(own | (sources - instanced), key=lambda item: item.name)
+        return sorted(missing | (sources - instanced), key=lambda item: item.name)
 
 
 def original_source(instance):
@@ -108,7 +112,7 @@ def _of_scene(scene, view_layer) -> Iterator:
     yield from _of_layer(view_layer.layer_collection)
     behind = scene.background_set
     if behind is not None:  # Blender shows its first layer that is rendered
-        yield from _of_scene(behind, next((one for one in behind.view_layers if one.use), behind.view_layers[0]))
+        yield from _of_scene(behind, next((layer for layer in behind.view_layers if layer.use), behind.view_layers[0]))
 
 
 def _of_layer(layer) -> Iterator:

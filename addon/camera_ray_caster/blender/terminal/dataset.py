@@ -151,7 +151,7 @@ def _claim(folder: Path, stamp: dict[str, Any], about: Mapping[str, Any] = Mappi
         raise InputError(f"{str(folder)!r} has a data set that differs in {', '.join(others)}: choose another folder")
     if found.get("run") == about.get("run"):
         return
-    if shares.found(folder):
+    if shares.existing(folder):
         raise InputError(
             f"{str(folder)!r} has shares of a run of other cameras or frames: complete these first (--complete), or "
             "choose another folder"

@@ -67,18 +67,18 @@ def camera(model: str, size, pose=None, **settings: Any) -> Camera:
     port = the_word(settings.get(PORT.name, PORT.default), PORT.name, PORTS)
     kind = behind(known[model], port)
     declared = declared_by(kind, mode)
-    given = checked(model, declared, settings)
+    explicit = checked(model, declared, settings)
     for setting in declared.values():
         if isinstance(setting, Line) and setting.name not in settings:
             raise InputError(f"{model} needs {setting.name}: {line_in_words(setting)}")
     if port == PORT.default:
-        given.pop(PORT.name, None)
-    given |= completed(model, declared, given, (width, height))
-    given = {**kind.following(given), **given}
-    values = {key: one.default for key, one in declared.items() if key not in RECORD_FIELDS}
-    values |= {key: value for key, value in given.items() if key not in RECORD_FIELDS}
+        explicit.pop(PORT.name, None)
+    explicit |= completed(model, declared, explicit, (width, height))
+    explicit = {**kind.following(explicit), **explicit}
+    values = {key: setting.default for key, setting in declared.items() if key not in RECORD_FIELDS}
+    values |= {key: value for key, value in explicit.items() if key not in RECORD_FIELDS}
     fields: dict[str, Any] = {"clip_start": 0.0, "clip_end": np.inf}
-    fields |= {key: value for key, value in given.items() if key in RECORD_FIELDS}
+    fields |= {key: value for key, value in explicit.items() if key in RECORD_FIELDS}
     raw = BlenderCamera(
         name=name,
         type="PERSP",
@@ -89,8 +89,8 @@ def camera(model: str, size, pose=None, **settings: Any) -> Camera:
         settings={pixel_time.MODE.name: mode, "frame": frame, "focus_position": None, **values},
         **fields,
     )
-    for one in DEPTH_OF_FIELD:
-        one.read(raw)
+    for setting in DEPTH_OF_FIELD:
+        setting.read(raw)
     return camera_from(raw)
 
 

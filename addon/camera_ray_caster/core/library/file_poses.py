@@ -50,8 +50,8 @@ def pose_in_file(path: str, lens: Lens, model: str, frame: tuple[int, int]) -> n
                 f"the poses that {path!r} may have in {entry[1]!r} are not read: give pose=", stacklevel=CALLER
             )
         return None
-    poses = [pose for camera in cameras for own, pose in zip(camera.lenses, camera.poses, strict=False)
-             if (own.name == lens.name if is_table else own == lens)]  # fmt: skip
+    poses = [pose for camera in cameras for mounted_lens, pose in zip(camera.lenses, camera.poses, strict=False)
+             if (mounted_lens.name == lens.name if is_table else mounted_lens == lens)]  # fmt: skip
     if len(poses) > 1:
         warnings.warn(
             f"the {len(poses)} poses of camera {lens.name!r} in {path!r} are left out: give pose=", stacklevel=CALLER

@@ -59,9 +59,9 @@ def join(*shapes: Shapes) -> Shapes:
 
 def _identity(shapes: Sequence[Shapes]) -> np.ndarray:
     """Return the identities of the shapes if all of them have one, each its own."""
-    found = np.concatenate([one.identity for one in shapes])
-    is_whole = len(found) == sum(map(len, shapes)) == len(np.unique(found))
-    return found if is_whole else np.zeros(0, np.int64)
+    identities = np.concatenate([record.identity for record in shapes])
+    is_whole = len(identities) == sum(map(len, shapes)) == len(np.unique(identities))
+    return identities if is_whole else np.zeros(0, np.int64)
 
 
 def _chained(parts) -> tuple:
@@ -81,27 +81,27 @@ def _moved(columns: Sequence[np.ndarray], tables: Sequence[Any]) -> np.ndarray:
 
 
 def _lights(lights: Sequence[Lights]) -> Lights:
-    parts: dict[str, Any] = {name: np.concatenate([getattr(one, name) for one in lights]) for name in LIGHTS}
-    if any(len(one.axis) for one in lights):
+    parts: dict[str, Any] = {name: np.concatenate([getattr(record, name) for record in lights]) for name in LIGHTS}
+    if any(len(record.axis) for record in lights):
         for name, other in (("axis", (0.0, 0.0, 0.0)), ("cone", EVERYWHERE)):
-            own = [getattr(one, name) for one in lights]
+            columns = [getattr(record, name) for record in lights]
             filled = [
-                part if len(part) else np.tile(other, (len(one.is_sun), 1))
-                for part, one in zip(own, lights, strict=True)
+                column if len(column) else np.tile(other, (len(record.is_sun), 1))
+                for column, record in zip(columns, lights, strict=True)
             ]
             parts[name] = np.concatenate(filled)
-    return Lights(**parts, left_out=_chained(one.left_out for one in lights))
+    return Lights(**parts, left_out=_chained(record.left_out for record in lights))
 
 
 def _slots(shapes: Sequence[Shapes], has_surfaces: bool) -> Slots | None:
     none = np.zeros(0, np.int32)
-    if all(one.slots is None for one in shapes):
+    if all(record.slots is None for record in shapes):
         return None
-    slots = [one.slots or Slots(np.full(len(one), -1), none, np.zeros((0, 4), np.float32)) for one in shapes]
-    surfaces = [_column(one.surface, len(one.material_index)) for one in slots]
+    slots = [record.slots or Slots(np.full(len(record), -1), none, np.zeros((0, 4), np.float32)) for record in shapes]
+    surfaces = [_column(slot.surface, len(slot.material_index)) for slot in slots]
     return Slots(
-        first=_moved([one.first for one in slots], [one.material_index for one in slots]),
-        material_index=np.concatenate([one.material_index for one in slots]),
-        color=np.concatenate([one.color for one in slots]),
-        surface=_moved(surfaces, [one.surfaces for one in shapes]) if has_surfaces else none,
+        first=_moved([slot.first for slot in slots], [slot.material_index for slot in slots]),
+        material_index=np.concatenate([slot.material_index for slot in slots]),
+        color=np.concatenate([slot.color for slot in slots]),
+        surface=_moved(surfaces, [record.surfaces for record in shapes]) if has_surfaces else none,
     )

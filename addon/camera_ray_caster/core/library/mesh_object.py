@@ -23,8 +23,8 @@ def arrays_of(mesh: Any) -> dict[str, Any]:
     """
     vertices, faces = (getattr(mesh, name, None) for name in ("vertices", "faces"))
     if vertices is None or faces is None:
-        what = shown(type(mesh))
-        raise InputError(f"{what} has no vertices and faces: give mesh(vertices, faces), or a mesh of trimesh")
+        type_name = shown(type(mesh))
+        raise InputError(f"{type_name} has no vertices and faces: give mesh(vertices, faces), or a mesh of trimesh")
     uv = getattr(getattr(mesh, "visual", None), "uv", None)
     return {"vertices": np.asarray(vertices), "faces": np.asarray(faces), "uv": None if uv is None else np.asarray(uv)}
 

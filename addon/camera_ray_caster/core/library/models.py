@@ -22,7 +22,7 @@ class Models(dict[str, type[Model]]):
     def __repr__(self) -> str:
         width = max(map(len, self), default=0)
         return "\n".join(
-            f"{key:{width}}  {model.label}: {', '.join(one.name for one in model.SETTINGS) or 'no settings'}"
+            f"{key:{width}}  {model.label}: {', '.join(setting.name for setting in model.SETTINGS) or 'no settings'}"
             for key, model in self.items()
         )
 
@@ -50,9 +50,10 @@ def add_model(model: type[Model]) -> None:
     word(model.group, f"group of model {model.key}", GROUPS)
     if model.number is not None:
         count(model.number, f"number of model {model.key}", LARGEST)
-    others = [one for one in MODELS if one.key != model.key]
-    if model.number is not None and model.number in [one.number for one in others]:
+    others = [known for known in MODELS if known.key != model.key]
+    if model.number is not None and model.number in [known.number for known in others]:
         raise InputError(f"number {model.number} of model {model.key} is another model's: take one from 1000 on")
-    if any(one.key == model.key and one.__module__.startswith(Model.__module__.rpartition(".")[0]) for one in MODELS):
+    package = Model.__module__.rpartition(".")[0]
+    if any(known.key == model.key and known.__module__.startswith(package) for known in MODELS):
         raise InputError(f"key {model.key} is that of a model of the package: take another one")
     MODELS[:] = [*others, model]

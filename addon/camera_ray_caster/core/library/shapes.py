@@ -153,7 +153,7 @@ def _placed(primitive: Primitive, matrices: np.ndarray, object_index, material_i
     color = numbers(color, "color")
     if color.shape[-1:] == (3,):
         color = np.concatenate((color, np.ones((*color.shape[:-1], 1))), axis=-1)
-    names = (a_name(name),) if isinstance(name, str) else tuple(a_name(one, "one of name") for one in name)
+    names = (a_name(name),) if isinstance(name, str) else tuple(a_name(row_name, "one of name") for row_name in name)
     if len(names) not in (1, n):
         raise InputError(f"{len(names)} names are given for {n} shapes: give one, or as many")
     return Shapes(

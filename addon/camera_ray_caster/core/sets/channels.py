@@ -21,8 +21,8 @@ COMPOSITE = "Composite"
 """Blender's name for the layer of the compositor's result, which is no pass."""
 NOTHING = 1e10
 """Depth from which Blender's files mean that nothing is hit."""
-LABELS = {label.lower(): key for key, one in PASSES.items()
-          for label in (one.label or key.replace("_", " "), one.label_before_5_0) if label}  # fmt: skip
+LABELS = {label.lower(): key for key, declared in PASSES.items()
+          for label in (declared.label or key.replace("_", " "), declared.label_before_5_0) if label}  # fmt: skip
 
 
 def passes_of(path: Path, camera: Mapping[str, Any]) -> dict[str, np.ndarray]:
@@ -36,16 +36,16 @@ def passes_of(path: Path, camera: Mapping[str, Any]) -> dict[str, np.ndarray]:
             "--format NPZ"
         )
     channels = ray_exr.decoder(str(path))
-    found: dict[str, dict[str, dict[str, np.ndarray]]] = {}
+    by_layer: dict[str, dict[str, dict[str, np.ndarray]]] = {}
     for name, values in channels.items():
         layer, label, letter = name.rsplit(".", 2) if name.count(".") > 1 else ("", "", name)
         key = LABELS.get(label.lower())
         if key is not None and layer != COMPOSITE:
-            found.setdefault(layer, {}).setdefault(key, {})[letter] = _window(values, camera)
-    names = file_names(sorted(found))
+            by_layer.setdefault(layer, {}).setdefault(key, {})[letter] = _window(values, camera)
+    names = file_names(sorted(by_layer))
     return {
-        key if len(found) == 1 else f"{names[layer]}.{key}": _array(key, parts)
-        for layer, passes in found.items()
+        key if len(by_layer) == 1 else f"{names[layer]}.{key}": _array(key, parts)
+        for layer, passes in by_layer.items()
         for key, parts in passes.items()
     }
 

@@ -19,10 +19,10 @@ Entries = dict[str, Any]
 
 def without_objects(document: Entries, objects: list[Entries]) -> Entries:
     """Return annotations of one picture with ``moved`` in place of ``objects``."""
-    own = document["objects"]
-    if [one["shape_index"] for one in own] != [one["shape_index"] for one in objects]:
+    entries = document["objects"]
+    if [entry["shape_index"] for entry in entries] != [entry["shape_index"] for entry in objects]:
         return document
-    moved = [one for one, other in zip(own, objects, strict=True) if one != other]
+    moved = [entry for entry, other_entry in zip(entries, objects, strict=True) if entry != other_entry]
     return {key: value for key, value in document.items() if key != "objects"} | {"moved": moved}
 
 
@@ -30,15 +30,15 @@ def with_objects(document: Entries, objects: list[Entries]) -> Entries:
     """Undo ``without_objects``; other annotations are returned as they are."""
     if "moved" not in document:
         return document
-    moved = {one["shape_index"]: one for one in document["moved"]}
-    whole = [moved.get(one["shape_index"], one) for one in objects]
+    moved = {entry["shape_index"]: entry for entry in document["moved"]}
+    whole = [moved.get(entry["shape_index"], entry) for entry in objects]
     return {key: value for key, value in document.items() if key != "moved"} | {"objects": whole}
 
 
 def dataset_of(folder: Path) -> Entries:
     """Return the content of dataset.json of a folder of pictures, or of the folder around it; {} if there is none."""
-    for place in (folder, folder.parent):
-        path = place / DATASET
+    for candidate in (folder, folder.parent):
+        path = candidate / DATASET
         try:
             state = path.stat()
             return _read(path, state.st_mtime_ns, state.st_size)
@@ -49,5 +49,5 @@ def dataset_of(folder: Path) -> Entries:
 
 @lru_cache(maxsize=2)
 def _read(path: Path, changed: int, size: int) -> Entries:
-    found = json.loads(path.read_text(encoding="utf-8"))
-    return found if isinstance(found, dict) else {}
+    content = json.loads(path.read_text(encoding="utf-8"))
+    return content if isinstance(content, dict) else {}

@@ -49,7 +49,7 @@ def files(views: list[View]) -> Files:
         names = {split: [f"images/{view.name}.png" for view in views if view.split == split]
                  for split in (TRAIN, VALIDATION)}  # fmt: skip
         parts = {"train": names[TRAIN], "val": names[VALIDATION], "test": names[VALIDATION]}
-        transforms |= {f"{part}_filenames": own for part, own in parts.items()}
+        transforms |= {f"{split}_filenames": paths for split, paths in parts.items()}
     before, after = json.dumps(transforms, indent=1).split('""', 1)
     yield "transforms.json", chain([before], frames, [after])
 

@@ -26,21 +26,28 @@ def panoptic(views: list[View]) -> Files:
     images = {f"_{view.split}" if view.split else "": (Waiting(), Waiting()) for view in views}
     for view in views:
         entries = merging.entries(view.annotations)
-        own, (size,) = entries["annotations"], entries["images"]
+        objects, (size,) = entries["annotations"], entries["images"]
         ids = np.zeros((size["height"], size["width"]), np.uint32)
-        for one in own:
-            ids[unpacked(one["segmentation"])] = one["shape_index"] + 1
+        for entry in objects:
+            ids[unpacked(entry["segmentation"])] = entry["shape_index"] + 1
         colors = np.stack([(ids >> shift & 255).astype(np.uint8) for shift in (0, 8, 16)], axis=-1)
         end = f"_{view.split}" if view.split else ""
         yield f"panoptic{end}/{view.name}.png", png(colors)
         segments = [
-            {"id": one["shape_index"] + 1, "iscrowd": 0, **{key: one[key] for key in ("category_id", "bbox", "area")}}
-            for one in own
+            {
+                "id": shape["shape_index"] + 1,
+                "iscrowd": 0,
+                **{key: shape[key] for key in ("category_id", "bbox", "area")},
+            }
+            for shape in objects
         ]
         segmented = {"image_id": size["id"], "file_name": f"{view.name}.png", "segments_info": segments}
         for waiting, entry in zip(images[end], (size, segmented), strict=True):
             waiting.add(json.dumps(entry))
-    info, categories = json.dumps(merging.info), json.dumps([{**one, "isthing": 1} for one in merging.categories])
+    info, categories = (
+        json.dumps(merging.info),
+        json.dumps([{**category, "isthing": 1} for category in merging.categories]),
+    )
     for end, (files, segments_of) in images.items():
         yield f"panoptic{end}.json", chain(
             [f'{{"info": {info}, "images": ['], files, ['], "annotations": ['], segments_of,
@@ -55,29 +62,29 @@ def yolo(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
     merging = Merging(view.annotations for view in views)
     names = [*merging.numbers]
     lines = "".join(f"  {number}: {json.dumps(name, ensure_ascii=False)}\n" for number, name in enumerate(names))
-    train, validation = (f"images/{one}" if views[0].split else "images" for one in (TRAIN, VALIDATION))
+    train, validation = (f"images/{split}" if views[0].split else "images" for split in (TRAIN, VALIDATION))
     yield "data.yaml", f"path: .\ntrain: {train}\nval: {validation}\nnames:\n{lines}"
     for view in views:
         entries = merging.entries(view.annotations)
-        own, (size,) = entries["annotations"], entries["images"]
+        objects, (size,) = entries["annotations"], entries["images"]
         stem = f"{view.split}/{view.name}" if view.split else view.name
-        yield f"labels/{stem}.txt", "".join(_box(one, size) for one in own)
+        yield f"labels/{stem}.txt", "".join(_box(entry, size) for entry in objects)
         if (picture := view.picture) is not None:
             yield f"images/{stem}.png", picture
 
 
-def _box(one: dict[str, Any], size: dict[str, Any]) -> str:
-    x, y, width, height = one["bbox"]
+def _box(entry: dict[str, Any], size: dict[str, Any]) -> str:
+    x, y, width, height = entry["bbox"]
     sides = size["width"], size["height"]
     numbers = (x + width / 2) / sides[0], (y + height / 2) / sides[1], width / sides[0], height / sides[1]
-    return f"{one['category_id'] - 1} {' '.join(f'{number:.8f}' for number in numbers)}\n"
+    return f"{entry['category_id'] - 1} {' '.join(f'{number:.8f}' for number in numbers)}\n"
 
 
 def masks(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
     """Yield for each object in each view its visible and its whole mask; the names have its shape index."""
     for view in views:
-        for one in (*view.annotations["annotations"], *view.annotations["hidden"]):
-            stem = f"{view.name}_{one['shape_index']:04}"
-            if "segmentation" in one:
-                yield f"mask_visible/{stem}.png", png(unpacked(one["segmentation"]).astype(np.uint8) * 255)
-            yield f"mask_whole/{stem}.png", png(unpacked(one["segmentation_whole"]).astype(np.uint8) * 255)
+        for entry in (*view.annotations["annotations"], *view.annotations["hidden"]):
+            stem = f"{view.name}_{entry['shape_index']:04}"
+            if "segmentation" in entry:
+                yield f"mask_visible/{stem}.png", png(unpacked(entry["segmentation"]).astype(np.uint8) * 255)
+            yield f"mask_whole/{stem}.png", png(unpacked(entry["segmentation_whole"]).astype(np.uint8) * 255)

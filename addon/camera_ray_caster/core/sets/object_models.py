@@ -53,9 +53,9 @@ class ObjectModel:
         with np.errstate(invalid="ignore"):  # a triangle without an area has no normal
             face /= np.linalg.norm(face, axis=1)[:, None]
             for corner in sides:
-                here, one, other = self.vertices[corner.T]
-                across = np.linalg.norm(np.cross(one - here, other - here), axis=1)
-                angle = np.arctan2(across, np.einsum("ij,ij->i", one - here, other - here))
+                here, after, before = self.vertices[corner.T]
+                across = np.linalg.norm(np.cross(after - here, before - here), axis=1)
+                angle = np.arctan2(across, np.einsum("ij,ij->i", after - here, before - here))
                 np.add.at(total, corner[:, 0], np.nan_to_num(face * angle[:, None]))
             return np.nan_to_num(total / np.linalg.norm(total, axis=1)[:, None])
 
@@ -82,14 +82,14 @@ class ObjectModel:
         return symmetries(scale * self.vertices, normals, self.colors)
 
 
-def model_of(shapes: Shapes, one: dict[str, Any]) -> ObjectModel:
+def model_of(shapes: Shapes, entry: dict[str, Any]) -> ObjectModel:
     """Return the model of an object, an entry of ``object_poses``, in Blender units. Raises InputError if the shapes do
     not have it, or of another size.
     """
-    rows = [row for row in range(len(shapes)) if shapes.names[shapes.name_index[row]] == one["object"]]
-    if len(rows) <= one["instance"]:
-        raise no_shape(one["object"])
-    row = rows[one["instance"]]
+    rows = [row for row in range(len(shapes)) if shapes.names[shapes.name_index[row]] == entry["object"]]
+    if len(rows) <= entry["instance"]:
+        raise no_shape(entry["object"])
+    row = rows[entry["instance"]]
     slot = None
     if shapes.kind[row] == MESH:
         mesh = shapes.meshes[shapes.mesh[row]]
@@ -98,7 +98,7 @@ def model_of(shapes: Shapes, one: dict[str, Any]) -> ObjectModel:
     else:
         vertices, triangles = _square() if shapes.kind[row] == PLANE else _sphere()
     vertices = vertices * np.linalg.norm(shapes.axes[row], axis=0)
-    check_size(one, np.ptp(vertices, axis=0))
+    check_size(entry, np.ptp(vertices, axis=0))
     colors = _colors(shapes, row, slot, triangles, len(vertices))
     return ObjectModel(vertices, triangles, colors, int(shapes.kind[row]))
 
@@ -110,17 +110,15 @@ def no_shape(name: str) -> InputError:
     )
 
 
-def check_size(one: dict[str, Any], size: Sequence[float] | np.ndarray) -> None:
+def check_size(entry: dict[str, Any], size: Sequence[float] | np.ndarray) -> None:
     """Raise InputError if an object, an entry of ``object_poses``, is of another size; exact shapes may be a little."""
-    if not np.allclose(size, one["size"], rtol=0.05, atol=1e-6):
+    if not np.allclose(size, entry["size"], rtol=0.05, atol=1e-6):
         raise InputError(
-            f"{one['object']!r} is of another size in the file of --models: give the file that the set is of"
+            f"{entry['object']!r} is of another size in the file of --models: give the file that the set is of"
         )
 
 
-def _colors(
-    shapes: Shapes, row: int, slot: np.ndarray | None, triangles: np.ndarray, count: int
-) -> np.ndarray | None:
+def _colors(shapes: Shapes, row: int, slot: np.ndarray | None, triangles: np.ndarray, count: int) -> np.ndarray | None:
     """Return the linear colors of the vertices of a shape, (count, 3); None if materials change over the surface."""
     slots = shapes.slots
     if slots is None or slots.first[row] < 0:
@@ -142,8 +140,8 @@ def ply(model: ObjectModel, scale: float) -> bytes:
     names = [("x", "y", "z"), ("nx", "ny", "nz")]
     arrays = [scale * model.vertices, model.normals]
     head = "ply\nformat binary_little_endian 1.0\n" + f"element vertex {len(model.vertices)}\n"
-    head += "".join(f"property float {name}\n" for part in names for name in part)
-    fields: list[tuple] = [(name, "<f4") for part in names for name in part]
+    head += "".join(f"property float {name}\n" for group in names for name in group)
+    fields: list[tuple] = [(name, "<f4") for group in names for name in group]
     if model.colors is not None:
         names.append(("red", "green", "blue"))
         arrays.append(srgb(model.colors))
@@ -151,8 +149,8 @@ def ply(model: ObjectModel, scale: float) -> bytes:
         head += "".join(f"property uchar {name}\n" for name in names[-1])
     head += f"element face {len(model.triangles)}\nproperty list uchar int vertex_indices\nend_header\n"
     points = np.empty(len(model.vertices), np.dtype(fields))
-    for part, array in zip(names, arrays, strict=True):
-        for name, values in zip(part, array.T, strict=True):
+    for group, array in zip(names, arrays, strict=True):
+        for name, values in zip(group, array.T, strict=True):
             points[name] = values
     faces = np.empty(len(model.triangles), np.dtype([("count", "u1"), ("vertices", "<i4", 3)]))
     faces["count"], faces["vertices"] = 3, model.triangles
@@ -188,4 +186,4 @@ def _sphere() -> tuple[np.ndarray, np.ndarray]:
         (index[:-1], index[1:], after[1:]), (index[:-1], after[1:], after[:-1]),
         (top, index[0], after[0]), (index[-1], bottom, after[-1]),
     )  # fmt: skip
-    return vertices, np.vstack([np.stack([one.ravel() for one in part], axis=1) for part in parts])
+    return vertices, np.vstack([np.stack([corner.ravel() for corner in triangles], axis=1) for triangles in parts])

@@ -32,9 +32,7 @@ STEP = 0.1
 """Millimeters of a step of depth, if the farthest hit is then within 16 bits; else as coarse as needed."""
 
 
-def files(
-    views: list[View], shapes_at: Callable[[float], Shapes] | None = None
-) -> Files:
+def files(views: list[View], shapes_at: Callable[[float], Shapes] | None = None) -> Files:
     """Yield the files of a set; see the package. ``shapes_at`` returns the shapes of a frame, of which models are made.
     Raises InputError for cameras that are no pinholes.
     """
@@ -43,21 +41,22 @@ def files(
         if reason is not None:
             raise InputError(f"BOP has pinholes only, and camera {view.camera_name!r} is none {reason}".strip()
                              + ": choose others (--cameras)")  # fmt: skip
-    named = {one["category"]: (one, view.frame) for view in views for one in view.annotations["objects"]}
+    named = {entry["category"]: (entry, view.frame) for view in views for entry in view.annotations["objects"]}
     numbers = {name: number for number, name in enumerate(sorted(named), 1)}
     cameras = list(dict.fromkeys(view.camera_name for view in views))
     for scene, name in enumerate(cameras):
-        own = [view for view in views if view.camera_name == name]
-        for split in dict.fromkeys(view.split for view in own):
-            yield from _scene(f"{split or 'test'}/{scene:06}", [view for view in own if view.split == split], numbers)
+        of_camera = [view for view in views if view.camera_name == name]
+        for split in dict.fromkeys(view.split for view in of_camera):
+            of_split = [view for view in of_camera if view.split == split]
+            yield from _scene(f"{split or 'test'}/{scene:06}", of_split, numbers)
     models = {}
     for name, number in numbers.items():
-        one, frame = named[name]
+        entry, frame = named[name]
         millimeters = factor(MILLIMETERS, views[0].meters)
-        size = np.array(one["size"]) * millimeters
+        size = np.array(entry["size"]) * millimeters
         across, same = float(np.linalg.norm(size)), dict[str, list[Any]]()
         if shapes_at is not None:
-            model = model_of(shapes_at(frame), one)
+            model = model_of(shapes_at(frame), entry)
             across, same = diameter(model.vertices * millimeters), model.symmetries(millimeters)
             yield f"models/obj_{number:06}.ply", ply(model, millimeters)
         models[str(number)] = {
@@ -79,13 +78,13 @@ def _scene(folder: str, views: list[View], numbers: dict[str, int]) -> Files:
             yield f"{folder}/rgb/{number}.png", picture
         (record,) = records("bop", [view.shot])
         cameras.add(_entry(view, image_of(record) | {"depth_scale": step}))
-        seen = {one["shape_index"]: one for part in ("annotations", "hidden") for one in view.annotations[part]}
-        poses = {one["shape_index"]: one for one in view.annotations["objects"]}
+        seen = {entry["shape_index"]: entry for kind in ("annotations", "hidden") for entry in view.annotations[kind]}
+        poses = {entry["shape_index"]: entry for entry in view.annotations["objects"]}
         truth.add(_entry(view, [_truth(view, poses[row], numbers) for row in seen if row in poses]))
-        facts.add(_entry(view, [_facts(one) for row, one in seen.items() if row in poses]))
-        for k, one in enumerate(one for row, one in seen.items() if row in poses):
-            visible = unpacked(one["segmentation"]) if "segmentation" in one else None
-            whole = unpacked(one["segmentation_whole"])
+        facts.add(_entry(view, [_facts(entry) for row, entry in seen.items() if row in poses]))
+        for k, entry in enumerate(entry for row, entry in seen.items() if row in poses):
+            visible = unpacked(entry["segmentation"]) if "segmentation" in entry else None
+            whole = unpacked(entry["segmentation_whole"])
             visible = np.zeros_like(whole) if visible is None else visible
             yield f"{folder}/mask/{number}_{k:06}.png", png(whole.astype(np.uint8) * 255)
             yield f"{folder}/mask_visib/{number}_{k:06}.png", png(visible.astype(np.uint8) * 255)
@@ -97,19 +96,20 @@ def _entry(view: View, content: Any) -> str:
     return f'"{int(view.frame)}": {json.dumps(content)}'
 
 
-def _truth(view: View, one: dict[str, Any], numbers: dict[str, int]) -> dict[str, Any]:
-    matrix, millimeters = view.camera.opencv_from_world @ np.array(one["matrix"]), factor(MILLIMETERS, view.meters)
+def _truth(view: View, entry: dict[str, Any], numbers: dict[str, int]) -> dict[str, Any]:
+    matrix, millimeters = view.camera.opencv_from_world @ np.array(entry["matrix"]), factor(MILLIMETERS, view.meters)
     return {
         "cam_R_m2c": matrix[:3, :3].ravel().tolist(), "cam_t_m2c": (matrix[:3, 3] * millimeters).tolist(),
-        "obj_id": numbers[one["category"]],
+        "obj_id": numbers[entry["category"]],
     }  # fmt: skip
 
 
-def _facts(one: dict[str, Any]) -> dict[str, Any]:
+def _facts(entry: dict[str, Any]) -> dict[str, Any]:
     return {
-        "bbox_obj": one["bbox_whole"], "bbox_visib": one.get("bbox", [-1, -1, -1, -1]),
-        "px_count_all": one["area_whole"], "px_count_valid": one["area_whole"], "px_count_visib": one.get("area", 0),
-        "visib_fract": one.get("visible_fraction", 0.0),
+        "bbox_obj": entry["bbox_whole"], "bbox_visib": entry.get("bbox", [-1, -1, -1, -1]),
+        "px_count_all": entry["area_whole"], "px_count_valid": entry["area_whole"],
+        "px_count_visib": entry.get("area", 0),
+        "visib_fract": entry.get("visible_fraction", 0.0),
     }  # fmt: skip
 
 

@@ -26,7 +26,7 @@ def png(pixels: np.ndarray) -> bytes:
     filtered[:, 1:] = rows
     head = struct.pack(">IIBBBBB", width, height, 8 * pixels.dtype.itemsize, COLOR[channels], 0, 0, 0)
     parts = (b"IHDR", head), (b"IDAT", zlib.compress(filtered.tobytes(), LEVEL)), (b"IEND", b"")
-    return SIGNATURE + b"".join(_chunk(*part) for part in parts)
+    return SIGNATURE + b"".join(_chunk(*chunk) for chunk in parts)
 
 
 def _chunk(kind: bytes, data: bytes) -> bytes:

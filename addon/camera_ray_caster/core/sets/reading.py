@@ -179,8 +179,8 @@ when it is asked for, so that a set of any size takes the memory of a few pictur
 
 @lru_cache(maxsize=HELD)
 def _report(view: View) -> Mapping[str, Any]:
-    own = json.loads((view.folder / f"{view.of}.json").read_text(encoding="utf-8"))
-    return {**dataset_of(view.folder).get("common", {}), **own}
+    report = json.loads((view.folder / f"{view.of}.json").read_text(encoding="utf-8"))
+    return {**dataset_of(view.folder).get("common", {}), **report}
 
 
 @lru_cache(maxsize=HELD)
@@ -192,8 +192,8 @@ def _camera(view: View) -> Camera:
 def _annotations(view: View) -> dict[str, Any]:
     path = view.folder / f"{view.name}{COCO}"
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-        return with_objects(found, dataset_of(view.folder).get("objects", []))
+        annotations = json.loads(path.read_text(encoding="utf-8"))
+        return with_objects(annotations, dataset_of(view.folder).get("objects", []))
     except (OSError, ValueError) as error:
         raise InputError(f"{str(path)!r} cannot be read: make the set with --annotations") from error
 
@@ -219,31 +219,33 @@ def views_of(path: Path, folder: Path | None = None) -> list[View]:
         of = report["made"].get("of", {})
         is_map = of.get("rays") is not None and of.get("frame") is None
         names = list(report["made"]["files"]) if "record" in report and not is_map else []
-        eyes = {eye: one for eye, one in report.get("views", {}).items()} or {"": report}
-        suffixes = {eye: str(one.get("suffix", "")) for eye, one in eyes.items()}
+        eyes = {eye: eye_report for eye, eye_report in report.get("views", {}).items()} or {"": report}
+        suffixes = {eye: str(eye_report.get("suffix", "")) for eye, eye_report in eyes.items()}
         title, frame = sys.intern(str(report["camera"]["name"])), float(report["frame"])
         camera = file_name(title)
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return []
-    stems = [one.rsplit(".", 1)[0] for one in names if one.endswith((".npz", ".exr"))]
-    own = [one for one in (*stems, *names) if one.startswith(path.stem)]
-    found = {eye: next((one for one in own or stems if one.endswith(end)), None) for eye, end in suffixes.items()}
-    if own and not report.get("views"):
-        found = {"": path.stem}
+    stems = [file.rsplit(".", 1)[0] for file in names if file.endswith((".npz", ".exr"))]
+    named_alike = [file for file in (*stems, *names) if file.startswith(path.stem)]
+    name_of = {
+        eye: next((name for name in named_alike or stems if name.endswith(end)), None) for eye, end in suffixes.items()
+    }
+    if named_alike and not report.get("views"):
+        name_of = {"": path.stem}
     return [
         View(folder or path.parent, name, path.stem, camera + suffixes[eye], frame, title,
              eyes[eye].get("record") is not None, eye)
-        for eye, name in found.items() if name is not None
+        for eye, name in name_of.items() if name is not None
     ]  # fmt: skip
 
 
 def read_set(folder: Path) -> list[View]:
     """Return the views of a set, by camera and frame. Raises InputError, in one line, for a folder without any."""
     views = []
-    for place in (folder, *_folders(folder)):
-        names = sorted(os.listdir(place)) if place.is_dir() else []
+    for candidate in (folder, *_folders(folder)):
+        names = sorted(os.listdir(candidate)) if candidate.is_dir() else []
         reports = (name for name in names if name.endswith(".json") and not name.endswith(NO_REPORTS))
-        views += [view for name in reports for view in views_of(place / name, place) if view.is_recorded]
+        views += [view for name in reports for view in views_of(candidate / name, candidate) if view.is_recorded]
     if not views:
         raise InputError(f"{str(folder)!r} has no pictures with reports: make a set with cast.py or dataset.py")
     return sorted(views, key=lambda view: (view.camera_name, view.frame))
@@ -261,21 +263,20 @@ def chosen(views: Sequence[View], cameras: Sequence[str] = (), frames: Collectio
     """
     names = {view: (view.title, view.camera_name) for view in views}
     for name in cameras:
-        if not any(name in own for own in names.values()):
-            raise InputError(
-                f"the set has no camera {name!r}, only {', '.join(dict.fromkeys(own for _, own in names.values()))}"
-            )
-    found = [view for view in views if not cameras or set(cameras) & set(names[view])]
-    found = [view for view in found if not frames or view.frame in frames]
-    if not found:
+        if not any(name in names_of for names_of in names.values()):
+            known = ", ".join(dict.fromkeys(camera_name for _, camera_name in names.values()))
+            raise InputError(f"the set has no camera {name!r}, only {known}")
+    selected = [view for view in views if not cameras or set(cameras) & set(names[view])]
+    selected = [view for view in selected if not frames or view.frame in frames]
+    if not selected:
         raise InputError(
             f"the set has none of these frames, only {min(view.frame for view in views):g} to "
             f"{max(view.frame for view in views):g}"
         )
-    return found
+    return selected
 
 
-def with_splits(views: Sequence[View], part: float) -> list[View]:
+def with_splits(views: Sequence[View], share: float) -> list[View]:
     """Return the views with their splits: a part of the frames, evenly spaced and at least one, is for validation, with
     all cameras; of a set of one frame a part of the cameras. Raises InputError for a single view.
     """
@@ -283,6 +284,6 @@ def with_splits(views: Sequence[View], part: float) -> list[View]:
     steps = sorted({by(view) for view in views})
     if len(steps) < 2:
         raise InputError("the set has one picture: it has no part for validation")
-    count = min(max(round(part * len(steps)), 1), len(steps) - 1)
+    count = min(max(round(share * len(steps)), 1), len(steps) - 1)
     held = {steps[int((k + 0.5) * len(steps) / count)] for k in range(count)}
     return [replace(view, split=VALIDATION if by(view) in held else TRAIN) for view in views]

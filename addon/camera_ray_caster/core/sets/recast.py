@@ -55,15 +55,15 @@ def with_meshes(views: Sequence[View], shapes_at: ShapesAt) -> list[View]:
 def _cast(view: MeshView) -> tuple[Mapping[str, np.ndarray], dict[str, Any]]:
     assert view.shapes_at is not None
     shapes, before = view.shapes_at(view.frame), view.written
-    category = {one["object"]: one["category"] for one in before["objects"]}
+    category = {entry["object"]: entry["category"] for entry in before["objects"]}
     names = {shapes.names[index] for index in shapes.name_index.tolist()}
     if missing := sorted(category.keys() - names):
         raise no_shape(missing[0])
     images = cast(view.camera, shapes, passes=("distance", "shape_index"), dtype=np.float64)
     sheet = Sheet.of(view.camera.raster)
     image = {name: value for name, value in before["images"][0].items() if name not in ("id", "width", "height")}
-    told = document(image, sheet, view.camera, shapes, lambda name: category.get(name, name), (), images)
-    sizes = {(one["object"], one["instance"]): one["size"] for one in before["objects"]}
-    for one in told["objects"]:
-        check_size(one, sizes.get((one["object"], one["instance"]), one["size"]))
-    return images, told
+    annotations = document(image, sheet, view.camera, shapes, lambda name: category.get(name, name), (), images)
+    sizes = {(entry["object"], entry["instance"]): entry["size"] for entry in before["objects"]}
+    for entry in annotations["objects"]:
+        check_size(entry, sizes.get((entry["object"], entry["instance"]), entry["size"]))
+    return images, annotations

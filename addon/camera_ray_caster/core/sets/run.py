@@ -40,10 +40,10 @@ class Run:
 
     def pictures(self, shard: tuple[int, int] | None = None) -> Iterator[RunPicture]:
         """Yield the pictures in their order, or those of share K of N: every N-th frame, from the K-th on."""
-        some = {camera: frozenset(frames) for camera, frames in self.of_camera.items()}
+        frames_of = {camera: frozenset(frames) for camera, frames in self.of_camera.items()}
         for frame in self.frames if shard is None else self.frames[shard[0] - 1 :: shard[1]]:
             for camera, file in self.cameras.items():
-                if camera not in some or frame in some[camera]:
+                if camera not in frames_of or frame in frames_of[camera]:
                     yield RunPicture(camera, frame, self._folder(file, frame) + f"{file}_{frame_digits(frame)}")
 
     def _folder(self, file: str, frame: float) -> str:
@@ -59,8 +59,8 @@ class Run:
         frames = self.frames
         ends = [frames[0], frames[-1], frames.step] if isinstance(frames, range) and frames else list(frames)
         name = "range" if isinstance(frames, range) and frames else "frames"
-        own = {camera: list(some) for camera, some in self.of_camera.items()}
-        return {"cameras": dict(self.cameras), name: ends, "of_camera": own, "folders": self.folders,
+        frames_of = {camera: list(numbers) for camera, numbers in self.of_camera.items()}
+        return {"cameras": dict(self.cameras), name: ends, "of_camera": frames_of, "folders": self.folders,
                 "suffixes": list(self.suffixes)}  # fmt: skip
 
     @classmethod

@@ -36,8 +36,9 @@ def views(folder=Path(__file__).parent):
     common = json.loads(dataset.read_text(encoding="utf-8")).get("common", {}) if dataset.is_file() else {}
     for path in sorted((*folder.rglob("*.npz"), *folder.rglob("*.exr"))):
         stems = path.stem, path.stem.rpartition("_")[0]  # without the suffix of a stereo view
-        reports = [path.parent / f"{one}.json" for stem in stems for one in (stem, f"report_{stem.rpartition('_')[2]}")]
-        for report in [one for one in reports if one.is_file()][:1]:
+        names = [name for stem in stems for name in (stem, f"report_{stem.rpartition('_')[2]}")]
+        reports = (path.parent / f"{name}.json" for name in names)
+        for report in [report for report in reports if report.is_file()][:1]:
             yield path.stem, {**common, **json.loads(report.read_text(encoding="utf-8"))}, passes_in(path)
 
 

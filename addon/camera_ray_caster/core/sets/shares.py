@@ -25,7 +25,7 @@ def running(folder: Path, shard: tuple[int, int] | None) -> Iterator[None]:
     if shard is None:
         yield
         return
-    others = {number for _, number in found(folder)}
+    others = {number for _, number in existing(folder)}
     if others - {shard[1]}:
         raise InputError(
             f"{str(folder)!r} has shares of {min(others)}, and this is one of {shard[1]}: complete these first "
@@ -43,7 +43,7 @@ def running(folder: Path, shard: tuple[int, int] | None) -> Iterator[None]:
         os.close(file)
 
 
-def found(folder: Path) -> list[tuple[int, int]]:
+def existing(folder: Path) -> list[tuple[int, int]]:
     """Return the shares that have begun in a folder, each as K and N, in order."""
     names = os.listdir(folder) if folder.is_dir() else []
     return sorted((int(match[1]), int(match[2])) for match in map(NAME.fullmatch, names) if match)
@@ -52,7 +52,7 @@ def found(folder: Path) -> list[tuple[int, int]]:
 def still_running(folder: Path) -> list[str]:
     """Return the shares that run now, as "K/N"."""
     busy = []
-    for number, of in found(folder):
+    for number, of in existing(folder):
         with suppress(FileNotFoundError):
             file = os.open(folder / f".share_{number}_of_{of}", os.O_RDWR)
             try:
@@ -67,6 +67,6 @@ def still_running(folder: Path) -> list[str]:
 def forget(folder: Path) -> None:
     """Remove the files of shares: the set is complete. Those that still run keep theirs."""
     busy = still_running(folder)
-    for number, of in found(folder):
+    for number, of in existing(folder):
         if f"{number}/{of}" not in busy:
             (folder / f".share_{number}_of_{of}").unlink(missing_ok=True)

@@ -37,15 +37,15 @@ def files(views: list[View], count: int = COUNT) -> Files:
     for number, (view, (line, _)) in enumerate(zip(views, images, strict=True), 1):
         rows, pixels = _seen(view, places)
         tracks.add(number, rows)
-        both = zip(rows.tolist(), pixels.tolist(), strict=True)
+        observations = zip(rows.tolist(), pixels.tolist(), strict=True)
         lines.add(f"{line} {view.name}.png\n", "")
-        lines.add(" ".join(f"{x!r} {y!r} {row + 1}" for row, (x, y) in both) + "\n", "")
+        lines.add(" ".join(f"{x!r} {y!r} {row + 1}" for row, (x, y) in observations) + "\n", "")
     yield "sparse/0/cameras.txt", head + cameras
     yield "sparse/0/images.txt", chain([head + IMAGES], lines)
     points = enumerate(zip(places.tolist(), colors.tolist(), tracks, strict=True), 1)
     yield "sparse/0/points3D.txt", chain([POINTS], (
-        f"{row} {' '.join(map(repr, place))} {' '.join(map(str, color))} 0 {track}\n"
-        for row, (place, color, track) in points
+        f"{row} {' '.join(map(repr, position))} {' '.join(map(str, color))} 0 {track}\n"
+        for row, (position, color, track) in points
     ))  # fmt: skip
     if views[0].split:
         yield "sparse/0/test.txt", "".join(f"{view.name}.png\n" for view in views if view.split == VALIDATION)
@@ -66,10 +66,10 @@ def _seeds(views: list[View], count: int) -> tuple[np.ndarray, np.ndarray]:
         places.append(points[row, column])
         gray = np.full((len(row), 3), 128, np.uint8)
         colors.append(srgb(view.pixels("combined")[row, column, :3]) if view.has("combined") else gray)
-    found, of = np.concatenate(places)[:count], np.concatenate(colors)[:count]
-    if not len(found):
+    seeds, of = np.concatenate(places)[:count], np.concatenate(colors)[:count]
+    if not len(seeds):
         raise InputError("no ray of the set hits anything: there are no seed points")
-    return found, of
+    return seeds, of
 
 
 def _seen(view: View, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -80,17 +80,17 @@ def _seen(view: View, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     with np.errstate(invalid="ignore"):
         column, row = np.floor(pixels[:, 0]) - raster.x0, np.floor(pixels[:, 1]) - raster.y0
         inside = (column >= 0) & (column < hit.shape[1]) & (row >= 0) & (row < hit.shape[0])
-    which = np.flatnonzero(inside)
-    row, column = row[which].astype(int), column[which].astype(int)
+    rows = np.flatnonzero(inside)
+    row, column = row[rows].astype(int), column[rows].astype(int)
     eye = camera.pose.eye
     with np.errstate(invalid="ignore"):
         distances = np.where(hit, np.linalg.norm(points - eye, axis=-1), np.nan)
     low, high = _around(distances)
-    own = np.linalg.norm(places[which] - eye, axis=1)
-    same = (own >= low[row, column]) & (own <= high[row, column])
-    which = which[same]
+    distance = np.linalg.norm(places[rows] - eye, axis=1)
+    same = (distance >= low[row, column]) & (distance <= high[row, column])
+    rows = rows[same]
     x0, _, _, y1 = raster.picture
-    return which, (pixels[which] - (x0, y1)) * (1, -1)
+    return rows, (pixels[rows] - (x0, y1)) * (1, -1)
 
 
 def _around(distances: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -28,9 +28,9 @@ class Waiting:
         self._file = TemporaryFile("w+", encoding="utf-8")  # noqa: SIM115 (closed when it is forgotten)
         self._empty = True
 
-    def add(self, part: str, between: str = ", ") -> None:
+    def add(self, text: str, between: str = ", ") -> None:
         """Add a part, after ``between`` unless it is the first."""
-        self._file.write(part if self._empty else between + part)
+        self._file.write(text if self._empty else between + text)
         self._empty = False
 
     def __iter__(self) -> Iterator[str]:

@@ -43,32 +43,32 @@ def symmetries(vertices: np.ndarray, normals: np.ndarray, colors: np.ndarray) ->
             axes.append(axis)
         elif fold > 1:
             turns.append(_turn(axis, fold))
-    turns += [one for one in _of_cube() if points.stay(one)]
+    turns += [turn for turn in _of_cube() if points.stay(turn)]
     if axes:  # the only other turns are those that swap the ends of the axis
-        turns = [one for one in turns if len(axes) == 1 and one[axes[0], axes[0]] < -0.5][:1]
+        turns = [turn for turn in turns if len(axes) == 1 and turn[axes[0], axes[0]] < -0.5][:1]
     turns = _group(turns)
-    found: dict[str, list[Any]] = {}
+    entries: dict[str, list[Any]] = {}
     if turns:
-        found["symmetries_discrete"] = [_matrix(one, middle) for one in turns]
+        entries["symmetries_discrete"] = [_matrix(turn, middle) for turn in turns]
     if axes:
-        found["symmetries_continuous"] = [
+        entries["symmetries_continuous"] = [
             {"axis": np.eye(3)[axis].tolist(), "offset": middle.tolist()} for axis in axes
         ]
-    return found
+    return entries
 
 
 def of_ellipsoid(size: np.ndarray) -> dict[str, list[Any]]:
     """Return the symmetries of an ellipsoid of one color: continuous ones about an axis if the other two are equal."""
     others = [np.delete(size, axis) for axis in range(3)]
-    axes = [axis for axis, (one, other) in enumerate(others) if np.isclose(one, other, rtol=EQUAL)]
+    axes = [axis for axis, (first, second) in enumerate(others) if np.isclose(first, second, rtol=EQUAL)]
     flips = [_turn(axis, 2) for axis in range(3)]
-    found: dict[str, list[Any]] = {}
+    entries: dict[str, list[Any]] = {}
     if len(axes) < 2:
-        flips = [one for one in flips if one[axes[0], axes[0]] < 0][:1] if axes else flips
-        found["symmetries_discrete"] = [_matrix(one, np.zeros(3)) for one in flips]
+        flips = [flip for flip in flips if flip[axes[0], axes[0]] < 0][:1] if axes else flips
+        entries["symmetries_discrete"] = [_matrix(flip, np.zeros(3)) for flip in flips]
     if axes:
-        found["symmetries_continuous"] = [{"axis": np.eye(3)[axis].tolist(), "offset": [0.0] * 3} for axis in axes]
-    return found
+        entries["symmetries_continuous"] = [{"axis": np.eye(3)[axis].tolist(), "offset": [0.0] * 3} for axis in axes]
+    return entries
 
 
 class _Points:
@@ -110,19 +110,19 @@ def _turn(axis: int, fold: int) -> np.ndarray:
 def _of_cube() -> list[np.ndarray]:
     """Return the rotations (3, 3) of a cube but the identity."""
     signs = list(product((1, -1), repeat=3))
-    signed = [np.eye(3)[list(order)] * one for order in permutations(range(3)) for one in signs]
-    return [one for one in signed if np.linalg.det(one) > 0 and np.trace(one) < 2.5]
+    signed = [np.eye(3)[list(order)] * sign for order in permutations(range(3)) for sign in signs]
+    return [turn for turn in signed if np.linalg.det(turn) > 0 and np.trace(turn) < 2.5]
 
 
 def _group(turns: list[np.ndarray]) -> list[np.ndarray]:
     """Return all products of rotations but the identity, each once."""
-    found = [np.eye(3)]
-    for one in found:
+    group = [np.eye(3)]
+    for element in group:
         for turn in turns:
-            product_ = one @ turn
-            if not any(np.allclose(product_, other, atol=1e-9) for other in found):
-                found.append(product_)
-    return found[1:]
+            product_ = element @ turn
+            if not any(np.allclose(product_, other, atol=1e-9) for other in group):
+                group.append(product_)
+    return group[1:]
 
 
 def _matrix(turn: np.ndarray, middle: np.ndarray) -> list[float]:
