@@ -122,7 +122,8 @@ NAMES = {name_of(path) for path in MODULES}
 ROOMS_WITHOUT_PRONOUNS = (
     *("core/annotations", "core/camera", "core/clouds", "core/errors", "core/faces", "core/lesson", "core/library"),
     *("core/materials", "core/maths", "core/report", "core/sets", "core/shaders", "core/text_forms", "core/web"),
-    *("blender/process", "blender/read", "blender/verification"),
+    *("blender/cycles", "blender/faces", "blender/output", "blender/presets", "blender/process", "blender/properties"),
+    *("blender/read", "blender/terminal", "blender/verification"),
 )
 PRONOUNS = {*"one found own part place said told given rest it them what most more some which both".split()}  # noqa: SIM905
 DEFINITIONS = ast.FunctionDef | ast.ClassDef

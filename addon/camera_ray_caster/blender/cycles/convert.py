@@ -53,19 +53,21 @@ def to_cycles(scene, camera_object=None) -> list[str]:
         at_frames = {now: (raw, camera)}
         if _may_move(scene, active, raw):
             at_frames = {frame: camera_at(active, go_to(scene, frame)) for frame in (*_frames(scene), now)}
-    places = frozenset().union(*(shader_of(*both).places for both in at_frames.values()))
-    shaders = {frame: shader_of(*both, places) for frame, both in sorted(at_frames.items())}
+    places = frozenset().union(*(shader_of(*eye_and_camera).places for eye_and_camera in at_frames.values()))
+    shaders = {frame: shader_of(*eye_and_camera, places) for frame, eye_and_camera in sorted(at_frames.items())}
     shader = shaders[now]
     set_shader(active.data, shader)
     if any(each.source != shader.source for each in shaders.values()):
-        said = ["The formula of the camera changes over time: Cycles follows this change only if the add-on is enabled"]
+        remarks = [
+            "The formula of the camera changes over time: Cycles follows this change only if the add-on is enabled"
+        ]
     else:
         insert_keyframes(active.data, {action_time(scene, frame): each for frame, each in shaders.items()})
-        said = _keyframe_notes(shaders)
+        remarks = _keyframe_notes(shaders)
     set_inputs(active.data, shader)
-    said += [f"Cycles reads the rays from {path!r}, which has to stay there" for path in shader.textures]
+    remarks += [f"Cycles reads the rays from {path!r}, which has to stay there" for path in shader.textures]
     otherwise = f"{BACK} and {FIT}" if raw.model else BACK
-    return said + set_up_time(scene, raw, camera) + _engine_notes(scene) + device_notes(scene, otherwise)
+    return remarks + set_up_time(scene, raw, camera) + _engine_notes(scene) + device_notes(scene, otherwise)
 
 
 def from_cycles(camera_object) -> None:
@@ -153,11 +155,11 @@ def _check_eye(raw: BlenderCamera, camera: Camera, view: str) -> None:
     width, height = camera.raster.size
     x, y = np.linspace(0, width, GRID)[None, :], np.linspace(0, height, GRID)[:, None]
     eye = eye_record(raw, view)
-    own = find_model(eye).from_blender(eye, camera.raster).rays(x, y)
+    rays = find_model(eye).from_blender(eye, camera.raster).rays(x, y)
     moved = camera.model.rays(x + shift * width, y)
-    for part, other in zip(own, moved, strict=True):
-        one, two = (np.stack(np.broadcast_arrays(*vector)) for vector in (part, other))
-        if not np.allclose(one, two, rtol=EPS32, atol=EPS32 * np.nanmax(np.abs(two)), equal_nan=True):
+    for vector, moved_vector in zip(rays, moved, strict=True):
+        first, second = (np.stack(np.broadcast_arrays(*components)) for components in (vector, moved_vector))
+        if not np.allclose(first, second, rtol=EPS32, atol=EPS32 * np.nanmax(np.abs(second)), equal_nan=True):
             raise InputError(
                 f"the eyes of camera {raw.name!r} differ from the eyes that Cycles makes of a custom camera: disable "
                 "Stereoscopy and render one eye at a time, or choose Parallel, or set Sensor Fit to the frame's width"

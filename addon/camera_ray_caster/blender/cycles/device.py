@@ -21,12 +21,12 @@ def device_of(scene) -> str:
 def devices() -> dict[str, list]:
     """Return Cycles' devices on this machine by kind, the processor first; kinds without devices are left out."""
     preferences = bpy.context.preferences.addons["cycles"].preferences
-    found: dict[str, list] = {CPU: []}
+    by_kind: dict[str, list] = {CPU: []}
     for kind, *_ in preferences.get_device_types(bpy.context):
-        own = [device for device in preferences.get_devices_for_type(kind) or () if device.type == kind]
-        if kind != "NONE" and own:
-            found[kind] = own
-    return found
+        of_kind = [device for device in preferences.get_devices_for_type(kind) or () if device.type == kind]
+        if kind != "NONE" and of_kind:
+            by_kind[kind] = of_kind
+    return by_kind
 
 
 def use_device(scene, kind: str) -> None:

@@ -83,7 +83,7 @@ def picture_of(scene) -> CyclesPicture:
     started, pixels = perf_counter(), {}
     with cycles_engine(scene) as run:
         for view in view_names(scene):
-            pixels |= {(layer, view): found for layer, found in _of_view(scene, view, run).items()}
+            pixels |= {(layer, view): colors for layer, colors in _of_view(scene, view, run).items()}
     made_by = {"engine": "CYCLES", "device": device_of(scene), "samples": scene.cycles.samples}
     return CyclesPicture(pixels, made_by, perf_counter() - started)
 
@@ -130,7 +130,7 @@ def _rolled(scene, eye: Eye, time: LinearTime, render: Render) -> Mapping[str, n
         if not is_shutter(eye.raw):
             begin, _ = shutter_of(time, eye.camera.raster)
             stack.enter_context(evaluated(scene, begin))
-        return {layer: turn.back(found) for layer, found in render().items()}
+        return {layer: turn.back(colors) for layer, colors in render().items()}
 
 
 def _one_by_one(scene, eye: Eye, time, view: str, render: Render) -> Mapping[str, np.ndarray]:
@@ -145,9 +145,9 @@ def _one_by_one(scene, eye: Eye, time, view: str, render: Render) -> Mapping[str
             changed(stack, scene.render, **border(box))
             stack.enter_context(_custom(then))
             stack.enter_context(evaluated(scene, frame))
-            for layer, found in render().items():
+            for layer, colors in render().items():
                 into = pixels.setdefault(layer, np.empty((*raster.shape, 4), np.float32))
-                into[rows, columns][where] = found[where]
+                into[rows, columns][where] = colors[where]
     return pixels
 
 
@@ -171,7 +171,7 @@ def _custom(eye: Eye, turn: Turn = UPRIGHT) -> Iterator[None]:
     item = eye.camera_object
     if not item.is_editable:
         raise InputError(f"camera {item.name!r} is linked from a library: make it local first (Object > Relations)")
-    own, copy, text = item.data, item.data.copy(), None
+    data, copy, text = item.data, item.data.copy(), None
     try:
         copy.animation_data_clear()
         if shader_mark(copy) is not None:
@@ -180,7 +180,7 @@ def _custom(eye: Eye, turn: Turn = UPRIGHT) -> Iterator[None]:
         text, item.data = copy.custom_shader, copy
         yield
     finally:
-        item.data = own
+        item.data = data
         bpy.data.cameras.remove(copy)
         if text is not None:
             bpy.data.texts.remove(text)

@@ -26,7 +26,7 @@ def cycles_engine(scene) -> Iterator[Render]:
     """
     from cycles import CyclesRender, engine
 
-    found: dict[str, np.ndarray] = {}
+    pictures: dict[str, np.ndarray] = {}
 
     class Pixels(CyclesRender):
         bl_idname = "CAMERA_RAY_CASTER_CYCLES"
@@ -38,8 +38,8 @@ def cycles_engine(scene) -> Iterator[Render]:
             result = self.get_result()
             (view,) = result.views
             rect = result.layers[layer].passes.find_by_name("Combined", view.name).rect
-            found[layer] = np.empty((result.resolution_y, result.resolution_x, 4), np.float32)
-            rect.foreach_get(found[layer].reshape(-1))
+            pictures[layer] = np.empty((result.resolution_y, result.resolution_x, 4), np.float32)
+            rect.foreach_get(pictures[layer].reshape(-1))
 
         def render_frame_finish(self):
             super().render_frame_finish()
@@ -49,7 +49,7 @@ def cycles_engine(scene) -> Iterator[Render]:
             """Do nothing: Cycles' method would access its session after Blender has freed the engine."""
 
     def render() -> Mapping[str, np.ndarray]:
-        found.clear()
+        pictures.clear()
         try:
             with redirect_stdout(None), ExitStack() as stack:
                 changed(stack, scene.render, engine=Pixels.bl_idname)  # not before: Blender would compile shaders, too
@@ -57,9 +57,9 @@ def cycles_engine(scene) -> Iterator[Render]:
         except RuntimeError as error:
             raise InputError(reported(error)) from error
         raise_if_stopping()
-        if not found:
+        if not pictures:
             raise RuntimeError("Cycles returned no pixels: see the messages in the terminal")
-        return dict(found)
+        return dict(pictures)
 
     with ExitStack() as stack:
         bpy.utils.register_class(Pixels)

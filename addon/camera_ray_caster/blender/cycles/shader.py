@@ -119,9 +119,9 @@ def _write_textures(shader: CameraShader) -> None:
         if path.exists():
             continue
         try:
-            part = path.with_suffix(f".{os.getpid()}")
-            part.write_bytes(exr(image))
-            part.replace(path)
+            unfinished = path.with_suffix(f".{os.getpid()}")
+            unfinished.write_bytes(exr(image))
+            unfinished.replace(path)
         except OSError as error:
             raise InputError(
                 f"the rays for Cycles cannot be written to {name!r}: {error.strerror}; save the file in another folder"

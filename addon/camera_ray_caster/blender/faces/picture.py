@@ -85,8 +85,8 @@ def picture_of(scene, engine: str, samples: int = 0) -> FacesPicture:
             if why:
                 warnings.append(NO_BLUR.format(why))
             raster = camera.raster
-            part = raster.x0, raster.y0, raster.x1, raster.y1
-            every = [(faces_of(camera, 1 / FINER, region=part, lens=point), point) for point in points]
+            region = raster.x0, raster.y0, raster.x1, raster.y1
+            every = [(faces_of(camera, 1 / FINER, region=region, lens=point), point) for point in points]
             sizes += [face.size for faces, _ in every for face in faces]
             require(image_bytes(raster.shape, ["combined"], np.float32), of_pixels("the picture", raster.shape))
             for layer in [layer for layer in scene.view_layers if layer.use]:
@@ -123,9 +123,9 @@ def _prepared(scene, engine: str, samples: int) -> Iterator[None]:
     with ExitStack() as stack:
         only_engine(stack, scene)
         changed(stack, scene, camera=scene.camera)
-        own = ("filepath", "use_border", "use_multiview", "use_single_layer", "resolution_percentage", "resolution_x")
-        own += ("resolution_y", "pixel_aspect_x", "pixel_aspect_y", "use_overwrite", "use_placeholder")
-        changed(stack, render, **{name: getattr(render, name) for name in own})
+        names = ("filepath", "use_border", "use_multiview", "use_single_layer", "resolution_percentage", "resolution_x")
+        names += ("resolution_y", "pixel_aspect_x", "pixel_aspect_y", "use_overwrite", "use_placeholder")
+        changed(stack, render, **{name: getattr(render, name) for name in names})
         changed(stack, render, use_border=False, use_multiview=False, resolution_percentage=100)
         image = {name: value for name, value in IMAGE.items() if hasattr(render.image_settings, name)}
         before = {name: getattr(render.image_settings, name) for name in image}

@@ -36,8 +36,8 @@ def annotated(
     points = key_points(scene, bpy.context.evaluated_depsgraph_get(), keypoints) if keypoints else []
     seen = seen_key_points(camera, images.shapes, points)
     sheet = Sheet.of(camera.raster)
-    found = document(image, sheet, camera, images.shapes, category_of, seen, images)
-    return as_text(found if objects is None else without_objects(found, objects))
+    annotations = document(image, sheet, camera, images.shapes, category_of, seen, images)
+    return as_text(annotations if objects is None else without_objects(annotations, objects))
 
 
 def category_of(name: str) -> str:
@@ -47,8 +47,8 @@ def category_of(name: str) -> str:
     item = find_unique(name, bpy.data.objects)
     if item is None:
         return name
-    given = item.get(CATEGORY)
-    return (item.data.name if item.data else name) if given in (None, "") else str(given)
+    category = item.get(CATEGORY)
+    return (item.data.name if item.data else name) if category in (None, "") else str(category)
 
 
 def merged_files(
@@ -74,6 +74,6 @@ class Documents:
         for job, suffix in ((job, suffix) for job in self.jobs for suffix in self.suffixes):
             document = json.loads((self.folder / f"{job.name}{suffix}{ENDING}").read_text(encoding="utf-8"))
             document = with_objects(document, objects)
-            image, (place, *_) = document["images"][0], job.name.rpartition("/")
-            image["file_name"] = f"{place}/{image['file_name']}" if place else image["file_name"]
+            image, (subfolder, *_) = document["images"][0], job.name.rpartition("/")
+            image["file_name"] = f"{subfolder}/{image['file_name']}" if subfolder else image["file_name"]
             yield document

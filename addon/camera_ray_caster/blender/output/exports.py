@@ -48,8 +48,8 @@ def steps(
     """
     if target is not None and not find_format(key).takes_target:
         raise InputError(f"format {key} has no target camera: only maps have a target")
-    files, said = export(key, (yield from reading(scene, cameras, frames, target, own_sizes, shown)), fit)
-    return said, (yield from writing.steps(_until_stopped(files), folder, _write_image))
+    files, remarks = export(key, (yield from reading(scene, cameras, frames, target, own_sizes, shown)), fit)
+    return remarks, (yield from writing.steps(_until_stopped(files), folder, _write_image))
 
 
 def _until_stopped(files: Iterable) -> Iterator:
@@ -78,12 +78,13 @@ def reading(
     views = [(view.file_suffix, view.name) for view in views_of(scene)] or [("", "")]
     names = [unique_name(camera, bpy.data.objects) for camera in cameras]
     file_names(f"{name}{suffix}" for name in names for suffix, _ in views)  # raises if two names are equal
-    found, rate = [], frame_rate(scene)
+    shots, rate = [], frame_rate(scene)
     sizes = [own_size(camera) if own_sizes else None for camera in cameras]
     frames, of_sizes = list(frames), dict.fromkeys(sizes)
     count, done = len(frames) * len(of_sizes), 0
     for size in of_sizes:
-        ours = [named for named, own in zip(zip(cameras, names, strict=True), sizes, strict=True) if own == size]
+        cameras_of_size = zip(zip(cameras, names, strict=True), sizes, strict=True)
+        ours = [named for named, camera_size in cameras_of_size if camera_size == size]
         with sized(scene, size), evaluated(scene):
             for frame in frames:
                 signals.raise_if_stopping()
@@ -94,12 +95,12 @@ def reading(
                 for camera, name in ours:
                     for suffix, view in views if shown(camera, frame) else ():
                         read = read_camera(scene, eye_object(scene, view, camera), view=view)
-                        own, end = file_name(name), file_name(suffix) if suffix else ""
-                        found.append(Shot(own, frame, read, meters_of(scene), to, end, rate))
+                        camera_file, end = file_name(name), file_name(suffix) if suffix else ""
+                        shots.append(Shot(camera_file, frame, read, meters_of(scene), to, end, rate))
     if len(of_sizes) > 1:
         order = {file_name(name): number for number, name in enumerate(names)}
-        found.sort(key=lambda shot: (frames.index(shot.frame), order[shot.camera_name]))
-    return found
+        shots.sort(key=lambda shot: (frames.index(shot.frame), order[shot.camera_name]))
+    return shots
 
 
 def _write_image(path: Path, pixels: np.ndarray) -> None:

@@ -30,15 +30,15 @@ def muted(nodes: Sequence) -> Iterator[None]:
 
 def files(scene, nodes: Sequence) -> dict[Path, tuple]:
     """Return the files in the nodes' output folders, each with its inode, time of change and size."""
-    found = {}
+    state = {}
     for folder in {folder for node in nodes for folder in _folders(scene, node)}:
         if folder.is_dir():
             with os.scandir(folder) as entries:
                 for entry in entries:
                     if entry.is_file():
                         stat = entry.stat()
-                        found[folder / entry.name] = stat.st_ino, stat.st_mtime_ns, stat.st_size
-    return found
+                        state[folder / entry.name] = stat.st_ino, stat.st_mtime_ns, stat.st_size
+    return state
 
 
 def changed(before: Mapping[Path, tuple], after: Mapping[Path, tuple]) -> tuple[str, ...]:

@@ -74,12 +74,12 @@ def _unpack(image) -> None:
 def results() -> dict[str, str]:
     """Return the key of the pass by name, for all images that casts have made."""
     keys = sorted((entry.key for entry in PASSES), key=len, reverse=True)  # else "distance bound" is "distance"
-    found = {}
+    keys_by_name = {}
     for name in [image.name for image in bpy.data.images]:
         key = next((key for key in keys if f"{name} ".startswith(f"{image_name(key)} ")), None)
         if key is not None:
-            found[name] = key
-    return found
+            keys_by_name[name] = key
+    return keys_by_name
 
 
 def show_in_colors(name: str) -> tuple[bpy.types.Image, str]:
@@ -93,7 +93,7 @@ def show_in_colors(name: str) -> tuple[bpy.types.Image, str]:
     (width, height), pixels = result.size, np.empty(len(result.pixels), np.float32)
     result.pixels.foreach_get(pixels)
     channels = next(len(entry.channels) for entry in PASSES if entry.key == key)
-    colors, said = displayed(key, pixels.reshape(height, width, 4)[..., :channels])
+    colors, description = displayed(key, pixels.reshape(height, width, 4)[..., :channels])
     image = bpy.data.images.get(VIEW)
     if image is None:
         image = bpy.data.images.new(VIEW, width, height)
@@ -102,7 +102,7 @@ def show_in_colors(name: str) -> tuple[bpy.types.Image, str]:
     image.pixels.foreach_set(_rgba(colors.reshape(-1, 3)).ravel())
     image.update()
     image[OF] = name
-    return image, said
+    return image, description
 
 
 @persistent

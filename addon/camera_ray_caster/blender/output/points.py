@@ -95,24 +95,24 @@ def categories_of(names: Sequence[str]) -> dict[str, int]:
     The property is a whole number, or a word; words are numbered from 1 in the sorted order of all words in the
     file.
     """
-    words = sorted({given for item in bpy.data.objects if isinstance(given := item.get(CATEGORY), str) and given})
-    found = {}
+    words = sorted({word for item in bpy.data.objects if isinstance(word := item.get(CATEGORY), str) and word})
+    numbers = {}
     for name in names:
         item = find_unique(name, bpy.data.objects)
-        given = None if item is None else item.get(CATEGORY)
-        if isinstance(given, str) and given:
-            found[name] = words.index(given) + 1
-        elif isinstance(given, int):
-            found[name] = given
-    return found
+        category = None if item is None else item.get(CATEGORY)
+        if isinstance(category, str) and category:
+            numbers[name] = words.index(category) + 1
+        elif isinstance(category, int):
+            numbers[name] = category
+    return numbers
 
 
 def collect_sequences(folder: Path, jobs: Iterable[Any]) -> None:
     """Make sequences of the files of pictures: one for each camera, with its frames in order."""
     for number, camera in enumerate(dict.fromkeys(job.camera for job in jobs)):
-        place = folder / SEQUENCES / f"{number:02}"
+        target = folder / SEQUENCES / f"{number:02}"
         for kind, ending in (("velodyne", ".bin"), ("labels", ".label")):
-            with atomic_folder(place / kind) as temporary:
+            with atomic_folder(target / kind) as temporary:
                 for k, job in enumerate(job for job in jobs if job.camera == camera):
                     _linked(folder / f"{job.name}{ending}", temporary / f"{k:06}{ending}")
         cameras, seconds = [], []
@@ -122,7 +122,7 @@ def collect_sequences(folder: Path, jobs: Iterable[Any]) -> None:
                 report = {**dataset_of(folder).get("common", {}), **json.loads(text)}
                 cameras.append(camera_from_json(text))
                 seconds.append(report["frame"] / report["host"]["frame_rate"])
-        with atomic_folder(place) as temporary:
+        with atomic_folder(target) as temporary:
             for name, text in sequence(cameras, seconds):
                 (temporary / name).write_text(text, encoding="utf-8", newline="\n")
 

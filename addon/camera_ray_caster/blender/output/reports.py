@@ -77,9 +77,9 @@ def _last(reports: dict[int, Report], scene) -> Report | None:
     return next(reversed(reports.values()), None) if scene is None else reports.get(scene.session_uid)
 
 
-def relative_error(report: Report, which: str) -> str:
+def relative_error(report: Report, statistic: str) -> str:
     """Return the "median" or "worst" error bound of the distances as text, relative to the distance."""
-    bound = getattr(report.accuracy, which)("relative_distance")
+    bound = getattr(report.accuracy, statistic)("relative_distance")
     return "nothing hit" if bound is None else f"≤ {bound:.0e}"
 
 
@@ -99,9 +99,9 @@ def is_simplified(reason: str) -> bool:
 def left_out_count(left_out) -> str:
     """Return the number of left-out objects in words, and whether colors are simplified; "" if neither."""
     count = len({name for name, reason in left_out if not is_simplified(reason)})
-    said = [f"{count} {'object' if count == 1 else 'objects'} left out"] * (count > 0)
-    said += ["colors simplified"] * any(is_simplified(reason) for _, reason in left_out)
-    return ", ".join(said).capitalize()
+    remarks = [f"{count} {'object' if count == 1 else 'objects'} left out"] * (count > 0)
+    remarks += ["colors simplified"] * any(is_simplified(reason) for _, reason in left_out)
+    return ", ".join(remarks).capitalize()
 
 
 def left_out_line(left_out) -> str:

@@ -43,9 +43,9 @@ def stamp_of(settings: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def differing(one: Mapping[str, Any], other: Mapping[str, Any]) -> list[str]:
+def differing(stamp_a: Mapping[str, Any], stamp_b: Mapping[str, Any]) -> list[str]:
     """Return the keys in which two stamps or their settings differ. Raises KeyError or TypeError for invalid stamps."""
-    first, second = ({**stamp, **stamp["settings"]} for stamp in (one, other))
+    first, second = ({**stamp, **stamp["settings"]} for stamp in (stamp_a, stamp_b))
     return [key for key in first if key != "settings" and first[key] != second[key]]
 
 
@@ -82,10 +82,10 @@ def short(stamp: Mapping[str, Any]) -> dict[str, Any]:
 def finished(report: Path, stamp: Mapping[str, Any]) -> dict[str, Any] | None:
     """Return a report's content if it has this stamp and all its files are complete; otherwise return None."""
     try:
-        found = json.loads(report.read_text(encoding="utf-8"))
-        made = found["made"]
+        content = json.loads(report.read_text(encoding="utf-8"))
+        made = content["made"]
         whole = all((report.parent / name).stat().st_size == size for name, size in made["files"].items())
-        is_ours = any(made["of"].items() >= one.items() for one in (stamp, short(stamp)))
-        return found if whole and is_ours else None
+        is_ours = any(made["of"].items() >= expected.items() for expected in (stamp, short(stamp)))
+        return content if whole and is_ours else None
     except (OSError, ValueError, KeyError, TypeError, AttributeError):  # no report, or not ours
         return None

@@ -33,14 +33,14 @@ def set_calibration(camera, path: str, name: str = "", frame: tuple[int, int] | 
     camera if the file does not tell. Raises InputError if the file cannot be read or is for another model, or if it has
     several cameras and none is chosen; the message names them. Nothing is changed then.
     """
-    own = getattr(camera, GROUP)
-    lens = chosen_lens(path, model or _key(own), name, frame)
+    group = getattr(camera, GROUP)
+    lens = chosen_lens(path, model or _key(group), name, frame)
     if model not in ("", lens.model):
         label = model_of(lens).label
         raise InputError(f"{path!r} is a calibration for {label}, not {READING[model]}: choose that model")
     if lens.model in READING:
         for setting, value in {MODEL.name: lens.model, FILE.name: path, FILE_CAMERA.name: name}.items():
-            setattr(own, setting, value)
+            setattr(group, setting, value)
     else:
         set_lens(camera, lens)
     numbers = ", ".join(f"{name} {value:.6g}" for name, value in lens.settings.items() if isinstance(value, float))
@@ -53,8 +53,8 @@ def set_lens(camera, lens: Lens) -> None:
 
     Raises InputError for a model whose settings are objects or images, before anything is changed.
     """
-    model, own = model_of(lens), getattr(camera, GROUP)
-    settings = [one for one in model.SETTINGS if one.owner in (OWN, CAMERA) and one not in FROM_FILE]
+    model, group = model_of(lens), getattr(camera, GROUP)
+    settings = [setting for setting in model.SETTINGS if setting.owner in (OWN, CAMERA) and setting not in FROM_FILE]
     if others := [setting.label for setting in settings if setting.kind not in KEPT]:
         raise InputError(f"{model.label} has objects or images of a .blend ({', '.join(others)}), which no file has")
     if model.number is None:
@@ -63,8 +63,8 @@ def set_lens(camera, lens: Lens) -> None:
         if not is_type:
             camera.panorama_type = model.key
     for setting in FROM_FILE:
-        setattr(own, setting.name, "")
-    setattr(own, MODEL.name, BLENDERS_OWN if model.number is None else model.key)
+        setattr(group, setting.name, "")
+    setattr(group, MODEL.name, BLENDERS_OWN if model.number is None else model.key)
     for setting in settings:
         value = lens.settings.get(setting.name, setting.default)
         setattr(owner_of(setting, camera, None), setting.name, int(value) if setting.kind == "INT" else value)
@@ -73,7 +73,11 @@ def set_lens(camera, lens: Lens) -> None:
 def settings_in(camera, lens: Lens) -> list[tuple[Any, str]]:
     """Return the owner and the name of each number of a camera's data that ``set_lens`` sets."""
     settings = [setting for setting in model_of(lens).SETTINGS if setting.owner in (OWN, CAMERA)]
-    return [(owner_of(one, camera, None), one.name) for one in settings if one.kind in ("FLOAT", "INT", "VECTOR")]
+    return [
+        (owner_of(setting, camera, None), setting.name)
+        for setting in settings
+        if setting.kind in ("FLOAT", "INT", "VECTOR")
+    ]
 
 
 def cameras_in(camera, path: str) -> list[str]:
@@ -88,6 +92,6 @@ def lenses_in(camera, path: str) -> list[Lens]:
     return lenses_of(path, _key(getattr(camera, GROUP)))
 
 
-def _key(own) -> str:
+def _key(group) -> str:
     """Return the model as which a file is read that does not state one."""
-    return own.model if own.model in READING else ""
+    return group.model if group.model in READING else ""

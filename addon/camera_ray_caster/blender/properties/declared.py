@@ -23,17 +23,21 @@ BLENDERS_OWN = "BLENDER"
 
 
 def _models() -> list[Item]:
-    models = sorted(MODELS, key=lambda it: GROUPS.index(it.group))
+    models = sorted(MODELS, key=lambda model: GROUPS.index(model.group))
     return [
         Item(BLENDERS_OWN, "Blender's Own", "Model of the camera's Type in Blender, as in Cycles", 0, GROUPS[0]),
-        *(Item(it.key, it.label, it.description, it.number, it.group) for it in models if it.number is not None),
+        *(
+            Item(model.key, model.label, model.description, model.number, model.group)
+            for model in models
+            if model.number is not None
+        ),
     ]
 
 
 def _of_cameras() -> list[Setting]:
-    read = (*(it.SETTINGS for it in MODELS), *port_settings.SETTINGS.values(), *pixel_time.SETTINGS.values())
-    own = {setting.name: setting for settings in read for setting in settings if setting.owner == OWN}
-    return [MODEL, port_settings.PORT, pixel_time.MODE, *own.values()]
+    read = (*(model.SETTINGS for model in MODELS), *port_settings.SETTINGS.values(), *pixel_time.SETTINGS.values())
+    of_camera_data = {setting.name: setting for settings in read for setting in settings if setting.owner == OWN}
+    return [MODEL, port_settings.PORT, pixel_time.MODE, *of_camera_data.values()]
 
 
 def renew() -> None:
@@ -99,7 +103,7 @@ EXACT_SHAPES = Flag(
     "whose Cast As setting names a shape",
     True,
 )  # fmt: skip
-PASSES = tuple(Flag(one.tick, one.label, one.text, False) for one in passes.PASSES if one.own)
+PASSES = tuple(Flag(entry.tick, entry.label, entry.text, False) for entry in passes.PASSES if entry.on_scene)
 """Check boxes of the passes that Blender does not have."""
 
 SCENE = (SHADING, SAMPLES, EXACT_SHAPES, *PASSES)

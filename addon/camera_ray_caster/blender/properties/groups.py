@@ -44,8 +44,8 @@ def others_property(package: str) -> str:
     """Return "Scene.camera_ray_caster" or the like if another add-on than the package has such a property; else ""."""
     ours = [cls.bl_rna for cls in bpy.types.PropertyGroup.__subclasses__() if f"{cls.__module__}.".startswith(package)]
     for owner in OWNERS:
-        found = owner.bl_rna.properties.get(GROUP)
-        if found is not None and getattr(found, "fixed_type", None) not in ours:
+        existing = owner.bl_rna.properties.get(GROUP)
+        if existing is not None and getattr(existing, "fixed_type", None) not in ours:
             return f"{owner.__name__}.{GROUP}"
     return ""
 
@@ -59,6 +59,6 @@ def register(undo) -> None:
 
 def _remove(owner, group) -> None:
     """Remove a property, unless another add-on has put its own in its place."""
-    found = owner.bl_rna.properties.get(GROUP)
-    if found is not None and (not group.is_registered or getattr(found, "fixed_type", None) == group.bl_rna):
+    existing = owner.bl_rna.properties.get(GROUP)
+    if existing is not None and (not group.is_registered or getattr(existing, "fixed_type", None) == group.bl_rna):
         delattr(owner, GROUP)

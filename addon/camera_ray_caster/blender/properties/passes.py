@@ -26,12 +26,12 @@ class RenderPass:
     """Tooltip of the checkbox."""
     tick: str
     """Name of the checkbox."""
-    own: bool = False
+    on_scene: bool = False
     """Whether the checkbox is in the add-on's settings of the scene instead of in the view layer."""
 
     def settings(self, scene, view_layer):
         """Return the struct that holds the checkbox."""
-        return scene.camera_ray_caster if self.own else view_layer
+        return scene.camera_ray_caster if self.on_scene else view_layer
 
 
 def _of(key: str, declared: Pass) -> RenderPass:
@@ -44,7 +44,7 @@ def _of(key: str, declared: Pass) -> RenderPass:
     return RenderPass(key, label, declared.letters, kind, declared.text, tick, not declared.blender)
 
 
-PASSES = tuple(sorted((_of(key, declared) for key, declared in CASTS.items()), key=lambda one: one.own))
+PASSES = tuple(sorted((_of(key, declared) for key, declared in CASTS.items()), key=lambda entry: entry.on_scene))
 """Blender's own passes, and then the add-on's."""
 
 

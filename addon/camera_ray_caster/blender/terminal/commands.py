@@ -36,9 +36,9 @@ def main(command: str, arguments: Sequence[str], prog: str) -> int:
         print(f"{prog}: {error}", file=sys.stderr)
         return 2
     except (MemoryError, RuntimeError, OSError) as error:
-        if not (said := exhausted(error)):
+        if not (problem := exhausted(error)):
             raise
-        print(f"{prog}: {said}", file=sys.stderr)
+        print(f"{prog}: {problem}", file=sys.stderr)
         return 2
     except (Cancelled, KeyboardInterrupt):
         print(f"{prog}: {signals.STOPPED}", file=sys.stderr)
@@ -57,5 +57,5 @@ def register(undo) -> None:
 
 def _from_blender(arguments: Sequence[str]) -> int:
     keep_output()
-    command, *rest = arguments or [""]
-    return main(command, rest, f"camera_ray_caster {command}".strip())
+    command, *options = arguments or [""]
+    return main(command, options, f"camera_ray_caster {command}".strip())

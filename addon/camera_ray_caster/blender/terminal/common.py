@@ -36,7 +36,7 @@ def common_of(pictures: Pictures, first: PictureJob) -> dict[str, Any]:
               "frame_rate": frame_rate(scene)},
     )  # fmt: skip
     data = as_data(report)
-    found: dict[str, Any] = {"common": {key: data[key] for key in ENTRIES}}
+    common: dict[str, Any] = {"common": {key: data[key] for key in ENTRIES}}
     if pictures.keypoints is not None and camera.pixel_time is None:
-        found["objects"] = [{"image_id": 1, **one} for one in object_poses(shapes, category_of)]
-    return found
+        common["objects"] = [{"image_id": 1, **pose} for pose in object_poses(shapes, category_of)]
+    return common

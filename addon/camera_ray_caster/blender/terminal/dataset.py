@@ -97,15 +97,15 @@ def completed(options: Namespace) -> tuple[str, bool]:
     """
     folder = options.file
     try:
-        found = json.loads((folder / DATASET).read_text(encoding="utf-8"))
-        stamp, run = {key: value for key, value in found.items() if key not in ABOUT}, Run.of_data(found["run"])
+        content = json.loads((folder / DATASET).read_text(encoding="utf-8"))
+        stamp, run = {key: value for key, value in content.items() if key not in ABOUT}, Run.of_data(content["run"])
         settings = stamp["settings"]
         asked = Namespace(output=folder, dataset=True, annotations=settings["annotations"],
                           keypoints=settings["keypoints"], points=settings["points"])  # fmt: skip
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise InputError(f"{str(folder)!r} has no {DATASET} of this version: give the folder of a data set") from error
     clear_up(folder)
-    jobs = Jobs(lambda: (PictureJob(*one, one.name) for one in run.pictures()))
+    jobs = Jobs(lambda: (PictureJob(*picture, picture.name) for picture in run.pictures()))
     maps = {camera: _map_of(folder, name) for camera, name in run.cameras.items()}
     missing, count, passed = list[str](), 0, True
     for job in jobs:
@@ -116,9 +116,9 @@ def completed(options: Namespace) -> tuple[str, bool]:
         else:
             passed &= report["passed"]
     if count:
-        busy, more = shares.still_running(folder), f" and {count - MOST_NAMES} more" if count > MOST_NAMES else ""
-        what = f"share {', '.join(busy)} still runs" if busy else "run their shares again"
-        raise InputError(f"{count} of {len(jobs)} pictures are missing: {', '.join(missing)}{more}; {what}")
+        busy, and_more = shares.still_running(folder), f" and {count - MOST_NAMES} more" if count > MOST_NAMES else ""
+        remedy = f"share {', '.join(busy)} still runs" if busy else "run their shares again"
+        raise InputError(f"{count} of {len(jobs)} pictures are missing: {', '.join(missing)}{and_more}; {remedy}")
     end(asked, jobs, run.suffixes)
     return f"The {len(jobs)} pictures in {folder} are a data set", passed
 
@@ -126,8 +126,8 @@ def completed(options: Namespace) -> tuple[str, bool]:
 def _map_of(folder: Path, name: str) -> RayMap | None:
     """Return the ray map of the camera whose files have a name."""
     try:
-        found = json.loads((folder / f"{name}_rays.json").read_text(encoding="utf-8"))
-        return RayMap("", found["made"]["of"]["rays"])
+        content = json.loads((folder / f"{name}_rays.json").read_text(encoding="utf-8"))
+        return RayMap("", content["made"]["of"]["rays"])
     except (OSError, ValueError, KeyError, TypeError):
         return None
 
@@ -141,21 +141,21 @@ def _claim(folder: Path, stamp: dict[str, Any], about: Mapping[str, Any] = Mappi
         (new / DATASET).write_text(text, encoding="utf-8")
     path = folder / DATASET
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-        others = differing(stamp, found)
+        content = json.loads(path.read_text(encoding="utf-8"))
+        others = differing(stamp, content)
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise InputError(
             f"{str(path)!r} is not the file of a data set made by this version: choose another folder"
         ) from error
     if others:
         raise InputError(f"{str(folder)!r} has a data set that differs in {', '.join(others)}: choose another folder")
-    if found.get("run") == about.get("run"):
+    if content.get("run") == about.get("run"):
         return
     if shares.existing(folder):
         raise InputError(
             f"{str(folder)!r} has shares of a run of other cameras or frames: complete these first (--complete), or "
             "choose another folder"
         )
-    text = as_text({**found, "run": about["run"]})  # reports of before lack what is common
+    text = as_text({**content, "run": about["run"]})  # reports of before lack what is common
     with atomic_folder(folder) as new:
         (new / DATASET).write_text(text, encoding="utf-8")

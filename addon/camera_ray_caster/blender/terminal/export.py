@@ -28,7 +28,7 @@ OF_SCENES = "calibration", "rig", "resolution", "to"
 RECAST = "depths, masks, boxes and poses are cast anew, with meshes as meshes; pictures still show the exact shapes"
 """Remark on sets with models."""
 
-WITH_OPTION = {one.option: key for key, one in SET_FORMATS.items() if one.option}
+WITH_OPTION = {set_format.option: key for key, set_format in SET_FORMATS.items() if set_format.option}
 """The only format that has an option, by the option."""
 
 FEW = 8
@@ -44,9 +44,9 @@ def run(arguments: Sequence[str], prog: str) -> int:
         "writes a ray map for each camera and frame; cameras that a format cannot represent are refused.",
         ends="exit status: 0 done; 2 bad input.",
     )
-    formats = {one.key: one for one in FORMATS} | SET_FORMATS
+    formats = {export_format.key: export_format for export_format in FORMATS} | SET_FORMATS
     parser.add_argument("--format", type=str.lower, choices=formats, required=True, help=
-        "; ".join(f"{key}: {one.description}" for key, one in formats.items())
+        "; ".join(f"{key}: {export_format.description}" for key, export_format in formats.items())
         + f". For the folder of a finished data set only: {', '.join(SET_FORMATS)}")  # fmt: skip
     parser.add_argument("--points", type=count, metavar="N", help=
         f"number of seed points, for {WITH_OPTION['points']} only; default: {sparse.COUNT}")  # fmt: skip
@@ -55,7 +55,7 @@ def run(arguments: Sequence[str], prog: str) -> int:
         f"{WITH_OPTION['models']} only")  # fmt: skip
     parser.add_argument("--validation", type=_part, metavar="PART", help=
         f"part of the pictures of a data set for validation, such as 0.2: a split in the files of "
-        f"{', '.join(key for key, one in SET_FORMATS.items() if one.splits)}; default: none")  # fmt: skip
+        f"{', '.join(key for key, set_format in SET_FORMATS.items() if set_format.splits)}; default: none")  # fmt: skip
     add_cameras(parser)
     add_frames(parser)
     parser.add_argument("--to", metavar="NAME", help="target camera of the maps, for stmap only; "
@@ -76,8 +76,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
     if options.file is not None and options.file.is_dir():
         return _of_set(options)
     if options.format in SET_FORMATS:
-        given = "a .blend" if options.file is None else repr(str(options.file))
-        raise InputError(f"--format {options.format} needs a finished data set: give its folder in place of {given}")
+        source = "a .blend" if options.file is None else repr(str(options.file))
+        raise InputError(f"--format {options.format} needs a finished data set: give its folder in place of {source}")
     scene = open_scene(options)
     if not options.cameras:
         check_camera(scene, scene.camera)
@@ -87,29 +87,29 @@ def run(arguments: Sequence[str], prog: str) -> int:
     target = find_camera(scene, options.to) if options.to is not None else None
     frames = options.frames or [frame_of(scene)]
     go_to(scene, None, max(frames))
-    said, paths = exports.write(scene, options.format, cameras, frames, options.output, target, not options.resolution,
-                               options.fit, partial(shown_at, options))  # fmt: skip
+    remarks, paths = exports.write(scene, options.format, cameras, frames, options.output, target,
+                                   not options.resolution, options.fit, partial(shown_at, options))  # fmt: skip
     for line in not_run():
         warn(prog, line)
-    _tell(said, paths, options.output)
+    _tell(remarks, paths, options.output)
     return 0
 
 
 def _part(text: str) -> float:
     """Return a part between 0 and 1."""
     try:
-        part = float(text)
+        share = float(text)
     except ValueError:
-        part = 0.0
-    if not 0 < part < 1:
+        share = 0.0
+    if not 0 < share < 1:
         raise ArgumentTypeError(f"{text!r} is not a part between 0 and 1, such as 0.2")
-    return part
+    return share
 
 
-def _tell(said: Sequence[str], paths: Sequence[Path], folder: Path) -> None:
+def _tell(remarks: Sequence[str], paths: Sequence[Path], folder: Path) -> None:
     """Print remarks, and in one line the files that were written."""
     names = ", ".join(map(str, paths)) if 0 < len(paths) <= FEW else f"{len(paths)} files into {folder}"
-    print("\n".join((*said, f"Wrote {names}")), flush=True)
+    print("\n".join((*remarks, f"Wrote {names}")), flush=True)
 
 
 def _of_set(options) -> int:
@@ -124,18 +124,18 @@ def _of_set(options) -> int:
     if options.format in SET_FORMATS:
         if options.fit:
             raise InputError(f"--fit does not apply to --format {options.format}: choose a format of cameras")
-        given: dict[str, Any] = {"count": options.points} if options.points else {}
-        said = []
+        arguments: dict[str, Any] = {"count": options.points} if options.points else {}
+        remarks = []
         if options.models:
-            given["shapes_at"] = _shapes_of(options, max(view.frame for view in views))
-            views = with_meshes(views, given["shapes_at"])
+            arguments["shapes_at"] = _shapes_of(options, max(view.frame for view in views))
+            views = with_meshes(views, arguments["shapes_at"])
             if any(isinstance(view, MeshView) for view in views):
-                said = [RECAST]
-        files = SET_FORMATS[options.format].files(views, **given)
+                remarks = [RECAST]
+        files = SET_FORMATS[options.format].files(views, **arguments)
     else:
-        files, said = export(options.format, Each(views, attrgetter("shot")), options.fit)
+        files, remarks = export(options.format, Each(views, attrgetter("shot")), options.fit)
     paths = write(files, options.output)
-    _tell(said, paths, options.output)
+    _tell(remarks, paths, options.output)
     return 0
 
 

@@ -85,7 +85,7 @@ def _local(workers: int) -> Iterator[str]:
     needed, limit = FILES + FILES_PER_WORKER * workers, _most_files()
     if limit < needed:  # with too few, Dask's processes wait for each other without end
         raise InputError(f"{workers} workers cannot start: too many open files for a limit of {limit}; {tasks.FEWER}")
-    own = {"distributed.nanny.pre-spawn-environ": ENVIRONMENT}
+    settings = {"distributed.nanny.pre-spawn-environ": ENVIRONMENT}
     limits = {
         "threads_per_worker": 1,
         "memory_limit": 0,
@@ -93,7 +93,7 @@ def _local(workers: int) -> Iterator[str]:
         "silence_logs": logging.CRITICAL,
         "death_timeout": START,
     }
-    with dask.config.set(own):
+    with dask.config.set(settings):
         try:
             with quiet_errors():  # of the workers, too: their outcomes have the errors
                 made = distributed.LocalCluster(n_workers=workers, **limits)

@@ -66,7 +66,7 @@ class RayMap:
 
 def first_jobs(jobs: Jobs) -> list[PictureJob]:
     """Return the first job of each camera."""
-    found: dict[str | None, PictureJob] = {}
+    first: dict[str | None, PictureJob] = {}
     for job in jobs:
-        found.setdefault(job.camera, job)
-    return [*found.values()]
+        first.setdefault(job.camera, job)
+    return [*first.values()]

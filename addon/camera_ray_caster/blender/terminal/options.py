@@ -127,10 +127,10 @@ def _mount(scene, options, paths: Sequence[str], say: Callable[[str], object]) -
     parent = options.rig_parent
     if parent is not None and parent not in scene.objects:
         raise InputError(f"scene {scene.name!r} has no object {parent!r}, below which --rig-parent puts the cameras")
-    found = add_rig(scene, paths, parent and scene.objects[parent], options.model or "", say)
-    options.cameras = options.cameras or [item.name for item in found]
+    mounted = add_rig(scene, paths, parent and scene.objects[parent], options.model or "", say)
+    options.cameras = options.cameras or [item.name for item in mounted]
     if options.frames is None and getattr(options, "frame", None) is None:
-        options.frames, options.own_frames = frames_of(found) or None, True
+        options.frames, options.own_frames = frames_of(mounted) or None, True
 
 
 def shown_at(options, camera, frame: float) -> bool:
@@ -143,8 +143,8 @@ def _calibrate(scene, options, say: Callable[[str], object]) -> None:
     path, frame = str(options.calibration.absolute()), size_of(scene)
     for camera in [eye_object(scene, view) for view in view_names(scene)]:
         check_camera(scene, camera)
-        said = set_calibration(camera.data, path, options.calibration_camera, frame, options.model or "")
-        if said.endswith(FRAMES_SIZE):
+        summary = set_calibration(camera.data, path, options.calibration_camera, frame, options.model or "")
+        if summary.endswith(FRAMES_SIZE):
             say(f"{FRAMES_SIZE}, {frame[0]} x {frame[1]} ({options.calibration})")
 
 

@@ -143,8 +143,8 @@ class Pictures:
         self.passes = {layer.name: [entry.key for entry in ticked(scene, layer)] for layer in scene.view_layers}
         self.drawn = {layer.name for layer in scene.view_layers if layer.use_freestyle}
         """The view layers with Freestyle."""
-        for layer, own in self.passes.items():
-            if options.passes or own == ["combined"]:
+        for layer, keys in self.passes.items():
+            if options.passes or keys == ["combined"]:
                 self.passes[layer] = list(options.passes or DEFAULT_PASSES)
         if options.shading:
             scene.camera_ray_caster.shading = options.shading
@@ -169,44 +169,44 @@ class Pictures:
         frames = asked.frames
         if frames is None:
             frames = [frame_of(self.scene) if asked.frame is None else asked.frame]
-        some = {}
+        frames_of = {}
         for name in names if asked.own_frames else ():
             camera = find_camera(self.scene, name)
-            some[name] = [frame for frame in frames if shows(camera, frame)]
-        return Run(names, frames, some, asked.folders, suffixes_of(self.scene))
+            frames_of[name] = [frame for frame in frames if shows(camera, frame)]
+        return Run(names, frames, frames_of, asked.folders, suffixes_of(self.scene))
 
     def jobs(self, of_all: bool = False) -> Jobs:
         """Return a job for each requested camera and frame, or those of a share, unless ``of_all`` shares."""
         asked, shard = self.options, None if of_all else self.options.shard
         if asked.cameras is not None:
             run = self.run()
-            return Jobs(lambda: (PictureJob(*one, one.name) for one in run.pictures(shard)))
+            return Jobs(lambda: (PictureJob(*picture, picture.name) for picture in run.pictures(shard)))
         frames = asked.frames if asked.frames is None or shard is None else asked.frames[shard[0] - 1 :: shard[1]]
         numbers = {asked.frame: ""} if frames is None else {frame: f"_{frame_digits(frame)}" for frame in frames}
-        found = [PictureJob(asked.camera, frame, stem() + end, f"report{end}") for frame, end in numbers.items()]
-        return Jobs(lambda: iter(found))
+        jobs = [PictureJob(asked.camera, frame, stem() + end, f"report{end}") for frame, end in numbers.items()]
+        return Jobs(lambda: iter(jobs))
 
-    def tried(self, job: PictureJob, *what) -> Outcome:
+    def tried(self, job: PictureJob, *arguments) -> Outcome:
         """Make a picture as ``make`` does; if that fails, and again for each of --retries, return why. Raises
         CannotWrite, after which others would fail as well.
         """
-        said = ""
+        failure = ""
         for _ in range(1 + self.options.retries):
             try:
-                return self.make(job, *what)
+                return self.make(job, *arguments)
             except CannotWrite:
                 raise
             except InputError as error:
-                said = str(error)
+                failure = str(error)
             except (MemoryError, RuntimeError, OSError) as error:
-                said = exhausted(error)
-                if not said:
+                failure = exhausted(error)
+                if not failure:
                     raise
-        return Outcome(False, failure=f"{job.name}: {said}")
+        return Outcome(False, failure=f"{job.name}: {failure}")
 
-    def make(self, *what) -> Outcome:
+    def make(self, *arguments) -> Outcome:
         """Run ``making`` from its beginning to its end."""
-        return files.at_once(self.scene, self.making(*what))
+        return files.at_once(self.scene, self.making(*arguments))
 
     def making(
         self, job: PictureJob, stamp: dict[str, Any], prog: str, ray_map: RayMap | None = None
@@ -230,22 +230,22 @@ class Pictures:
         )  # fmt: skip
         return Outcome(report.passed, True, report.warnings, report.notes, report.exact, report, paths)
 
-    def rendering(self, job: PictureJob, of: dict[str, Any], **more) -> files.Making[tuple[Report, list[Path]]]:
+    def rendering(self, job: PictureJob, of: dict[str, Any], **options) -> files.Making[tuple[Report, list[Path]]]:
         """Write the files of a job from the current state of the scene; ``of`` is their stamp; see ``files.rendering``.
         """
         asked = self.options
-        place = asked.output / job.name
+        path = asked.output / job.name
         return files.rendering(
-            self.scene, place.parent, place.name, Path(job.report).name,
+            self.scene, path.parent, path.name, Path(job.report).name,
             layers=asked.format, half=asked.half, file_output=asked.file_output, stamp=of, spare=self.spare,
-            dataset=dataset_of(asked.output) if asked.dataset else None, **more,
+            dataset=dataset_of(asked.output) if asked.dataset else None, **options,
         )  # fmt: skip
 
     def taken(self, job: PictureJob, stamp: dict[str, Any], ray_map: RayMap | None = None) -> Outcome | None:
         """Return the outcome of a job that is finished and skipped; None if it has to be done."""
         report = self.options.output / f"{job.report}.json"
-        found = finished(report, of_job(stamp, job, ray_map)) if self.options.skip_existing else None
-        return None if found is None else Outcome(found["passed"])
+        content = finished(report, of_job(stamp, job, ray_map)) if self.options.skip_existing else None
+        return None if content is None else Outcome(content["passed"])
 
     def camera_at(self, job: PictureJob) -> Camera:
         """Set the scene to a job's camera and frame, and return the camera. Raises InputError if it cannot be cast, or
@@ -265,9 +265,9 @@ class Pictures:
         on the combined pass, only with that pass.
         """
         for name, keys in self.passes.items():
-            layer, own = self.scene.view_layers[name], [key for key in keys if wanted(key)]
-            tick(self.scene, layer, own)
-            layer.use_freestyle = name in self.drawn and "combined" in own
+            layer, wanted_keys = self.scene.view_layers[name], [key for key in keys if wanted(key)]
+            tick(self.scene, layer, wanted_keys)
+            layer.use_freestyle = name in self.drawn and "combined" in wanted_keys
 
     def _by_engine(self, prog: str) -> CyclesPicture | FacesPicture:
         """Render the current frame with another engine, which a Python signal handler cannot interrupt."""

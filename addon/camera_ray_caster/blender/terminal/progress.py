@@ -101,6 +101,6 @@ def follow(outcomes: Iterable[Outcome], count: int, prog: str, log: Path | None 
 
 
 def _words(seconds: float) -> str:
-    minutes, rest = divmod(round(seconds), 60)
+    minutes, seconds = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
-    return f"{hours}:{minutes:02}:{rest:02}"
+    return f"{hours}:{minutes:02}:{seconds:02}"

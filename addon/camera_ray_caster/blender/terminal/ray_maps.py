@@ -17,11 +17,11 @@ PASSES = "ray_origin", "ray_direction"
 
 def digest_of(camera: Camera) -> str:
     """Return the SHA-256 of a camera's rays and their times; cameras with equal rays have equal digests."""
-    rays, found = camera.rays(), hashlib.sha256()
+    rays, digest = camera.rays(), hashlib.sha256()
     for array in (rays.origins, rays.directions, rays.time):
         if array is not None:
-            found.update(np.ascontiguousarray(array))
-    return found.hexdigest()
+            digest.update(np.ascontiguousarray(array))
+    return digest.hexdigest()
 
 
 def made_map(pictures, first: PictureJob, stamp: dict) -> RayMap | None:
@@ -30,14 +30,14 @@ def made_map(pictures, first: PictureJob, stamp: dict) -> RayMap | None:
     Return None if no map is useful: in a multi-view scene, or unless every view layer has ray passes and other passes.
     """
     asked = [set(keys) for keys in pictures.passes.values()]
-    if pictures.scene.render.use_multiview or not all(own & set(PASSES) and own - set(PASSES) for own in asked):
+    if pictures.scene.render.use_multiview or not all(keys & set(PASSES) and keys - set(PASSES) for keys in asked):
         return None
     name = first.name.rpartition("_")[0] + "_rays"
     file = f"{name}.{pictures.options.format.lower()}"
     of = {**stamp, "camera": first.camera, "frame": None}
-    found = finished(pictures.options.output / f"{name}.json", of)
-    if found is not None:
-        return RayMap(file, found["made"]["of"]["rays"])
+    content = finished(pictures.options.output / f"{name}.json", of)
+    if content is not None:
+        return RayMap(file, content["made"]["of"]["rays"])
     digest = digest_of(pictures.camera_at(first))
     pictures.tick(PASSES.__contains__)
     making = pictures.rendering(replace(first, name=name, report=name), {**of, "rays": digest}, shown=False)

@@ -87,9 +87,9 @@ class Tasks:
                 self.waiting.append((task, self.again.pop()))
             if not self.waiting:
                 return
-            for one in [one for one in self.waiting if one[0].done()]:
-                yield from self._result(*one)
-                self.waiting.remove(one)
+            for task in [task for task in self.waiting if task[0].done()]:
+                yield from self._result(*task)
+                self.waiting.remove(task)
             time.sleep(POLL)
 
     def _chunk(self) -> Generator[Outcome, None, list]:
@@ -98,11 +98,11 @@ class Tasks:
             return self.again.pop()
         chunk: list = []
         for job in self.jobs:
-            found = self.taken(job)
-            if found is None:
+            outcome = self.taken(job)
+            if outcome is None:
                 chunk.append(job)
             else:
-                yield found
+                yield outcome
             if len(chunk) == CHUNK:
                 break
         return chunk

@@ -25,11 +25,11 @@ def run(arguments: Sequence[str], prog: str) -> int:
     )
     options = parser.parse_args(arguments)
     scene = open_scene(options)
-    said = to_cycles(scene)
+    remarks = to_cycles(scene)
     scene.render.engine = "CYCLES"  # set last: Cycles would compile an unfinished setup
     for line in not_run():
         warn(prog, line)
     signals.raise_if_stopping()
     save_copy(options.output)
-    print("\n".join((*said, f"Wrote {options.output}")), flush=True)
+    print("\n".join((*remarks, f"Wrote {options.output}")), flush=True)
     return 0

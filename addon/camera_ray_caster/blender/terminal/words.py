@@ -79,7 +79,7 @@ def frame_number(text: str) -> float:
 @of_form("a range of frames: give A:B, or A:B:S for every S-th frame, in whole numbers")
 def frame_range(text: str) -> range:
     """Return the frames of "A:B" or "A:B:S": every S-th frame from A to B."""
-    first, last, step = (int(part) for part in (text if text.count(":") > 1 else f"{text}:1").split(":"))
+    first, last, step = (int(number) for number in (text if text.count(":") > 1 else f"{text}:1").split(":"))
     frame_number(str(first)), frame_number(str(last))
     if first > last:
         raise argparse.ArgumentTypeError(f"{text} has no frames: give the first frame before the last")
@@ -148,7 +148,7 @@ def scheduler_address(text: str) -> str:
 @of_form("a share: give K/N, such as 1/4")
 def share(text: str) -> tuple[int, int]:
     """Return K and N of "K/N"."""
-    number, of = (int(part) for part in text.split("/"))
+    number, of = (int(number) for number in text.split("/"))
     if of < 1:
         raise ValueError(text)
     if not 1 <= number <= of:
@@ -159,7 +159,7 @@ def share(text: str) -> tuple[int, int]:
 @of_form("a size: give WxH, such as 640x480")
 def picture_size(text: str) -> tuple[int, int]:
     """Return width and height of "WxH"."""
-    width, height = (int(part) for part in text.split("x"))
+    width, height = (int(side) for side in text.split("x"))
     if not all(LEAST_SIDE <= side <= LARGEST_SIDE for side in (width, height)):
         raise argparse.ArgumentTypeError(
             f"{text} has a side outside Blender's range of {LEAST_SIDE} to {LARGEST_SIDE} pixels"

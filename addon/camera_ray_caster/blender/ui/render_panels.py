@@ -67,10 +67,10 @@ class PassesPanel(EnginePanel, bpy.types.Panel):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        for heading, own in (("Include", False), ("All View Layers", True)):
+        for heading, on_scene in (("Include", False), ("All View Layers", True)):
             column = layout.column(heading=heading, align=True)
             for entry in PASSES:
-                if entry.own == own:
+                if entry.on_scene == on_scene:
                     column.prop(entry.settings(context.scene, context.view_layer), entry.tick)
         layout.prop(context.view_layer, "pass_alpha_threshold")
 

@@ -4,6 +4,6 @@ from math import pi
 
 import bpy
 
-own = bpy.context.camera.camera_ray_caster
-own.model = "DOME_MASTER"
-own.fov, own.tilt = pi, 0
+settings = bpy.context.camera.camera_ray_caster
+settings.model = "DOME_MASTER"
+settings.fov, settings.tilt = pi, 0

@@ -7,6 +7,6 @@ from math import radians
 
 import bpy
 
-own = bpy.context.camera.camera_ray_caster
-own.model = "DOME_MASTER"
-own.fov, own.tilt = radians(210), 0
+settings = bpy.context.camera.camera_ray_caster
+settings.model = "DOME_MASTER"
+settings.fov, settings.tilt = radians(210), 0

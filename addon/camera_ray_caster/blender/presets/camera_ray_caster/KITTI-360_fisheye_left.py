@@ -2,13 +2,13 @@
 
 import bpy
 
-own = bpy.context.camera.camera_ray_caster
-own.model = "UCM"
-own.calibration_file = ""
-own.calibration_unit = "PIXELS"
-own.calibration_width, own.calibration_height = 1400, 1400
-own.fx, own.fy, own.skew = 1336.3220825849971, 1335.7883350012958, 0
-own.cx, own.cy = 716.94323510126321, 705.76498308221585
-own.unified_xi = 2.2134047507854890
-own.k1, own.k2 = 0.016798235660113681, 1.6548773243373522
-own.p1, own.p2 = 0.00042223943394772046, 0.00042462134260997584
+settings = bpy.context.camera.camera_ray_caster
+settings.model = "UCM"
+settings.calibration_file = ""
+settings.calibration_unit = "PIXELS"
+settings.calibration_width, settings.calibration_height = 1400, 1400
+settings.fx, settings.fy, settings.skew = 1336.3220825849971, 1335.7883350012958, 0
+settings.cx, settings.cy = 716.94323510126321, 705.76498308221585
+settings.unified_xi = 2.2134047507854890
+settings.k1, settings.k2 = 0.016798235660113681, 1.6548773243373522
+settings.p1, settings.p2 = 0.00042223943394772046, 0.00042462134260997584

@@ -2,11 +2,13 @@
 
 import bpy
 
-own = bpy.context.camera.camera_ray_caster
-own.model = "OPENCV_PINHOLE"
-own.calibration_file = ""
-own.calibration_unit = "PIXELS"
-own.calibration_width, own.calibration_height = 1241, 376
-own.fx, own.fy, own.cx, own.cy, own.skew = 718.856, 718.856, 607.1928, 185.2157, 0
-own.k1 = own.k2 = own.p1 = own.p2 = own.k3 = own.k4 = own.k5 = own.k6 = own.s1 = 0
-own.s2 = own.s3 = own.s4 = own.tau_x = own.tau_y = 0
+settings = bpy.context.camera.camera_ray_caster
+settings.model = "OPENCV_PINHOLE"
+settings.calibration_file = ""
+settings.calibration_unit = "PIXELS"
+settings.calibration_width, settings.calibration_height = 1241, 376
+settings.fx, settings.fy, settings.cx, settings.cy, settings.skew = 718.856, 718.856, 607.1928, 185.2157, 0
+settings.k1 = settings.k2 = settings.p1 = settings.p2 = settings.k3 = settings.k4 = settings.k5 = settings.k6 = (
+    settings.s1
+) = 0
+settings.s2 = settings.s3 = settings.s4 = settings.tau_x = settings.tau_y = 0

@@ -4,6 +4,6 @@ from math import radians
 
 import bpy
 
-own = bpy.context.camera.camera_ray_caster
-own.model = "OMNIMAX"
-own.tilt = radians(30)
+settings = bpy.context.camera.camera_ray_caster
+settings.model = "OMNIMAX"
+settings.tilt = radians(30)
