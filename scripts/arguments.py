@@ -15,10 +15,10 @@ class Parser(argparse.ArgumentParser):
 
 def size(word: str) -> tuple[int, int]:
     """Return the width and the height given by a word such as 1920x1080."""
-    found = re.fullmatch(r"([1-9]\d*)x([1-9]\d*)", word)
-    if not found:
+    match = re.fullmatch(r"([1-9]\d*)x([1-9]\d*)", word)
+    if not match:
         raise argparse.ArgumentTypeError(f"{word!r} is not a size in pixels such as 1920x1080")
-    width, height = int(found[1]), int(found[2])
+    width, height = int(match[1]), int(match[2])
     if not all(4 <= side <= 65536 for side in (width, height)):
         raise argparse.ArgumentTypeError(f"{word} has a side outside Blender's range of 4 to 65536 pixels")
     return width, height

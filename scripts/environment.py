@@ -79,7 +79,7 @@ def test_all(parts, share):
             status = make("test" if newer else "test-full", bpy, python, left_out)
             results[bpy] = f"{in_words(status)} in {time.time() - began:.0f} s"
         if "hostile" in parts and not newer:
-            results[f"{bpy}, hostile inputs"] = in_words(make("test-hostile", bpy, python, part=share))
+            results[f"{bpy}, hostile inputs"] = in_words(make("test-hostile", bpy, python, share=share))
     for bpy, result in results.items():
         print(f"bpy {bpy}: {result}")
     words = [result.split()[0] for result in results.values()]
@@ -97,13 +97,13 @@ def numpy_of(bpy):
     return subprocess.run(words, stdout=subprocess.PIPE, check=True).stdout
 
 
-def make(target, bpy, python, left_out=(), part=""):
+def make(target, bpy, python, left_out=(), share=""):
     """Run a make target with a bpy and a Python, without the tests in a window; return the exit status."""
     # drop the settings of the calling make; the tests in a window use the same Blender with every bpy
     environment = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
     ignored = "".join(f" --ignore={folder}" for folder in ("tests/gui", *left_out))
     environment["PYTEST_ADDOPTS"] = environment.get("PYTEST_ADDOPTS", "") + ignored
-    words = ["make", target, f"PYTHON={python}", f"BPY={bpy}", f"PART={part}"]
+    words = ["make", target, f"PYTHON={python}", f"BPY={bpy}", f"PART={share}"]
     return subprocess.run(words, env=environment).returncode
 
 

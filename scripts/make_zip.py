@@ -26,8 +26,8 @@ SCENES = ROOT / "blend_scenes"
 
 def content() -> dict[str, Path]:
     """Return the files of the extension by their names in the zip, sorted."""
-    own = [path for path in PACKAGE.rglob("*") if path.is_file()]
-    files = {path.relative_to(PACKAGE).as_posix(): path for path in own if path.parent.name != "__pycache__"}
+    sources = [path for path in PACKAGE.rglob("*") if path.is_file()]
+    files = {path.relative_to(PACKAGE).as_posix(): path for path in sources if path.parent.name != "__pycache__"}
     for path in (*SCENES.glob("*.blend"), *SCENES.glob("*.npz")):
         files[f"gallery/{path.name}"] = path
         picture = SCENES / "pictures" / f"{path.stem}.png"

@@ -38,10 +38,10 @@ def main() -> int:
     )
     parser.add_argument("--details", action="store_true", help="list every case")
     options = parser.parse_args()
-    names, found = comparison.compared(words.cases_named(parser, options.cases))
-    print(comparison.table(names, found))
+    names, errors = comparison.compared(words.cases_named(parser, options.cases))
+    print(comparison.table(names, errors))
     if options.details:
-        print(comparison.details(names, found))
+        print(comparison.details(names, errors))
     return 0
 
 

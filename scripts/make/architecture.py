@@ -51,16 +51,16 @@ def picture(test: Path) -> str:
         bands.append(f'<rect x="4" y="{top}" width="{width - 8}" height="{height}" rx="8" fill="{fill}"/>')
         bands.append(f'<text x="14" y="{top + 20}" fill="{stroke}" font-weight="bold">{band}</text>')
         at = {
-            one: (width / 2 + COLUMN * (k - (len(row) - 1) / 2), top + MARGIN / 2 + ROW * (line + 0.5))
+            name: (width / 2 + COLUMN * (k - (len(row) - 1) / 2), top + MARGIN / 2 + ROW * (line + 0.5))
             for line, row in enumerate(reversed(rows))
-            for k, one in enumerate(row)
+            for k, name in enumerate(row)
         }
-        level = {one: line for line, row in enumerate(rows) for one in row}
-        for one in sorted(below):
-            for other in sorted(below[one]):
-                passed = [(one, other, line) for line in range(level[one] - 1, level[other], -1)]
-                arrows.append(curve([at[place] for place in (one, *passed, other)]))
-            rooms.append(room(*at[one], one, stroke))
+        level = {name: line for line, row in enumerate(rows) for name in row}
+        for name in sorted(below):
+            for lower in sorted(below[name]):
+                passed = [(name, lower, line) for line in range(level[name] - 1, level[lower], -1)]
+                arrows.append(curve([at[position] for position in (name, *passed, lower)]))
+            rooms.append(room(*at[name], name, stroke))
         top += height + GAP
     return SVG.format(
         width=width,
@@ -78,7 +78,7 @@ def table_of(test: Path) -> dict[str, set[str]]:
 
     def value(name: str):
         used = {node.id for node in ast.walk(assigned[name]) if isinstance(node, ast.Name)}
-        return eval(ast.unparse(assigned[name]), {one: value(one) for one in used if one in assigned})
+        return eval(ast.unparse(assigned[name]), {used_name: value(used_name) for used_name in used & assigned.keys()})
 
     return value("MAY_IMPORT")
 
@@ -87,7 +87,7 @@ def rooms_of(table: dict[str, set[str]], band: str) -> Arrows:
     """Return the rooms of a band, each with those that it may import, but for what follows."""
     inner = {name for name in table if name.startswith(f"{band}.") and name.count(".") == 1}
     allowed = {
-        name: set().union(*(below for part, below in table.items() if f"{part}.".startswith(f"{name}.")))
+        name: set().union(*(below for inner_name, below in table.items() if f"{inner_name}.".startswith(f"{name}.")))
         & inner - {name}
         for name in inner
     }
@@ -99,7 +99,7 @@ def rooms_of(table: dict[str, set[str]], band: str) -> Arrows:
         return frozenset().union(*({other} | reach(other) for other in allowed[name]))
 
     direct = {
-        name: {other for other in others if not any(other in reach(one) for one in others)}
+        name: {other for other in others if not any(other in reach(above) for above in others)}
         for name, others in allowed.items()
     }
     return {short(name): set(map(short, others)) for name, others in direct.items()}
@@ -123,18 +123,18 @@ def layers(below: Arrows) -> tuple[list[list[Place]], Arrows]:
         rows[level(name)].append(name)
         for other in sorted(below[name]):
             passed: list[Place] = [(name, other, line) for line in range(level(name) - 1, level(other), -1)]
-            for place in passed:
-                rows[place[2]].append(place)
+            for passage in passed:
+                rows[passage[2]].append(passage)
             ends += zip((name, *passed), (*passed, other), strict=True)
-    near: dict[Place, list[Place]] = {one: [] for row in rows for one in row}
+    near: dict[Place, list[Place]] = {node: [] for row in rows for node in row}
     for upper, lower in ends:
         near[upper].append(lower)
         near[lower].append(upper)
-    order = {one: k - len(row) / 2 for row in rows for k, one in enumerate(row)}
+    order = {node: k - len(row) / 2 for row in rows for k, node in enumerate(row)}
     for _ in range(SWEEPS):
         for row in rows:
-            row.sort(key=lambda one: sum(order[other] for other in near[one]) / max(1, len(near[one])))
-            order |= {one: k - (len(row) - 1) / 2 for k, one in enumerate(row)}
+            row.sort(key=lambda node: sum(order[other] for other in near[node]) / max(1, len(near[node])))
+            order |= {node: k - (len(row) - 1) / 2 for k, node in enumerate(row)}
     return rows, below
 
 

@@ -61,8 +61,8 @@ def featured() -> Image.Image:
     """Return the featured image: scenes of the gallery through several cameras, side by side."""
     whole = Image.new("RGB", SIZE, GROUND)
     for scene, left, top, width, height in FEATURED:
-        part = picture(scene, width, height)
-        whole.paste(part, (left, top), part)
+        tile = picture(scene, width, height)
+        whole.paste(tile, (left, top), tile)
     return whole
 
 

@@ -150,13 +150,14 @@ def link(title: str) -> str:
 
 def files() -> str:
     """Return the page of files: a row for each program."""
-    sets = "".join(f"| `{key}` | {one.description} |\n" for key, one in SET_FORMATS.items())
+    sets = "".join(f"| `{key}` | {set_format.description} |\n" for key, set_format in SET_FORMATS.items())
     return FILES + "".join(map(program_row, PROGRAMS)) + SETS + sets
 
 
 def program_row(program: ProgramFiles) -> str:
     """Return a program as a row of the table; it writes what its export's table of models says."""
-    export = next((one for one in FORMATS if program.export and one.key == program.export.key), None)
+    keys = {each.key: each for each in FORMATS}
+    export = keys.get(program.export.key) if program.export else None
     writes = "" if export is None else f"`{export.key}`: {export.description}".replace("<", "\\<")
     return f"| {program.name} | {program.files} | {program.reads} | {writes} | {program.lost} |\n"
 
@@ -177,8 +178,8 @@ def section(model: type[Model]) -> str:
 def assumption(model: type[Model]) -> str:
     """Return the assumption stated in the docstring of the model's file, in one line, or "" if there is none."""
     text = inspect.getdoc(inspect.getmodule(model)) or ""
-    found = re.search(r"^Assumption: (.+?)(?=^\w+: |^\s*$|\Z)", text, re.MULTILINE | re.DOTALL)
-    return f" Assumption: {' '.join(found[1].split())}".replace("``", "`") if found else ""
+    match = re.search(r"^Assumption: (.+?)(?=^\w+: |^\s*$|\Z)", text, re.MULTILINE | re.DOTALL)
+    return f" Assumption: {' '.join(match[1].split())}".replace("``", "`") if match else ""
 
 
 def table(settings: tuple[Setting, ...]) -> str:

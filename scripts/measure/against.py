@@ -33,15 +33,15 @@ def cases() -> dict[str, Callable]:
     """Return the cases by name; each is a function that takes the picture's size and returns what is timed."""
     from camera_ray_caster.core.cameras import MODELS
 
-    found: dict[str, Callable] = {
+    by_name: dict[str, Callable] = {
         f"{count:,} spheres, {len(passes)} passes": partial(spheres, count, passes)
         for passes in (FOUR, TWO)
         for count in SPHERES
     }
-    found |= {f"{name} triangles, 4 passes": partial(mesh, side, FOUR) for name, side in SIDES.items()}
-    found["F12, spheres and planes, 5 passes"] = _render
-    found[DATA_SET] = _dataset
-    return found | {f"rays, {model.key}": partial(_rays, model.key) for model in MODELS}
+    by_name |= {f"{name} triangles, 4 passes": partial(mesh, side, FOUR) for name, side in SIDES.items()}
+    by_name["F12, spheres and planes, 5 passes"] = _render
+    by_name[DATA_SET] = _dataset
+    return by_name | {f"rays, {model.key}": partial(_rays, model.key) for model in MODELS}
 
 
 def run(commit: str, rounds: int, size: tuple[int, int]) -> list[dict]:
@@ -58,7 +58,7 @@ def run(commit: str, rounds: int, size: tuple[int, int]) -> list[dict]:
                 print(f"  {name:34}{'':>9}   one of the two has it not, or refuses it")
                 continue
             before, here = np.min(times, axis=0)
-            ratios = sorted(one / other for other, one in times)
+            ratios = sorted(ours / theirs for theirs, ours in times)
             rows.append({"name": name, "there_ms": before, "here_ms": here, "ratio": here / before, "ratios": ratios})
             print(f"  {name:34}{before:9.1f}{here:9.1f}{here / before:16.2f}x{ratios[0]:9.2f}-{ratios[-1]:.2f}")
     return rows
@@ -137,15 +137,15 @@ def mesh(side: int, passes, size, model: str = "PERSP") -> Callable:
     from camera_ray_caster.core.mesh import Mesh
     from camera_ray_caster.core.records import MESH
 
-    x, y = (part.ravel() for part in np.meshgrid(*2 * [np.linspace(-3, 3, side + 1)]))
+    x, y = (coordinate.ravel() for coordinate in np.meshgrid(*2 * [np.linspace(-3, 3, side + 1)]))
     vertices = np.stack((x, y, -6 + 0.2 * np.sin(7 * x) * np.cos(5 * y))).astype(np.float32)
     corner = (np.arange(side)[:, None] * (side + 1) + np.arange(side)).ravel()
     other = corner + side + 1
     triangles = np.concatenate(([corner, corner + 1, other + 1], [corner, other + 1, other]), axis=1).astype(np.int32)
-    own = Mesh(vertices, triangles, np.arange(2 * len(corner), dtype=np.int32))
+    sheet = Mesh(vertices, triangles, np.arange(2 * len(corner), dtype=np.int32))
     return _cast(
         size, passes, model,
-        kind=np.array([MESH], np.uint8), center=own.middle[None], axes=np.eye(3)[None], meshes=(own,),
+        kind=np.array([MESH], np.uint8), center=sheet.middle[None], axes=np.eye(3)[None], meshes=(sheet,),
         mesh=np.zeros(1, np.int32), shared=np.zeros(1, bool),
     )  # fmt: skip
 

@@ -55,13 +55,13 @@ def run(width: int, height: int, rounds: int, threads: int) -> list[dict]:
     print(f"  {'':48}{'rays ms':>9}{'x fill':>8}{'x full':>8}{'cast ms':>10}{'x pinhole':>11}")
     rows = []
     there = np.empty((2, height, width, 3))
-    for name, one in _cameras({"resolution_x": width, "resolution_y": height}):
+    for name, case in _cameras({"resolution_x": width, "resolution_y": height}):
         entries = {
-            "fill": lambda one=one: there[: 1 if one.model.central else 2].fill(1.0),
-            "full": lambda one=one: [np.full(own.shape, 1.0) for own in there[: 1 if one.model.central else 2]],
-            "rays": one.rays,
+            "fill": lambda case=case: there[: 1 if case.model.central else 2].fill(1.0),
+            "full": lambda case=case: [np.full(array.shape, 1.0) for array in there[: 1 if case.model.central else 2]],
+            "rays": case.rays,
             "pinhole": lambda: cast(pinhole, shapes, passes=c.PASSES, threads=threads),
-            "cast": lambda one=one: cast(one, shapes, passes=c.PASSES, threads=threads),
+            "cast": lambda case=case: cast(case, shapes, passes=c.PASSES, threads=threads),
         }
         times = {entry: [] for entry in entries}
         for turn in range(rounds + 1):
@@ -71,7 +71,7 @@ def run(width: int, height: int, rounds: int, threads: int) -> list[dict]:
                 if turn:
                     times[entry].append(1e3 * (perf_counter() - began))
                 del result  # freeing memory is not timed
-        median = {entry: float(np.median(own)) for entry, own in times.items()}
+        median = {entry: float(np.median(seconds)) for entry, seconds in times.items()}
         rows.append({"model": name, **median})
         print(f"  {name:48}{median['rays']:9.1f}{median['rays'] / median['fill']:8.1f}"
               f"{median['rays'] / median['full']:8.1f}"

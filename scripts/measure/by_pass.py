@@ -32,7 +32,10 @@ def run(size: tuple[int, int], rounds: int) -> list[dict]:
         for scene, make in SCENES.items():
             row[scene] = _least(make(("valid", name), size), rounds) - alone[scene]
         rows.append(row)
-        print(f"  {name:16}{limit:15.1f}" + "".join(f"{row[one]:14.1f}{row[one] / limit:9.1f}x" for one in SCENES))
+        print(
+            f"  {name:16}{limit:15.1f}"
+            + "".join(f"{row[scene_name]:14.1f}{row[scene_name] / limit:9.1f}x" for scene_name in SCENES)
+        )
     return rows
 
 

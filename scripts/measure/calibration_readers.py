@@ -61,8 +61,8 @@ def nerfstudio_files():
         def project(points, path):
             for image in ("a.png", "b.png"):  # nerfbaselines opens them
                 Image.new("L", (WIDTH, HEIGHT)).save(Path(path).parent / image)
-            found = load_nerfstudio_dataset(str(Path(path).parent), "train", train_split_fraction=1.0)["cameras"][0]
-            still = found.replace(poses=np.eye(4)[:3].astype(np.float64))
+            camera = load_nerfstudio_dataset(str(Path(path).parent), "train", train_split_fraction=1.0)["cameras"][0]
+            still = camera.replace(poses=np.eye(4)[:3].astype(np.float64))
             return cameras.project(still[None], points[None])[0]
 
         yield f"nerfbaselines {name}", key, "transforms.json", text, project
@@ -85,8 +85,8 @@ def ncore_files():
         )  # fmt: skip
 
         def project(points, path, parameters=parameters):
-            own = FThetaCameraModel(parameters, device="cpu", dtype=torch.float64, newton_iterations=20)
-            return own.camera_rays_to_image_points(torch.from_numpy(points)).image_points.numpy()
+            model = FThetaCameraModel(parameters, device="cpu", dtype=torch.float64, newton_iterations=20)
+            return model.camera_rays_to_image_points(torch.from_numpy(points)).image_points.numpy()
 
         yield f"NCore {kind.name}", "FTHETA", ".json", json.dumps(parameters.to_dict()), project
 
@@ -101,13 +101,13 @@ def ros_files():
         text = f"image_width: {WIDTH}\nimage_height: {HEIGHT}\ndistortion_model: {name}\n"
         text += f"camera_matrix:\n  rows: 3\n  cols: 3\n  data: {matrix}\n"
         text += f"distortion_coefficients:\n  rows: 1\n  cols: {len(terms)}\n  data: {list(terms)}\n"
-        own = PinholeCameraModel()
-        own.fromCameraInfo(SimpleNamespace(
+        camera_model = PinholeCameraModel()
+        camera_model.fromCameraInfo(SimpleNamespace(
             K=matrix, D=list(terms), R=np.eye(3).ravel(), P=[fx, 0, cx, 0, 0, fy, cy, 0, 0, 0, 1, 0], width=WIDTH,
             height=HEIGHT, binning_x=0, binning_y=0, header=SimpleNamespace(frame_id="", stamp=0),
             roi=SimpleNamespace(x_offset=0, y_offset=0, height=0, width=0, do_rectify=False),
         ))  # fmt: skip
-        yield f"image_geometry {name}", "OPENCV_PINHOLE", "ros.yaml", text, own
+        yield f"image_geometry {name}", "OPENCV_PINHOLE", "ros.yaml", text, camera_model
 
 
 def points_before(cam) -> np.ndarray:
@@ -138,8 +138,8 @@ def main() -> int:
     Parser(prog="calibration_readers.py", description=__doc__.splitlines()[0]).parse_args()
     for files in (mrcal_files, nerfstudio_files, ncore_files, ros_files):
         try:
-            for name, *rest in files():
-                print(f"{name:36} {worst(*rest):.1e}", flush=True)
+            for name, *case in files():
+                print(f"{name:36} {worst(*case):.1e}", flush=True)
         except ModuleNotFoundError as missing:
             print(f"{files.__name__}: {missing}")
     return 0

@@ -90,8 +90,10 @@ def mitsuba(aovs: str | None, add: Callable | None = None, copied: bool = False)
                     "type": "sphere", "center": shapes.center[k].tolist(), "radius": float(shapes.axes[k, 0, 0])
                 }  # fmt: skip
             else:
-                place = mi.ScalarTransform4f().translate(shapes.center[k].tolist()).scale(float(shapes.axes[k, 0, 0]))
-                content[f"s{k}"] = {"type": "rectangle", "to_world": place}
+                transform = (
+                    mi.ScalarTransform4f().translate(shapes.center[k].tolist()).scale(float(shapes.axes[k, 0, 0]))
+                )
+                content[f"s{k}"] = {"type": "rectangle", "to_world": transform}
 
     def prepare(camera, shapes):
         height, width = camera.raster.shape
@@ -150,7 +152,7 @@ def embree(camera, shapes):
     world = EmbreeScene()
     TriangleMesh(world, np.concatenate(corners).astype(np.float32))
     rays = camera.rays()
-    origins, directions = (part.reshape(-1, 3).astype(np.float32) for part in (rays.origins, rays.directions))
+    origins, directions = (vectors.reshape(-1, 3).astype(np.float32) for vectors in (rays.origins, rays.directions))
     world.run(origins[:1], directions[:1], query="DISTANCE")
     return lambda: world.run(origins, directions, query="DISTANCE")
 

@@ -36,17 +36,17 @@ def run(frames: int) -> list[dict]:
             _measured(scene, Path(folder) / "two", "one process, two cores", frames, cores),
             _measured(scene, Path(folder) / "dask", "two workers, a core each", frames, cores, "--workers", "2"),
         ]
-        one, two, dask = rows
+        single, two, dask = rows
         writing = _writing(sorted((Path(folder) / "one").glob("*_0*.npz")))
     print(f"\n{frames} frames x {CAMERAS} cameras, {SIZE[0]} x {SIZE[1]}, {len(PASSES_CAST)} passes; seconds a picture")
     for row in rows:
         print(f"  {row['name']:28}{row['wall']:8.3f} by the clock{row['cpu']:8.3f} of processors")
     print(f"  {'writing alone':28}{'':21}{writing:8.3f} of processors")
-    print(f"  all beside writing alone, processor time: {one['cpu'] / writing:.2f} x")
-    print(f"  two workers beside one process on one core: {one['wall'] / dask['wall']:.2f} x as fast by the clock, "
-          f"{2 * one['cpu'] / dask['cpu']:.2f} x by processor time")  # fmt: skip
+    print(f"  all beside writing alone, processor time: {single['cpu'] / writing:.2f} x")
+    print(f"  two workers beside one process on one core: {single['wall'] / dask['wall']:.2f} x as fast by the clock, "
+          f"{2 * single['cpu'] / dask['cpu']:.2f} x by processor time")  # fmt: skip
     print(f"  two workers beside one process on the same two cores: {dask['wall'] / two['wall']:.2f} x the time")
-    print(f"  a worker's overhead: {1e3 * (dask['cpu'] - one['cpu']):.0f} ms of processors a picture")
+    print(f"  a worker's overhead: {1e3 * (dask['cpu'] - single['cpu']):.0f} ms of processors a picture")
     return [*rows, {"name": "writing alone", "cpu": writing}]
 
 
@@ -58,8 +58,8 @@ def _scene(path: Path) -> Path:
     bpy.ops.mesh.primitive_plane_add(size=30)
     bpy.ops.mesh.primitive_torus_add(location=(0, 0, 1), major_radius=3)
     for turn in np.linspace(0, 2 * np.pi, 6, endpoint=False):
-        place = 2 * np.cos(turn), 2 * np.sin(turn), 1
-        bpy.ops.mesh.primitive_monkey_add(size=1.5, location=place, rotation=(0, 0, turn))
+        location = 2 * np.cos(turn), 2 * np.sin(turn), 1
+        bpy.ops.mesh.primitive_monkey_add(size=1.5, location=location, rotation=(0, 0, turn))
         bpy.ops.object.modifier_add(type="SUBSURF")
     for number in range(CAMERAS):
         bpy.ops.object.camera_add()
@@ -89,8 +89,8 @@ def _measured(scene: Path, out: Path, name: str, frames: int, cores: list[int], 
         now = getrusage(RUSAGE_CHILDREN)
         spent.append((perf_counter() - began, now.ru_utime + now.ru_stime - used.ru_utime - used.ru_stime))
     (few_wall, few_cpu), (wall, cpu) = spent
-    more = CAMERAS * (frames - FEW)
-    return {"name": name, "wall": (wall - few_wall) / more, "cpu": (cpu - few_cpu) / more}
+    pictures = CAMERAS * (frames - FEW)
+    return {"name": name, "wall": (wall - few_wall) / pictures, "cpu": (cpu - few_cpu) / pictures}
 
 
 def _writing(files: list[Path]) -> float:

@@ -41,10 +41,10 @@ def run(camera, shapes, passes, threads: int, rounds: int) -> list[dict]:
         began = perf_counter()
         depth, normal, position, index = [], [], [], []
         for direction in directions:
-            is_hit, place, across, _, thing, _ = scene.ray_cast(depsgraph, origin, direction)
-            depth.append(-place.z if is_hit else np.inf)
+            is_hit, hit_point, across, _, thing, _ = scene.ray_cast(depsgraph, origin, direction)
+            depth.append(-hit_point.z if is_hit else np.inf)
             normal.extend(across)
-            position.extend(place)
+            position.extend(hit_point)
             index.append(thing.pass_index if is_hit else 0)
         for values in (depth, normal, position):
             np.array(values, np.float32)
@@ -72,8 +72,8 @@ def run(camera, shapes, passes, threads: int, rounds: int) -> list[dict]:
     }
     times: dict[str, list[float]] = {name: [] for name in (*both_of_ours, *others)}
     for turn in range(rounds + 1):
-        for other, one in others.items():
-            for name, entry in (*both_of_ours.items(), (other, one)):
+        for other_name, entry_of in others.items():
+            for name, entry in (*both_of_ours.items(), (other_name, entry_of)):
                 if turn:
                     sleep(c.PAUSE)
                 seconds = entry()
@@ -83,11 +83,11 @@ def run(camera, shapes, passes, threads: int, rounds: int) -> list[dict]:
     print(f"  {'':28}{'least':>10}{'median':>10}{'over our 4':>12}{'over our 2':>12}")
     four, two = (float(np.median(times[name])) for name in both_of_ours)
     rows = []
-    for name, own in times.items():
-        median = float(np.median(own))
-        rows.append({"spheres": len(shapes) - 1, "name": name, "least_ms": min(own), "median_ms": median,
+    for name, milliseconds in times.items():
+        median = float(np.median(milliseconds))
+        rows.append({"spheres": len(shapes) - 1, "name": name, "least_ms": min(milliseconds), "median_ms": median,
                      "over_ours": median / four, "over_ours_depth": median / two})  # fmt: skip
-        print(f"  {name:28}{min(own):10.1f}{median:10.1f}{median / four:11.1f}x{median / two:11.1f}x")
+        print(f"  {name:28}{min(milliseconds):10.1f}{median:10.1f}{median / four:11.1f}x{median / two:11.1f}x")
     return rows
 
 

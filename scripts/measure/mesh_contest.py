@@ -50,11 +50,11 @@ def scene(level: int, crowd: bool, width: int, height: int):
         across, up = rng.uniform(-1, 1, (2, CROWD)) * depth * [[0.36], [0.2]]
         monkey.hide_render = True
         for k in range(CROWD):
-            one = bpy.data.objects.new(f"Monkey {k}", monkey.data)
-            one.location = across[k], up[k], -depth[k]
-            one.rotation_euler = rng.uniform(0, 6, 3)
-            one.scale = (0.5,) * 3
-            scene.collection.objects.link(one)
+            copy = bpy.data.objects.new(f"Monkey {k}", monkey.data)
+            copy.location = across[k], up[k], -depth[k]
+            copy.rotation_euler = rng.uniform(0, 6, 3)
+            copy.scale = (0.5,) * 3
+            scene.collection.objects.link(copy)
     bpy.context.view_layer.update()
     return read_camera(scene), read_shapes(scene)
 
@@ -85,12 +85,12 @@ def mitsubas() -> dict[str, Callable]:
     def add(content: dict, shapes: Shapes) -> None:
         for k, (places, corners, normals) in enumerate(triangles(shapes)):
             mesh = mi.Mesh(f"s{k}", len(places), len(corners), has_vertex_normals=normals is not None)
-            own = mi.traverse(mesh)
-            own["vertex_positions"] = np.ascontiguousarray(places).ravel()
-            own["faces"] = np.ascontiguousarray(corners, np.uint32).ravel()
+            parameters = mi.traverse(mesh)
+            parameters["vertex_positions"] = np.ascontiguousarray(places).ravel()
+            parameters["faces"] = np.ascontiguousarray(corners, np.uint32).ravel()
             if normals is not None:
-                own["vertex_normals"] = np.ascontiguousarray(normals).ravel()
-            own.update()
+                parameters["vertex_normals"] = np.ascontiguousarray(normals).ravel()
+            parameters.update()
             content[f"s{k}"] = mesh
 
     return c.mitsubas(add)
@@ -99,10 +99,10 @@ def mitsubas() -> dict[str, Callable]:
 def merged(shapes: Shapes) -> tuple[np.ndarray, np.ndarray]:
     """Return all vertices, (v, 3) float32, and triangles, (k, 3), of a scene."""
     places, corners, start = [], [], 0
-    for own, three, _ in triangles(shapes):
-        places.append(own)
+    for vertices, three, _ in triangles(shapes):
+        places.append(vertices)
         corners.append(three + start)
-        start += len(own)
+        start += len(vertices)
     return np.concatenate(places), np.concatenate(corners)
 
 
@@ -115,7 +115,7 @@ def embree(camera, shapes) -> Callable:
     world = EmbreeScene()
     TriangleMesh(world, np.ascontiguousarray(places[corners]))
     rays = camera.rays()
-    origins, directions = (part.reshape(-1, 3).astype(np.float32) for part in (rays.origins, rays.directions))
+    origins, directions = (vectors.reshape(-1, 3).astype(np.float32) for vectors in (rays.origins, rays.directions))
     world.run(origins[:1], directions[:1], query="DISTANCE")
     return lambda: world.run(origins, directions, query="DISTANCE")
 
@@ -130,8 +130,8 @@ def open3d(threads: int) -> Callable:
         world = o3d.t.geometry.RaycastingScene(nthreads=threads)
         world.add_triangles(o3d.core.Tensor(places), o3d.core.Tensor(corners.astype(np.uint32)))
         rays = camera.rays()
-        given = np.concatenate((np.broadcast_to(rays.origins, rays.directions.shape), rays.directions), axis=-1)
-        tensor = o3d.core.Tensor(given.astype(np.float32))
+        ray_numbers = np.concatenate((np.broadcast_to(rays.origins, rays.directions.shape), rays.directions), axis=-1)
+        tensor = o3d.core.Tensor(ray_numbers.astype(np.float32))
         return lambda: world.cast_rays(tensor, nthreads=threads)
 
     return prepare
@@ -173,11 +173,11 @@ def _by_model(width: int, height: int, rounds: int, threads: int) -> list[dict]:
         other = camera_of(key, size)
         times: tuple[list[float], list[float]] = [], []
         for _ in range(rounds + 1):
-            for own, one in zip(times, (camera, other), strict=True):
+            for milliseconds, contender in zip(times, (camera, other), strict=True):
                 began = perf_counter()
-                c.ours(PASSES, threads)(one, shapes)()
-                own.append(1e3 * (perf_counter() - began))
-        plain, median = (float(np.median(own[1:])) for own in times)
+                c.ours(PASSES, threads)(contender, shapes)()
+                milliseconds.append(1e3 * (perf_counter() - began))
+        plain, median = (float(np.median(milliseconds[1:])) for milliseconds in times)
         rows.append({"model": key, "median_ms": median, "perspective_ms": plain})
         print(f"  {key:28}{median:9.1f} ms{median / plain:10.2f}x")
     return rows

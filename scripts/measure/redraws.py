@@ -39,8 +39,8 @@ def run(rounds: int, threads: int, size: tuple[int, int]) -> list[dict]:
     print(f"  {'':28}" + "".join(f"{name:>18}" for name in scenes), flush=True)
     rows = []
     for model in MODELS:
-        one = camera(model.key, {**frame, **LENSES.get(model.key, {})})
-        times = {name: _least(_at(one, pose), shapes, rounds, threads) for name, (pose, shapes) in scenes.items()}
+        case = camera(model.key, {**frame, **LENSES.get(model.key, {})})
+        times = {name: _least(_at(case, pose), shapes, rounds, threads) for name, (pose, shapes) in scenes.items()}
         rows.append({"model": model.key, **times})
         print(f"  {model.key:28}" + "".join(f"{each:18.0f}" for each in times.values()), flush=True)
     return rows

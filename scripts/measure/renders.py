@@ -37,8 +37,8 @@ class Zeros(bpy.types.RenderEngine):
             size = width, min(step, height - first)
             result = self.begin_result(0, first, *size, layer=layer.name)
             for entry in wanted:
-                found = result.layers[0].passes.find_by_name(entry.label, "")
-                found.rect.foreach_set(zeros[: size[0] * size[1] * len(entry.channels)])
+                render_pass = result.layers[0].passes.find_by_name(entry.label, "")
+                render_pass.rect.foreach_set(zeros[: size[0] * size[1] * len(entry.channels)])
             self.end_result(result)
 
 
@@ -80,7 +80,7 @@ def _row(name: str, size: tuple[int, int], rounds: int) -> dict:
             began = process_time()
             call()
             least[key] = min(least[key], 1e3 * (process_time() - began))
-    own = least["F12"] - least["zeros"]
+    engine_seconds = least["F12"] - least["zeros"]
     print(f"  {name:24}" + "".join(f"{time:10.0f}" for time in least.values())
-          + f"{least['F12'] / least['cast']:10.2f} x{own / least['cast']:20.2f} x")  # fmt: skip
+          + f"{least['F12'] / least['cast']:10.2f} x{engine_seconds / least['cast']:20.2f} x")  # fmt: skip
     return {"name": name, **{f"{key}_ms": time for key, time in least.items()}}

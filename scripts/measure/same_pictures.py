@@ -21,10 +21,10 @@ def run(commit: str) -> list[dict]:
         before, here = _hashes(there), _hashes(ROOT)
     rows = []
     for scene, passes in here.items():
-        both = passes.keys() & before.get(scene, {}).keys()
-        differ = sorted(name for name in both if passes[name] != before[scene][name])
-        rows.append({"name": scene, "compared": len(both), "differ": differ})
-        print(f"  {scene:34}{len(both):4} passes, {len(differ)} differ: {', '.join(differ)}".rstrip(": "))
+        shared = passes.keys() & before.get(scene, {}).keys()
+        differ = sorted(name for name in shared if passes[name] != before[scene][name])
+        rows.append({"name": scene, "compared": len(shared), "differ": differ})
+        print(f"  {scene:34}{len(shared):4} passes, {len(differ)} differ: {', '.join(differ)}".rstrip(": "))
     return rows
 
 
@@ -44,7 +44,7 @@ def tell() -> None:
     from camera_ray_caster.core.casting.passes import PASSES
 
     crc.register()
-    found = {}
+    hashes = {}
     for path in sorted(SCENES.glob("*.blend")):
         bpy.ops.wm.open_mainfile(filepath=str(path))
         for passes in (list(PASSES), [name for name in PASSES if not name.startswith("flow")]):
@@ -52,6 +52,6 @@ def tell() -> None:
                 images = crc.cast(crc.read_scene(bpy.context.scene, passes=passes), passes=passes)
             except crc.InputError:
                 continue
-            found[path.stem] = {name: sha256(image.tobytes()).hexdigest() for name, image in images.items()}
+            hashes[path.stem] = {name: sha256(image.tobytes()).hexdigest() for name, image in images.items()}
             break
-    print(json.dumps(found))
+    print(json.dumps(hashes))

@@ -32,7 +32,7 @@ def run(rounds: int, threads: int, quick: bool) -> list[dict]:
     rows = []
     print(f"\ndepth and shape index, {threads} threads, median of {rounds}")
     print(f"  {'':>12}{'shapes':>11}{'pixels':>13}{'ms':>10}{'ns a pixel':>12}{'memory beside, MB':>19}")
-    for what, count, width, height, scene in cases:
+    for quantity, count, width, height, scene in cases:
         camera, shapes = scene(count, width, height)
         cast(camera, shapes, passes=PASSES, threads=threads)
         times = []
@@ -48,9 +48,10 @@ def run(rounds: int, threads: int, quick: bool) -> list[dict]:
         tracemalloc.stop()
         del images
         median = float(np.median(times))
-        own = {"spheres": count} if scene is c.scene else {"triangles": count}
-        rows.append({"against": what, "pixels": width * height, "median_ms": median, "beside_mb": beside / 1e6} | own)
-        print(f"  {what:>12}{count:11,}{width * height:13,}{median:10.1f}{1e6 * median / width / height:12.1f}"
+        shape_counts = {"spheres": count} if scene is c.scene else {"triangles": count}
+        row = {"against": quantity, "pixels": width * height, "median_ms": median, "beside_mb": beside / 1e6}
+        rows.append(row | shape_counts)
+        print(f"  {quantity:>12}{count:11,}{width * height:13,}{median:10.1f}{1e6 * median / width / height:12.1f}"
               f"{beside / 1e6:19.1f}")  # fmt: skip
     return rows
 
@@ -85,14 +86,14 @@ def draw(rows: list[dict], path) -> None:
     from matplotlib import pyplot as plt
 
     figure, axes = plt.subplots(1, 3, figsize=(12, 3.6), layout="constrained")
-    for axis, what in zip(axes, ("spheres", "triangles", "pixels"), strict=True):
-        own = [row for row in rows if row["against"] == what]
-        x, y = ([row[name] for row in own] for name in (what, "median_ms"))
+    for axis, quantity in zip(axes, ("spheres", "triangles", "pixels"), strict=True):
+        of_quantity = [row for row in rows if row["against"] == quantity]
+        x, y = ([row[name] for row in of_quantity] for name in (quantity, "median_ms"))
         axis.loglog(x, y, "o-", color="#2b6ca3")
         axis.loglog(x, [y[-1] * n / x[-1] for n in x], ":", color="0.5", label="linear")
-        axis.set_xlabel("triangles of one mesh" if what == "triangles" else what)
+        axis.set_xlabel("triangles of one mesh" if quantity == "triangles" else quantity)
         axis.set_ylabel("milliseconds")
-        axis.grid(True, which="major", alpha=0.3)
+        axis.grid(True, alpha=0.3)
         axis.legend(frameon=False)
     figure.savefig(path, dpi=110, metadata={"Software": None})
     plt.close(figure)

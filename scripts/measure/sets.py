@@ -17,12 +17,14 @@ def run(counts: tuple[int, ...]) -> list[dict]:
     """Print and return the figures of sets of so many pictures, with and without annotations."""
     rows = []
     print("\npictures  annotations  processor s  s a picture  peak MB  bytes a picture: JSON  all")
-    for more in ["--annotations"], []:
+    for options in ["--annotations"], []:
         for count in counts:
             with tempfile.TemporaryDirectory() as folder:
-                row = {"pictures": count, "annotations": bool(more)} | _measured(count, Path(folder) / "set", more)
+                row = {"pictures": count, "annotations": bool(options)} | _measured(
+                    count, Path(folder) / "set", options
+                )
             rows.append(row)
-            print(f"{count:8}  {'yes' if more else 'no':>11}  {row['cpu']:11.1f}  {row['cpu'] / count:11.4f}"
+            print(f"{count:8}  {'yes' if options else 'no':>11}  {row['cpu']:11.1f}  {row['cpu'] / count:11.4f}"
                   f"  {row['peak']:7.0f}  {row['json']:21.0f}  {row['bytes']:3.0f}", flush=True)  # fmt: skip
         few, many = rows[-len(counts)], rows[-1]
         if few is not many:
@@ -32,9 +34,9 @@ def run(counts: tuple[int, ...]) -> list[dict]:
     return rows
 
 
-def _measured(count: int, out: Path, more: list[str]) -> dict[str, float]:
+def _measured(count: int, out: Path, options: list[str]) -> dict[str, float]:
     """Make a set; return the seconds of processors, the peak in MB, and the bytes of a picture."""
-    words = [sys.executable, ROOT / "scripts" / "dataset.py", *WORDS, "--frames", f"1:{count}", "--output", out, *more]
+    words = [sys.executable, ROOT / "scripts/dataset.py", *WORDS, "--frames", f"1:{count}", "--output", out, *options]
     process = subprocess.Popen(words, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     _, status, used = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)

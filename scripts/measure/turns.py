@@ -40,11 +40,11 @@ def compare(title: str, camera, shapes, entries: dict, rounds: int) -> list[dict
     reference = {"4": np.median(times["ours, 4 passes"]), "d": np.median(times["ours, depth + index"])}
     print(f"  {'':28}{'least':>9}{'median':>9}{'spread':>15}{'prepare':>10}{'over ours':>11}")
     for row in rows:
-        own = times[row["name"]]
-        low, median, high = np.percentile(own, (25, 50, 75))
-        row |= {"least_ms": min(own), "median_ms": median, "low_ms": low, "high_ms": high}
+        milliseconds = times[row["name"]]
+        low, median, high = np.percentile(milliseconds, (25, 50, 75))
+        row |= {"least_ms": min(milliseconds), "median_ms": median, "low_ms": low, "high_ms": high}
         row["over_ours"] = median / reference["4" if "4 passes" in row["name"] else "d"]
-        print(f"  {row['name']:28}{min(own):9.1f}{median:9.1f}{low:8.1f}-{high:.1f}".ljust(64)
+        print(f"  {row['name']:28}{min(milliseconds):9.1f}{median:9.1f}{low:8.1f}-{high:.1f}".ljust(64)
               + f"{row['prepare_ms']:9.0f}{row['over_ours']:10.2f}x")  # fmt: skip
     return rows
 

@@ -45,11 +45,11 @@ def pairs(views: list[View]) -> Iterator[tuple[View, View]]:
     flows = all(view.has("flow_forward") for view in views)
     several = max(map(len, frames.values())) > 1
     if flows or not several:
-        for _, own in groupby(views, key=lambda view: view.camera_name):
-            yield from pairwise(own)
+        for _, of_camera in groupby(views, key=lambda view: view.camera_name):
+            yield from pairwise(of_camera)
     else:
         for there in frames.values():
-            yield from ((one, other) for one in there for other in there if one is not other)
+            yield from ((first, second) for first in there for second in there if first is not second)
 
 
 def distances(view: View, points: np.ndarray) -> np.ndarray:
@@ -64,7 +64,7 @@ def check(first: View, second: View) -> tuple[list[str], bool]:
     """Re-project a view into another view; return the row of the table, and whether all checks pass."""
     points, hit = first.points()
     raster = first.camera.raster
-    points, own = points[hit], np.argwhere(hit)[:, ::-1] + 0.5 + (raster.x0, raster.y0)
+    points, own_pixels = points[hit], np.argwhere(hit)[:, ::-1] + 0.5 + (raster.x0, raster.y0)
     raster = second.camera.raster
     low, high = (raster.x0, raster.y0), (raster.x1, raster.y1)
     pixels = second.camera.project(points)
@@ -82,7 +82,7 @@ def check(first: View, second: View) -> tuple[list[str], bool]:
     flow_off, right = np.zeros(0), True
     if first.has("flow_forward"):
         flow, hidden = first.pixels("flow_forward")[hit], first.pixels("flow_hidden")[hit][:, 0].astype(bool)[inside]
-        flow_off = np.abs(pixels - own - flow)[inside]
+        flow_off = np.abs(pixels - own_pixels - flow)[inside]
         away = np.abs(pixels - np.clip(pixels, 0, raster.size)).max(axis=1)  # NaN where there is no pixel
         edge = (away > 0) & (away < FLOW)  # rounding decides there
         right = bool((np.isnan(flow[:, 0]) == ~(away == 0))[~edge].all())
@@ -109,11 +109,11 @@ def main(description: str) -> int:
         if any(view.file.suffix == ".exr" for view in views):
             with suppress(ImportError):  # without bpy; reading refuses the files
                 from camera_ray_caster.blender.read import openexr  # noqa: F401
-        found = list(pairs(views))
-        if not found:
+        view_pairs = list(pairs(views))
+        if not view_pairs:
             parser.error(f"{str(folder)!r} has one view: a set has two or more")
         print(HEAD)
-        for first, second in found:
+        for first, second in view_pairs:
             row, right = check(first, second)
             print(ROW.format(*row), flush=True)
             passed &= right

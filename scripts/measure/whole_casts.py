@@ -44,23 +44,25 @@ def run(size: tuple[int, int], rounds: int) -> list[dict]:
 def _row(name: str, passes: tuple[str, ...], make: Callable, size: tuple[int, int], rounds: int) -> dict:
     """Return the times of a case. Its passes take what one thread takes more than without any but ``valid``."""
     cast, search = make(passes, size), make(("valid",), size)
-    images, arrays = cast(), [new(one, size) for one in passes]
-    writing, one, two, valid, filling, into = _least(
+    images, arrays = cast(), [new(key, size) for key in passes]
+    writing, one_thread, two_threads, valid, filling, into = _least(
         rounds,
-        lambda: _fill([new(one, size) for one in passes]),
+        lambda: _fill([new(key, size) for key in passes]),
         lambda: cast(threads=1),
         lambda: cast(threads=2),
         lambda: search(threads=1),
         lambda: _fill(arrays),
         lambda: cast(into=images),
     )
-    over, over_into = min(one[0], two[0]) / writing[0], into[0] / filling[0]
-    shown = [f"{cpu:.1f} / {clock:.1f}" for cpu, clock in (writing, one, two, filling, into)]
-    written = one[0] - valid[0]
+    over, over_into = min(one_thread[0], two_threads[0]) / writing[0], into[0] / filling[0]
+    shown = [f"{cpu:.1f} / {clock:.1f}" for cpu, clock in (writing, one_thread, two_threads, filling, into)]
+    written = one_thread[0] - valid[0]
     columns = *shown[:3], f"{over:.1f} x", f"{written:.1f}", *shown[3:], f"{over_into:.1f} x"
     print(f"  {name:30}" + "".join(f"{text:>16}" for text in columns))
-    return {"name": name, "writing_ms": writing, "one_thread_ms": one, "two_threads_ms": two, "over_writing": over,
-            "passes_ms": written, "filling_ms": filling, "into_ms": into, "over_filling": over_into}  # fmt: skip
+    return {
+        "name": name, "writing_ms": writing, "one_thread_ms": one_thread, "two_threads_ms": two_threads,
+        "over_writing": over, "passes_ms": written, "filling_ms": filling, "into_ms": into, "over_filling": over_into,
+    }  # fmt: skip
 
 
 def _fill(arrays: list[np.ndarray]) -> None:
@@ -70,12 +72,12 @@ def _fill(arrays: list[np.ndarray]) -> None:
 
 def _least(rounds: int, *timed: Callable) -> list[Times]:
     """Return the least times of functions that run in turns, after one run that does not count."""
-    found = np.full((len(timed), 2), np.inf)
+    least = np.full((len(timed), 2), np.inf)
     for round_ in range(rounds + 1):
-        for own, call in zip(found, timed, strict=True):
+        for entry, call in zip(least, timed, strict=True):
             cpu, clock = process_time(), perf_counter()
             call()
             spent = process_time() - cpu, perf_counter() - clock
             if round_:
-                own[:] = np.minimum(own, spent)
-    return [tuple(1e3 * own) for own in found]
+                entry[:] = np.minimum(entry, spent)
+    return [tuple(1e3 * entry) for entry in least]

@@ -27,8 +27,8 @@ def test_another_python_is_named_with_those_that_fit(python):
 def test_each_bpy_is_tested_and_the_newest_by_all_tests_and_hostile_inputs(monkeypatch, capsys):
     ran = []
 
-    def make(target, bpy, _, left_out=(), part=""):
-        ran.append((target, bpy, *left_out, part))
+    def make(target, bpy, _, left_out=(), share=""):
+        ran.append((target, bpy, *left_out, share))
         return "test-" in target
 
     monkeypatch.setattr(environment, "find_python", lambda version: "python" if version == (3, 11) else None)

@@ -18,8 +18,8 @@ def opencv_pinhole(scene):
     since its inverse has no formula.
     """
     room(scene)
-    own = {"model": "OPENCV_PINHOLE", **picture(448, 280, 210), "k1": -0.24, "k2": 0.045, "p1": 0.004, "p2": -0.006}
-    photograph(scene, CORNER, AHEAD, 448, 280, own=own)
+    lens = {"model": "OPENCV_PINHOLE", **picture(448, 280, 210), "k1": -0.24, "k2": 0.045, "p1": 0.004, "p2": -0.006}
+    photograph(scene, CORNER, AHEAD, 448, 280, settings=lens)
 
 
 def opencv_fisheye(scene):
@@ -27,8 +27,8 @@ def opencv_fisheye(scene):
     its polynomial turns back.
     """
     room(scene)
-    own = {"model": "OPENCV_FISHEYE", **picture(448, 280, 110), "k1": 0.03, "k2": -0.022, "k3": 0.0008}
-    photograph(scene, MIDDLE, FRONT, 448, 280, own=own)
+    lens = {"model": "OPENCV_FISHEYE", **picture(448, 280, 110), "k1": 0.03, "k2": -0.022, "k3": 0.0008}
+    photograph(scene, MIDDLE, FRONT, 448, 280, settings=lens)
 
 
 def ucm(scene):
@@ -54,8 +54,8 @@ def fisheye624(scene):
     """A Project Aria fisheye has radial, tangential and thin prism distortion. The last two are stronger
     than in real lenses.
     """
-    own = {"k1": 0.4, "k2": -0.5, "k3": 0.25, "k4": 1.2, "k5": -1.7, "k6": 0.6, "p1": 0.004, "p2": -0.002}
-    calibrated(scene, 95, model="FISHEYE624", **own, s1=-0.006, s2=-0.002, s3=0.009, s4=0.0001)
+    lens = {"k1": 0.4, "k2": -0.5, "k3": 0.25, "k4": 1.2, "k5": -1.7, "k6": 0.6, "p1": 0.004, "p2": -0.002}
+    calibrated(scene, 95, model="FISHEYE624", **lens, s1=-0.006, s2=-0.002, s3=0.009, s4=0.0001)
 
 
 def thin_prism_fisheye(scene):
@@ -90,8 +90,8 @@ def ftheta(scene):
     """In the f-theta model (NVIDIA), the angle is a polynomial of the radius. The sensor is not quite perpendicular to
     the lens.
     """
-    own = {"ftheta_reference": "RADIUS_TO_ANGLE", "ftheta_radius_to_angle": "0 0.0125 3e-6 -9e-8"}
-    calibrated(scene, model="FTHETA", **own, ftheta_c=1.01, ftheta_d=0.06, ftheta_e=-0.04)
+    lens = {"ftheta_reference": "RADIUS_TO_ANGLE", "ftheta_radius_to_angle": "0 0.0125 3e-6 -9e-8"}
+    calibrated(scene, model="FTHETA", **lens, ftheta_c=1.01, ftheta_d=0.06, ftheta_e=-0.04)
 
 
 def ocam(scene):
@@ -107,19 +107,19 @@ def ray_table(scene):
     """
     room(scene)
     np.savez_compressed(FOLDER / "ray_table.npz", **ball_mirror(52))
-    own = {"model": "RAY_TABLE", "calibration_file": "//ray_table.npz"}
-    photograph(scene, (0, 0.5, 2.4), (0, -6, 2.4), 208, 208, own=own)
+    lens = {"model": "RAY_TABLE", "calibration_file": "//ray_table.npz"}
+    photograph(scene, (0, 0.5, 2.4), (0, -6, 2.4), 208, 208, settings=lens)
 
 
-def ball_mirror(side: int, radius: float = 0.6, away: float = 3.0, most: float = 0.9) -> dict[str, np.ndarray]:
+def ball_mirror(side: int, radius: float = 0.6, away: float = 3.0, largest: float = 0.9) -> dict[str, np.ndarray]:
     """Return origins and directions (side, side, 3) of the rays of a camera behind a ball, after their reflection.
 
     The camera is ``away`` behind its own eye, the middle of the ball, and looks at it; the rim of the picture is at
-    ``most`` of the ball's. NaN beyond it.
+    ``largest`` of the ball's. NaN beyond it.
     """
-    place = (2 * np.arange(side) + 1) / side - 1
-    x, y = np.meshgrid(place, place)
-    slope = most * radius / np.sqrt(away * away - radius * radius)
+    position = (2 * np.arange(side) + 1) / side - 1
+    x, y = np.meshgrid(position, position)
+    slope = largest * radius / np.sqrt(away * away - radius * radius)
     seen = np.stack((slope * x, slope * y, -np.ones_like(x)), axis=-1)
     seen /= np.linalg.norm(seen, axis=-1, keepdims=True)
     eye = np.array((0.0, 0.0, away))
@@ -133,10 +133,10 @@ def ball_mirror(side: int, radius: float = 0.6, away: float = 3.0, most: float =
     return {"origins": np.float32(origins * turned), "directions": np.float32(directions * turned)}
 
 
-def calibrated(scene, focal: float = 1.0, **own):
+def calibrated(scene, focal: float = 1.0, **settings):
     """Photograph the room through a lens with this focal length, in pixels of a small picture."""
     room(scene)
-    photograph(scene, MIDDLE, FRONT, *SMALL, own=picture(*SMALL, focal) | own)
+    photograph(scene, MIDDLE, FRONT, *SMALL, addon=picture(*SMALL, focal) | settings)
 
 
 def picture(width: int, height: int, focal: float) -> dict[str, float]:

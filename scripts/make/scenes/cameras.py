@@ -74,8 +74,8 @@ def animated(scene):
     eye = camera(scene, (0, 0, 2.5))
     scene.frame_start, scene.frame_end = 1, 25
     for frame in range(1, 26, 4):
-        part = (frame - 1) / 24
-        angle, distance = pi * (part / 2 - 0.6), 4 + 8 * part
+        share = (frame - 1) / 24
+        angle, distance = pi * (share / 2 - 0.6), 4 + 8 * share
         eye.location = red.location.x + distance * cos(angle), distance * sin(angle), 2.5
         eye.keyframe_insert("location", frame=frame)
     track = eye.constraints.new("TRACK_TO")
@@ -105,8 +105,8 @@ def far_and_small(scene):
     precision.
     """
     for k in range(5):
-        place = (0.55 * (k - 2), 0.15 * k, 0.2 * sin(2.4 * k))
-        add(scene, f"Ball {k}", ico_sphere(), place, scale=0.1, color=("e2674a", "2a9d8f")[k % 2], index=k + 1)
+        location = (0.55 * (k - 2), 0.15 * k, 0.2 * sin(2.4 * k))
+        add(scene, f"Ball {k}", ico_sphere(), location, scale=0.1, color=("e2674a", "2a9d8f")[k % 2], index=k + 1)
     sun(scene, (46, 0, -46), 2)
     camera(scene, (0, -400, 0), lens=5000)
     render(scene)

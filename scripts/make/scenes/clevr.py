@@ -40,11 +40,11 @@ def clevr(scene, views: int, count: int, size: tuple[int, int], seed: int) -> No
     looks = list(product(SIZES, COLORS, ROUGHNESS, SHAPES))
     for index in range(1, count + 1):
         large, color, surface, shape = random.choice(looks)
-        place = _place(random, SIZES[large], places)
-        if place is None:
+        location = _place(random, SIZES[large], places)
+        if location is None:
             break  # the floor is full
-        places.append(place)
-        thing = _solid(scene, shape, f"{large} {color} {surface} {shape} {index}", place, random.uniform(0, 90))
+        places.append(location)
+        thing = _solid(scene, shape, f"{large} {color} {surface} {shape} {index}", location, random.uniform(0, 90))
         thing.pass_index = index
         thing["category"] = shape
         _dress(thing, f"{color} {surface}", COLORS[color], surface)
@@ -72,9 +72,9 @@ def _place(random: Random, radius: float, taken) -> tuple[float, float, float] |
     return None
 
 
-def _solid(scene, shape: str, name: str, place, turn: float):
+def _solid(scene, shape: str, name: str, spot, turn: float):
     """Add an object of the named shape, standing on the floor."""
-    x, y, radius = place
+    x, y, radius = spot
     where, angles = (x, y, radius), (0, 0, turn)
     if shape == "cube":
         side = radius * 2**0.5
@@ -87,16 +87,16 @@ def _solid(scene, shape: str, name: str, place, turn: float):
 
 def _dress(thing, name: str, color: str, surface: str) -> None:
     """Give an object its own material slot, with a material that is made once for each name."""
-    found = bpy.data.materials.get(name)
-    if found is None:
-        found = bpy.data.materials.new(name)
-        found.use_nodes = True
-        inputs = found.node_tree.nodes["Principled BSDF"].inputs
-        inputs["Base Color"].default_value = found.diffuse_color = linear(color)
+    material = bpy.data.materials.get(name)
+    if material is None:
+        material = bpy.data.materials.new(name)
+        material.use_nodes = True
+        inputs = material.node_tree.nodes["Principled BSDF"].inputs
+        inputs["Base Color"].default_value = material.diffuse_color = linear(color)
         inputs["Metallic"].default_value = float(surface == "metal")
         inputs["Roughness"].default_value = ROUGHNESS[surface]
-        found.pass_index = len(bpy.data.materials)
+        material.pass_index = len(bpy.data.materials)
     if not thing.data.materials:
         thing.data.materials.append(None)
     thing.material_slots[0].link = "OBJECT"
-    thing.material_slots[0].material = found
+    thing.material_slots[0].material = material

@@ -28,9 +28,9 @@ def instances(scene):
     add(scene, "Floor", square(), scale=(5, 4, 1), color="d9d2c6", index=1)
     snowman = bpy.data.collections.new("Snowman")
     for height, size, color in ((0.5, 0.5, "eae1d0"), (1.2, 0.35, "f0b941")):
-        part = add(scene, "Part", uv_sphere(), (0, 0, height), scale=size, color=color, index=2)
-        scene.collection.objects.unlink(part)
-        snowman.objects.link(part)
+        ball = add(scene, "Part", uv_sphere(), (0, 0, height), scale=size, color=color, index=2)
+        scene.collection.objects.unlink(ball)
+        snowman.objects.link(ball)
     for x, scale in ((-3, 1), (-1.6, (0.7, 0.7, -1.3))):
         stand = add(scene, "Stand", None, (x, -1, 0 if x == -3 else 1.8), (0, 0, 0), scale)
         stand.instance_type, stand.instance_collection = "COLLECTION", snowman

@@ -30,7 +30,7 @@ def camera_obscura(scene):
     """
     room(scene)
     box = {"model": "CAMERA_OBSCURA", "obscura_depth": 2, "obscura_width": 3.27, "obscura_hole": 0.03}
-    photograph(scene, CORNER, AHEAD, 352, 220, own=box)
+    photograph(scene, CORNER, AHEAD, 352, 220, addon=box)
     scene.camera_ray_caster.samples = 64
 
 
@@ -51,7 +51,7 @@ def fish_tank(scene):
     """
     room(scene)
     tank = {"port": "FLAT", "port_distance": 600, "port_thickness": 100, "port_tilt_y": radians(20)}
-    photograph(scene, CORNER, AHEAD, lens=14, own=tank)
+    photograph(scene, CORNER, AHEAD, lens=14, addon=tank)
 
 
 def fisheye_orthographic(scene):
@@ -59,7 +59,7 @@ def fisheye_orthographic(scene):
     pixels of the disc.
     """
     room(scene)
-    photograph(scene, MIDDLE, FRONT, 360, 360, own={"model": "FISHEYE_ORTHOGRAPHIC", "fov": pi})
+    photograph(scene, MIDDLE, FRONT, 360, 360, addon={"model": "FISHEYE_ORTHOGRAPHIC", "fov": pi})
 
 
 def fisheye_stereographic(scene):
@@ -67,7 +67,7 @@ def fisheye_stereographic(scene):
     to the rim.
     """
     room(scene)
-    photograph(scene, MIDDLE, FRONT, 360, 360, own={"model": "FISHEYE_STEREOGRAPHIC", "fov": radians(220)})
+    photograph(scene, MIDDLE, FRONT, 360, 360, addon={"model": "FISHEYE_STEREOGRAPHIC", "fov": radians(220)})
 
 
 def omnimax(scene):
@@ -75,8 +75,8 @@ def omnimax(scene):
     picture shows what is overhead.
     """
     meadow(scene)
-    own = {"model": "OMNIMAX", "tilt": radians(20)}
-    photograph(scene, (0, 0, 1.8), (0, 6, 1.8), 480, 374, world="bcd7ea", own=own)
+    settings = {"model": "OMNIMAX", "tilt": radians(20)}
+    photograph(scene, (0, 0, 1.8), (0, 6, 1.8), 480, 374, world="bcd7ea", addon=settings)
 
 
 def dome_master(scene):
@@ -84,5 +84,5 @@ def dome_master(scene):
     front is at the bottom.
     """
     meadow(scene)
-    own = {"model": "DOME_MASTER", "fov": pi, "tilt": radians(15)}
-    photograph(scene, (0, 0, 1.8), (0, 6, 1.8), 400, 400, world="bcd7ea", own=own)
+    settings = {"model": "DOME_MASTER", "fov": pi, "tilt": radians(15)}
+    photograph(scene, (0, 0, 1.8), (0, 6, 1.8), 400, 400, world="bcd7ea", addon=settings)

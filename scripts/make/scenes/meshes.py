@@ -39,8 +39,8 @@ def toys_cross_slit(scene):
     """
     toy_table(scene)
     upright, level = slit(scene, "Upright slit", (0, 8.8, 0), (0, -90, 0)), slit(scene, "Level slit", (0, -18, 8.0))
-    own = {"model": "CROSS_SLIT", "slit_1": upright, "slit_2": level}
-    picture(scene, (0, -4.4, 2.5), (0, 9, 2.5), 800, 360, world=STUDIO, own=own, lens=18 / 5.8)
+    settings = {"model": "CROSS_SLIT", "slit_1": upright, "slit_2": level}
+    picture(scene, (0, -4.4, 2.5), (0, 9, 2.5), 800, 360, world=STUDIO, addon=settings, lens=18 / 5.8)
 
 
 def real_lens(scene):
@@ -49,8 +49,8 @@ def real_lens(scene):
     plane of focus have the shape of what the rims leave of the pupil.
     """
     toy_table(scene)
-    own = {"model": "REAL_LENS"}
-    made = picture(scene, (0.3, -9.6, 4.2), (0.1, 0, 0.75), 320, 180, world=STUDIO, own=own, lens=500, sensor_width=360)
+    look = {"world": STUDIO, "addon": {"model": "REAL_LENS"}}
+    made = picture(scene, (0.3, -9.6, 4.2), (0.1, 0, 0.75), 320, 180, lens=500, sensor_width=360, **look)
     made.data.dof.use_dof, made.data.dof.focus_distance, made.data.dof.aperture_fstop = True, 10.0, 2.0
     scene.camera_ray_caster.samples = 48
 
@@ -77,8 +77,8 @@ def living_room_omnimax(scene):
     edge of the table appear curved.
     """
     furnish(scene)
-    own = {"model": "OMNIMAX", "tilt": radians(15)}
-    picture(scene, (-0.25, -1.55, 1.3), (-0.25, 2.2, 1.3), 480, 374, world=DAYLIGHT, own=own)
+    settings = {"model": "OMNIMAX", "tilt": radians(15)}
+    picture(scene, (-0.25, -1.55, 1.3), (-0.25, 2.2, 1.3), 480, 374, world=DAYLIGHT, addon=settings)
 
 
 def rotunda_fisheye(scene):
@@ -96,7 +96,7 @@ def rotunda_panorama(scene):
     """
     rotunda(scene)
     angles = {"pan_min": -pi, "pan_max": pi, "latitude_bottom": radians(-35), "latitude_top": radians(50)}
-    picture(scene, (1.2, -3.6, 1.7), (0.3, 2.0, 1.7), 800, 256, world=SKY, own={"model": "CYLINDRICAL", **angles})
+    picture(scene, (1.2, -3.6, 1.7), (0.3, 2.0, 1.7), 800, 256, world=SKY, addon={"model": "CYLINDRICAL", **angles})
 
 
 def street(scene):
@@ -113,9 +113,9 @@ def street_pushbroom(scene):
     """
     houses(scene)
     eye = 0, -6.5, 3.2
-    own = {"model": "PUSHBROOM", "slit_1": slit(scene, "Slit", eye)}
-    as_wide_as_tall = 36 * 10.5 / 30  # at the fronts
-    picture(scene, eye, (0, 4, 3.2), 840, 364, world=SKY, own=own, lens=as_wide_as_tall, ortho_scale=30, shift_y=0.015)
+    settings = {"model": "PUSHBROOM", "slit_1": slit(scene, "Slit", eye)}
+    lens = {"lens": 36 * 10.5 / 30, "ortho_scale": 30, "shift_y": 0.015}  # as wide as tall at the fronts
+    picture(scene, eye, (0, 4, 3.2), 840, 364, world=SKY, addon=settings, **lens)
 
 
 def street_scanner(scene):
@@ -128,8 +128,8 @@ def street_scanner(scene):
     for thing in [thing for thing in scene.objects if thing.pass_index == CAR and thing.location.x > 0]:
         thing.parent = wheels
     driven(wheels, "location", 0, "-1.2 * (frame - 1)")
-    own = {"model": "SCANNER", "time_mode": "SWEEP", "scanner_device": "OS1_64", "scanner_start": pi / 2}
-    camera = picture(scene, (-6, -2.6, 1.9), (0, -2.6, 1.9), 1024, 64, world=SKY, own=own)
+    settings = {"model": "SCANNER", "time_mode": "SWEEP", "scanner_device": "OS1_64", "scanner_start": pi / 2}
+    camera = picture(scene, (-6, -2.6, 1.9), (0, -2.6, 1.9), 1024, 64, world=SKY, addon=settings)
     driven(camera, "location", 0, "-6 + 1.5 * (frame - 1)")
 
 
@@ -148,7 +148,8 @@ def propeller(scene):
     driven(airfield(scene), "rotation_euler", 1, f"-frame * {2 * pi:.6f}")
     scene.render.motion_blur_shutter = 1
     scene.cycles.rolling_shutter_duration = 0
-    picture(scene, (0.9, -8.6, 1.5), (0.05, 0, 1.9), 640, 360, world=SKY, own={"time_mode": "ROLLING_SHUTTER"}, lens=31)
+    settings = {"time_mode": "ROLLING_SHUTTER"}
+    picture(scene, (0.9, -8.6, 1.5), (0.05, 0, 1.9), 640, 360, world=SKY, addon=settings, lens=31)
 
 
 def twisted_monkey(scene):
@@ -159,8 +160,8 @@ def twisted_monkey(scene):
     monkey(scene, (0, 0, 2.35), (-14, 0, 0), 1.15, levels=3, color="e2674a", index=2, parent=axis)
     block(scene, "Column", (0.9, 0.9, 1.3), (0, 0, 0.65), edge=0.04, color="3f7cc0", index=3, parent=axis)
     driven(axis, "rotation_euler", 2, f"(frame - 13) * {pi / 36:.6f}")
-    own = {"time_mode": "ROWS", "time_start": 1, "time_end": 25}
-    picture(scene, (0, -8, 2.6), (0, 0, 1.7), 440, 400, world=STUDIO, own=own, lens=60)
+    settings = {"time_mode": "ROWS", "time_start": 1, "time_end": 25}
+    picture(scene, (0, -8, 2.6), (0, 0, 1.7), 440, 400, world=STUDIO, addon=settings, lens=60)
 
 
 def unrolled_monkey(scene):
@@ -174,11 +175,11 @@ def unrolled_monkey(scene):
     shaft = [(0, 3.9), (0.5, 3.9), (0.5, 3.7), (0.33, 3.5), (0.38, 0.3), (0.5, 0.15), (0.5, 0)]
     for k, color in enumerate(("eae1d0", "f0b941", "eae1d0", "2a9d8f", "eae1d0", "8a63b8", "eae1d0", "d9809a")):
         angle = 2 * pi * (k + 0.5) / 8
-        place = 5 * cos(angle), 5 * sin(angle), 0
-        turned(scene, "Pillar", shaft, place, steps=32, color=color, index=4)
+        location = 5 * cos(angle), 5 * sin(angle), 0
+        turned(scene, "Pillar", shaft, location, steps=32, color=color, index=4)
     sun(scene, (48, 0, -46), 2.2, "fff0d8")
     sun(scene, (70, 0, 130), 1.0, "ffe6cc")
     path = circle(scene, (0, 0, 2.1), 2.6)
     path.rotation_euler.z = pi  # the path begins behind the head
-    own = {"model": "STRIP", "path": path, "follow_path": True}
-    picture(scene, (0, 2.6, 2.1), (0, 0, 2.1), 720, 280, world=SKY, own=own, lens=11, shift_y=0.045)
+    settings = {"model": "STRIP", "path": path, "follow_path": True}
+    picture(scene, (0, 2.6, 2.1), (0, 0, 2.1), 720, 280, world=SKY, addon=settings, lens=11, shift_y=0.045)

@@ -38,7 +38,7 @@ def general_linear(scene):
     """
     room(scene)
     rays = {"ray_1": (-0.6, -0.9, -1.3, -1.2), "ray_2": (1.4, -0.3, 1.9, -0.9), "ray_3": (-1.4, 0.9, -1.8, 1.0)}
-    photograph(scene, BEHIND, AHEAD, own={"model": "GENERAL_LINEAR", **rays})
+    photograph(scene, BEHIND, AHEAD, addon={"model": "GENERAL_LINEAR", **rays})
 
 
 def pushbroom(scene):
@@ -46,8 +46,8 @@ def pushbroom(scene):
     independent of its distance.
     """
     room(scene)
-    own = {"model": "PUSHBROOM", "slit_1": slit(scene, "Slit", BEHIND)}
-    photograph(scene, BEHIND, AHEAD, own=own, lens=24, ortho_scale=11.6)
+    settings = {"model": "PUSHBROOM", "slit_1": slit(scene, "Slit", BEHIND)}
+    photograph(scene, BEHIND, AHEAD, addon=settings, lens=24, ortho_scale=11.6)
 
 
 def cross_slit(scene):
@@ -56,8 +56,8 @@ def cross_slit(scene):
     """
     room(scene)
     upright = slit(scene, "Upright slit", (0, -16, 0), (0, -90, 0))
-    own = {"model": "CROSS_SLIT", "slit_1": upright, "slit_2": slit(scene, "Level slit", (0, -8.4, 2.5))}
-    photograph(scene, (0, -5.1, 2.5), AHEAD, own=own, lens=5.6)
+    settings = {"model": "CROSS_SLIT", "slit_1": upright, "slit_2": slit(scene, "Level slit", (0, -8.4, 2.5))}
+    photograph(scene, (0, -5.1, 2.5), AHEAD, addon=settings, lens=5.6)
 
 
 def pencil(scene):
@@ -65,8 +65,8 @@ def pencil(scene):
     rows from the right.
     """
     room(scene)
-    own = {"model": "PENCIL", "slit_1": slit(scene, "Slit", BEHIND), "pencil_slide": -4.0}
-    photograph(scene, BEHIND, AHEAD, own=own, lens=22)
+    settings = {"model": "PENCIL", "slit_1": slit(scene, "Slit", BEHIND), "pencil_slide": -4.0}
+    photograph(scene, BEHIND, AHEAD, addon=settings, lens=22)
 
 
 def twisted_orthographic(scene):
@@ -74,8 +74,8 @@ def twisted_orthographic(scene):
     the right in the lower rows.
     """
     room(scene)
-    own = {"model": "TWISTED_ORTHOGRAPHIC", "slit_1": slit(scene, "Axis", (0, 0, 2.5), (0, -90, 0)), "twist": 0.08}
-    photograph(scene, BEHIND, AHEAD, own=own, ortho_scale=7.5)
+    settings = {"model": "TWISTED_ORTHOGRAPHIC", "slit_1": slit(scene, "Axis", (0, 0, 2.5), (0, -90, 0)), "twist": 0.08}
+    photograph(scene, BEHIND, AHEAD, addon=settings, ortho_scale=7.5)
 
 
 def strip(scene):
@@ -87,7 +87,7 @@ def strip(scene):
     add(scene, "Body", uv_sphere(), (0, 0, 1.3), scale=(0.9, 0.6, 1.3), color="e2674a", index=20)
     add(scene, "Head", uv_sphere(), (0, 0, 3.1), scale=0.62, color="f0b941", index=21)
     for angle, color in ((-90, "2b2d42"), (0, "2a9d8f"), (90, "8a63b8"), (180, "3f7cc0")):
-        place = 0.55 * cos(radians(angle)), 0.55 * sin(radians(angle)), 3.2
-        add(scene, "Eye", uv_sphere(), place, scale=0.22, color=color, index=22)
-    own = {"model": "STRIP", "path": circle(scene, (0, 0, 2), 3.4), "follow_path": True}
-    photograph(scene, (0, -3.4, 2), (0, 0, 2), 480, 336, own=own, lens=14)
+        location = 0.55 * cos(radians(angle)), 0.55 * sin(radians(angle)), 3.2
+        add(scene, "Eye", uv_sphere(), location, scale=0.22, color=color, index=22)
+    settings = {"model": "STRIP", "path": circle(scene, (0, 0, 2), 3.4), "follow_path": True}
+    photograph(scene, (0, -3.4, 2), (0, 0, 2), 480, 336, addon=settings, lens=14)

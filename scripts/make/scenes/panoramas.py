@@ -70,8 +70,8 @@ def cylindrical(scene):
     meadow(scene)
     angles = {"pan_min": radians(-110), "pan_max": radians(110)}
     heights = {"latitude_bottom": radians(-30), "latitude_top": radians(45)}
-    own = {"model": "CYLINDRICAL", **angles, **heights}
-    photograph(scene, (0, 0, 1.8), (0, 6, 1.8), 640, 263, world="bcd7ea", own=own)
+    settings = {"model": "CYLINDRICAL", **angles, **heights}
+    photograph(scene, (0, 0, 1.8), (0, 6, 1.8), 640, 263, world="bcd7ea", addon=settings)
 
 
 def little_planet(scene):
@@ -79,8 +79,8 @@ def little_planet(scene):
     horizon.
     """
     meadow(scene)
-    own = {"model": "STEREOGRAPHIC_PANORAMA", "fov": radians(250), "elevation": -pi / 2}
-    photograph(scene, (0, 0, 3.4), (0, 6, 3.4), 400, 400, world="bcd7ea", own=own)
+    settings = {"model": "STEREOGRAPHIC_PANORAMA", "fov": radians(250), "elevation": -pi / 2}
+    photograph(scene, (0, 0, 3.4), (0, 6, 3.4), 400, 400, world="bcd7ea", addon=settings)
 
 
 def omnidirectional_stereo(scene):
@@ -88,6 +88,6 @@ def omnidirectional_stereo(scene):
     center.
     """
     room(scene)
-    own = {"model": "OMNIDIRECTIONAL_STEREO", "eye": "TOP_BOTTOM"}
-    made = photograph(scene, MIDDLE, AHEAD, 360, 360, own=own)
+    settings = {"model": "OMNIDIRECTIONAL_STEREO", "eye": "TOP_BOTTOM"}
+    made = photograph(scene, MIDDLE, AHEAD, 360, 360, addon=settings)
     made.data.stereo.interocular_distance = 0.3

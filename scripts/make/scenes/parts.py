@@ -20,14 +20,14 @@ def linear(hexadecimal: str) -> tuple[float, float, float, float]:
 
 def material(color: str):
     """Return the Principled material of an sRGB color, made once; pass indices number the materials from 1."""
-    found = bpy.data.materials.get(color)
-    if found is None:
-        found = bpy.data.materials.new(color)
-        found.use_nodes = True
-        found.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = linear(color)
-        found.diffuse_color = linear(color)
-        found.pass_index = len(bpy.data.materials)
-    return found
+    result = bpy.data.materials.get(color)
+    if result is None:
+        result = bpy.data.materials.new(color)
+        result.use_nodes = True
+        result.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = linear(color)
+        result.diffuse_color = linear(color)
+        result.pass_index = len(bpy.data.materials)
+    return result
 
 
 def add(

@@ -33,11 +33,11 @@ def room(scene) -> None:
         ("Ceiling", (0, 3, 6), (180, 0, 0), "eceae6"),
         ("Ceiling", (0, -3, 6), (180, 0, 0), "eceae6"),
     )
-    for index, (name, place, turn, color) in enumerate(panels, 1):
+    for index, (name, location, turn, color) in enumerate(panels, 1):
         overlapping = 6.001, 3.001, 1  # so that no ray escapes between panels
-        add(scene, name, square(), place, turn, overlapping, color=color, index=index)
-    for index, (name, place, radius, color) in enumerate(BALLS, len(panels) + 1):
-        add(scene, name, uv_sphere(), place, (12 * index, 0, 31 * index), radius, color=color, index=index)
+        add(scene, name, square(), location, turn, overlapping, color=color, index=index)
+    for index, (name, location, radius, color) in enumerate(BALLS, len(panels) + 1):
+        add(scene, name, uv_sphere(), location, (12 * index, 0, 31 * index), radius, color=color, index=index)
     sun(scene, (40, 0, -38), 2.0, "fff0d9")
     sun(scene, (140, 0, 140), 1.0, "dfe9ff")
 
@@ -60,12 +60,12 @@ def meadow(scene) -> None:
         add(scene, "Tree", uv_sphere(), (x, y, 1.6 + tall), scale=(1.2, 1.2, tall), color=crown, index=3)
     for k in range(9):
         angle, wide = 2 * pi * k / 9, 11 + 3 * sin(2 * k)
-        place = 34 * cos(angle), 34 * sin(angle), -1
-        add(scene, "Hill", uv_sphere(), place, scale=(wide, wide, 6 + 2 * cos(3 * k)), color="7fa08c", index=4)
+        location = 34 * cos(angle), 34 * sin(angle), -1
+        add(scene, "Hill", uv_sphere(), location, scale=(wide, wide, 6 + 2 * cos(3 * k)), color="7fa08c", index=4)
     for k in range(7):
         angle = 2 * pi * (k + 0.5) / 7
-        place = 30 * cos(angle), 30 * sin(angle), 15 + 3 * sin(3 * k)
-        add(scene, "Cloud", uv_sphere(), place, (90, 0, degrees(angle)), (3.2, 2.2, 6), color="fbfbf8", index=5)
+        location = 30 * cos(angle), 30 * sin(angle), 15 + 3 * sin(3 * k)
+        add(scene, "Cloud", uv_sphere(), location, (90, 0, degrees(angle)), (3.2, 2.2, 6), color="fbfbf8", index=5)
     sun(scene, (42, 0, -40), 2.2, "fff3df")
 
 
@@ -77,13 +77,13 @@ def photograph(
     height: int = 300,
     *,
     world="9aa0aa",
-    own=None,
+    addon=None,
     shading="GRID",
     **settings,
 ):
-    """Set up the picture: add the camera, with its add-on settings ``own``, and set size, shading and 16 samples."""
+    """Set up the picture: add the camera, with its settings in ``addon``, and set size, shading, 16 samples."""
     made = camera(scene, location, target, **settings)
-    for name, value in (own or {}).items():
+    for name, value in (addon or {}).items():
         setattr(made.data.camera_ray_caster, name, value)
     render(scene, width, height, world)
     scene.render.image_settings.compression = 100

@@ -39,9 +39,9 @@ def line(name: str, places):
     return drawn(name, places, edges=[(k, k + 1) for k in range(len(places) - 1)])
 
 
-def block(scene, name: str, size, place=(0, 0, 0), turn=(0, 0, 0), *, edge: float = 0.01, **look):
+def block(scene, name: str, size, location=(0, 0, 0), turn=(0, 0, 0), *, edge: float = 0.01, **look):
     """Add a centered box with the given size along x, y and z, with round edges."""
-    return rounded(add(scene, name, box(size), place, turn, **look), edge)
+    return rounded(add(scene, name, box(size), location, turn, **look), edge)
 
 
 def box(size):
@@ -52,13 +52,13 @@ def box(size):
     return drawn("box", corners, faces=sides)
 
 
-def prism(scene, name: str, outline, depth: float, place=(0, 0, 0), turn=(0, 0, 0), *, edge: float = 0.01, **look):
+def prism(scene, name: str, outline, depth: float, location=(0, 0, 0), turn=(0, 0, 0), *, edge: float = 0.01, **look):
     """Add a prism: an outline of (x, z), extruded by ``depth`` along y, with round edges."""
     count = len(outline)
     ends = [(x, y, z) for y in (-depth / 2, depth / 2) for x, z in outline]
     sides = [(k, (k + 1) % count, (k + 1) % count + count, k + count) for k in range(count)]
     faces = [tuple(range(count))[::-1], tuple(range(count, 2 * count)), *(side[::-1] for side in sides)]
-    return rounded(add(scene, name, drawn(name, ends, faces=faces), place, turn, **look), edge)
+    return rounded(add(scene, name, drawn(name, ends, faces=faces), location, turn, **look), edge)
 
 
 def rounded(thing, edge: float):
@@ -68,24 +68,24 @@ def rounded(thing, edge: float):
     return modified(thing, "EDGE_SPLIT")
 
 
-def turned(scene, name: str, profile, place=(0, 0, 0), turn=(0, 0, 0), *, steps: int = 48, sharp: float = 35, **look):
+def turned(scene, name: str, profile, location=(0, 0, 0), turn=(0, 0, 0), *, steps=48, sharp: float = 35, **look):
     """Add a solid of revolution of a profile of (radius, height); corners above ``sharp`` degrees stay sharp."""
     data = line(name, [(radius, 0, height) for radius, height in profile])
-    thing = add(scene, name, data, place, turn, **look)
+    thing = add(scene, name, data, location, turn, **look)
     modified(thing, "SCREW", steps=steps, render_steps=steps, use_merge_vertices=True, use_normal_calculate=True)
     return modified(thing, "EDGE_SPLIT", split_angle=radians(sharp))
 
 
-def soft(scene, name: str, size, place=(0, 0, 0), turn=(0, 0, 0), *, crease: float = 0.6, **look):
+def soft(scene, name: str, size, location=(0, 0, 0), turn=(0, 0, 0), *, crease: float = 0.6, **look):
     """Add a cushion: a subdivided box."""
-    thing = add(scene, name, box(size), place, turn, **look)
+    thing = add(scene, name, box(size), location, turn, **look)
     modified(thing, "BEVEL", width=(1 - crease) * min(size) / 2, segments=1)
     return modified(thing, "SUBSURF", levels=2, render_levels=2)
 
 
-def monkey(scene, place, turn=(0, 0, 0), scale=1.0, *, levels: int = 2, **look):
+def monkey(scene, location, turn=(0, 0, 0), scale=1.0, *, levels: int = 2, **look):
     """Add a subdivided Suzanne that looks along -y."""
-    thing = add(scene, "Suzanne", mesh("monkey"), place, turn, scale, **look)
+    thing = add(scene, "Suzanne", mesh("monkey"), location, turn, scale, **look)
     return modified(thing, "SUBSURF", levels=levels, render_levels=levels)
 
 
@@ -97,7 +97,7 @@ def repeated(thing, *steps):
     return thing
 
 
-def tube(scene, name: str, points, radius: float, place=(0, 0, 0), turn=(0, 0, 0), *, closed: bool = False, **look):
+def tube(scene, name: str, points, radius: float, location=(0, 0, 0), turn=(0, 0, 0), *, closed: bool = False, **look):
     """Add a round tube along a smooth curve through points."""
     data = bpy.data.curves.new(name, "CURVE")
     data.dimensions, data.bevel_depth, data.bevel_resolution, data.resolution_u = "3D", radius, 3, 8
@@ -107,25 +107,25 @@ def tube(scene, name: str, points, radius: float, place=(0, 0, 0), turn=(0, 0, 0
     spline.use_cyclic_u = closed
     for point, at in zip(spline.bezier_points, points, strict=True):
         point.co, point.handle_left_type, point.handle_right_type = at, "AUTO", "AUTO"
-    return add(scene, name, data, place, turn, **look)
+    return add(scene, name, data, location, turn, **look)
 
 
-def letters(scene, text: str, place=(0, 0, 0), turn=(0, 0, 0), *, size: float = 1.0, **look):
+def letters(scene, text: str, location=(0, 0, 0), turn=(0, 0, 0), *, size: float = 1.0, **look):
     """Add thick letters with round edges, centered on their baseline; they lie flat unless they are turned."""
     data = bpy.data.curves.new(text, "FONT")
     data.body, data.size, data.align_x = text, size, "CENTER"
     data.extrude, data.bevel_depth, data.bevel_resolution = 0.12 * size, 0.02 * size, 2
-    return add(scene, text, data, place, turn, **look)
+    return add(scene, text, data, location, turn, **look)
 
 
-def blob(scene, name: str, balls, place=(0, 0, 0), turn=(0, 0, 0), *, resolution: float = 0.06, **look):
+def blob(scene, name: str, balls, location=(0, 0, 0), turn=(0, 0, 0), *, resolution: float = 0.06, **look):
     """Add merging metaballs, each given as (x, y, z, radius)."""
     data = bpy.data.metaballs.new(name)
     data.resolution = data.render_resolution = resolution
     for *at, radius in balls:
         ball = data.elements.new()
         ball.co, ball.radius = at, radius
-    return add(scene, name, data, place, turn, **look)
+    return add(scene, name, data, location, turn, **look)
 
 
 def scattered(thing, collection, density: float, seed: int = 0) -> None:
@@ -155,8 +155,8 @@ def assembled(scene, name: str, things):
     return made
 
 
-def stand(scene, collection, place, turn=(0, 0, 0), scale=(1, 1, 1)):
+def stand(scene, collection, location, turn=(0, 0, 0), scale=(1, 1, 1)):
     """Add an instance of a collection at a place."""
-    made = add(scene, collection.name, None, place, turn, scale)
+    made = add(scene, collection.name, None, location, turn, scale)
     made.instance_type, made.instance_collection = "COLLECTION", collection
     return made

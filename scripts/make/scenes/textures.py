@@ -55,10 +55,10 @@ def seen_from_above(thing, width: float) -> None:
     store, tree = geometry_nodes(thing, "GeometryNodeStoreNamedAttribute")
     store.data_type, store.domain = "FLOAT2", "CORNER"
     store.inputs["Name"].default_value = "UVMap"
-    place, scaled = tree.nodes.new("GeometryNodeInputPosition"), tree.nodes.new("ShaderNodeVectorMath")
+    position, scaled = tree.nodes.new("GeometryNodeInputPosition"), tree.nodes.new("ShaderNodeVectorMath")
     scaled.operation = "MULTIPLY_ADD"
     scaled.inputs[1].default_value, scaled.inputs[2].default_value = (1 / width,) * 3, (0.5,) * 3
-    tree.links.new(place.outputs["Position"], scaled.inputs[0])
+    tree.links.new(position.outputs["Position"], scaled.inputs[0])
     tree.links.new(scaled.outputs["Vector"], store.inputs["Value"])
 
 
@@ -95,7 +95,7 @@ def wallpaper(color: str):
 
 def rosette(layers, width: float, side: int = 384):
     """Draw closed curves, each filled and covered by the next: (radius, wave, petals, color) of radius + wave cos."""
-    x, y = (width * (place - 0.5) for place in grid(side, side))
+    x, y = (width * (coordinate - 0.5) for coordinate in grid(side, side))
     away, angle = np.hypot(x, y), np.arctan2(y, x)
     pixels = np.broadcast_to(rgb(layers[0][-1]), (side, side, 3))
     for radius, wave, petals, color in layers[1:]:

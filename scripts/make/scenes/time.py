@@ -18,9 +18,9 @@ def driven(thing, path: str, axis: int, expression: str) -> None:
     thing.driver_add(path, axis).driver.expression = expression
 
 
-def tower(scene, place, half: float = 1.1, high: float = 2.4):
+def tower(scene, location, half: float = 1.1, high: float = 2.4):
     """Add a square tower of four walls; return the empty that turns it."""
-    axis = add(scene, "Tower", None, place)
+    axis = add(scene, "Tower", None, location)
     for k, color in enumerate(("e2674a", "f0b941", "2a9d8f", "8a63b8")):
         angle = pi / 2 * k
         side = half * sin(angle), -half * cos(angle), high
@@ -35,8 +35,8 @@ def slit_scan_rows(scene):
     room(scene)
     clear_middle(scene)
     driven(tower(scene, (0, 1.8, 0.3)), "rotation_euler", 2, f"frame * {pi / 24:.6f}")
-    own = {"time_mode": "ROWS", "time_start": 1, "time_end": 37}
-    photograph(scene, STAND, AHEAD, own=own, lens=22)
+    settings = {"time_mode": "ROWS", "time_start": 1, "time_end": 37}
+    photograph(scene, STAND, AHEAD, addon=settings, lens=22)
 
 
 def slit_scan_columns(scene):
@@ -49,8 +49,8 @@ def slit_scan_columns(scene):
     for index, (height, speed, color) in enumerate(flights, 30):
         ball = add(scene, "Ball", uv_sphere(), (0, 0.2, height), (0, 0, 40), 0.62, color=color, index=index)
         driven(ball, "location", 0, f"(frame - 13) * {speed}")
-    own = {"time_mode": "COLUMNS", "time_start": 1, "time_end": 25}
-    photograph(scene, STAND, AHEAD, own=own, lens=22)
+    settings = {"time_mode": "COLUMNS", "time_start": 1, "time_end": 25}
+    photograph(scene, STAND, AHEAD, addon=settings, lens=22)
 
 
 def time_displacement(scene):
@@ -60,8 +60,8 @@ def time_displacement(scene):
     room(scene)
     clear_middle(scene)
     driven(tower(scene, (0, 1.8, 0.3)), "rotation_euler", 2, f"frame * {pi / 24:.6f}")
-    own = {"time_mode": "IMAGE", "time_image": rings(240, 150), "time_start": 1, "time_end": 7}
-    photograph(scene, STAND, AHEAD, own=own, lens=22)
+    settings = {"time_mode": "IMAGE", "time_image": rings(240, 150), "time_start": 1, "time_end": 7}
+    photograph(scene, STAND, AHEAD, addon=settings, lens=22)
 
 
 def rings(width: int, height: int):
@@ -85,12 +85,12 @@ def rolling_shutter(scene):
     fan = add(scene, "Fan", None, (0, 1.5, 2.7), (90, 0, 0))
     for k in range(5):
         angle = 72 * k
-        place = 1.25 * cos(radians(angle)), 1.25 * sin(radians(angle)), 0
-        blade = place, (90, 0, 90 + angle), (0.3, 0.06, 1.05)
+        location = 1.25 * cos(radians(angle)), 1.25 * sin(radians(angle)), 0
+        blade = location, (90, 0, 90 + angle), (0.3, 0.06, 1.05)
         add(scene, "Blade", uv_sphere(), *blade, color="f0b941" if k else "e2674a", index=40, parent=fan)
     add(scene, "Hub", uv_sphere(), (0, 1.3, 2.7), scale=0.4, color="2b2d42", index=41)
     add(scene, "Post", uv_sphere(), (0, 1.9, 1.2), scale=(0.14, 0.14, 1.5), color="eae1d0", index=42)
     driven(fan, "rotation_euler", 1, f"-frame * {pi:.6f}")
     scene.render.motion_blur_shutter = 1
     scene.cycles.rolling_shutter_duration = 0
-    photograph(scene, STAND, AHEAD, own={"time_mode": "ROLLING_SHUTTER"}, lens=22)
+    photograph(scene, STAND, AHEAD, addon={"time_mode": "ROLLING_SHUTTER"}, lens=22)

@@ -32,27 +32,27 @@ def rays_of(case):
         rays.append(([float(v) for v in ray.origin], [float(v / ray.length) for v in ray.direction]))
         starts.append(float(camera.clip_start * ray.length))
         distances.append(np.inf if hit is None else float(hit.distance))
-    origins, directions = (np.array([ray[part] for ray in rays]).reshape(-1, 3) for part in (0, 1))
+    origins, directions = (np.array([ray[vector] for ray in rays]).reshape(-1, 3) for vector in (0, 1))
     return Given(pixels, origins, directions, np.array(starts)), np.array(distances)
 
 
-def error_of(found, exact) -> float:
+def error_of(distances, exact) -> float:
     """Return the worst relative error of the distances, or inf if any hit or miss is wrong."""
-    if (np.isinf(found) != np.isinf(exact)).any():
+    if (np.isinf(distances) != np.isinf(exact)).any():
         return np.inf
     hit = np.isfinite(exact)
-    return float((np.abs(found - exact)[hit] / exact[hit]).max(initial=0.0))
+    return float((np.abs(distances - exact)[hit] / exact[hit]).max(initial=0.0))
 
 
-def judged(tracer, case, given, exact):
+def judged(tracer, case, rays, exact):
     """Return the error of a tracer on a case, or None if the case cannot be set up."""
     with np.errstate(all="ignore"):
         try:
-            found = tracer(case, given)
+            distances = tracer(case, rays)
         except (RuntimeError, ValueError, OverflowError) as refusal:
             print(f"  refused: {str(refusal).splitlines()[0]}", file=sys.stderr)
             return None
-        return None if found is None else error_of(found, exact)
+        return None if distances is None else error_of(distances, exact)
 
 
 def compared(cases):
@@ -60,23 +60,23 @@ def compared(cases):
 
     For a tracer that is not installed, a message with the missing package replaces the errors.
     """
-    given = [(case, *rays_of(case)) for case in cases]
-    given = [(case, rays, exact) for case, rays, exact in given if rays.pixels]
-    found = {}
+    cases_with_rays = [(case, *rays_of(case)) for case in cases]
+    cases_with_rays = [(case, rays, exact) for case, rays, exact in cases_with_rays if rays.pixels]
+    errors = {}
     for name, tracer in TRACERS.items():
         try:
-            found[name] = [judged(tracer, *one) for one in given]
+            errors[name] = [judged(tracer, *case_rays) for case_rays in cases_with_rays]
         except ModuleNotFoundError as missing:
-            found[name] = f"not installed: {missing.name.split('.')[0]}"
-    return [case.name for case, *_ in given], found
+            errors[name] = f"not installed: {missing.name.split('.')[0]}"
+    return [case.name for case, *_ in cases_with_rays], errors
 
 
-def table(names, found) -> str:
+def table(names, errors_of) -> str:
     """Return a Markdown table of the number of cases that each tracer gets right, by error limit."""
     to = (f"and distances to {limit:g}" for limit in LIMITS)
     heads = (f"of {len(names)} extreme cases", "can be set up", "every hit and miss right", *to, "their median error")
     lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
-    for tracer, errors in found.items():
+    for tracer, errors in errors_of.items():
         if isinstance(errors, str):
             lines.append(f"| {tracer} | {errors} |" + " – |" * (len(heads) - 2))
             continue
@@ -88,11 +88,11 @@ def table(names, found) -> str:
     return "\n".join(lines)
 
 
-def details(names, found) -> str:
+def details(names, errors_of) -> str:
     """Return a Markdown table of each tracer's worst error on each case; inf if any hit or miss is wrong."""
-    lines = ["| case | " + " | ".join(found) + " |", "|---" * (len(found) + 1) + "|"]
+    lines = ["| case | " + " | ".join(errors_of) + " |", "|---" * (len(errors_of) + 1) + "|"]
     for k, name in enumerate(names):
-        cells = (errors if isinstance(errors, str) else _cell(errors[k]) for errors in found.values())
+        cells = (errors if isinstance(errors, str) else _cell(errors[k]) for errors in errors_of.values())
         lines.append(f"| {name} | " + " | ".join(cells) + " |")
     return "\n".join(lines)
 

@@ -45,19 +45,19 @@ def draw(points, stem: Path) -> None:
             axis.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
             axis.xaxis.set_major_formatter(StrMethodFormatter("{x:,.0f}"))
         axis.xaxis.set_minor_formatter(NullFormatter())
-    for suffix, more in ((".svg", {"metadata": {"Date": None}}), (".png", {"dpi": 100})):
-        figure.savefig(stem.with_suffix(suffix), **more)
+    for suffix, options in ((".svg", {"metadata": {"Date": None}}), (".png", {"dpi": 100})):
+        figure.savefig(stem.with_suffix(suffix), **options)
     plt.close(figure)
 
 
 def _scenes(axis, points):
     scenes = list(dict.fromkeys(p.scene for p in points))
     for method in METHODS:
-        own = [p for p in points if p.method == method]
-        x, y = [p.seconds * 1e3 for p in own], [max(p.worst_error, FLOOR) for p in own]
+        of_method = [p for p in points if p.method == method]
+        x, y = [p.seconds * 1e3 for p in of_method], [max(p.worst_error, FLOOR) for p in of_method]
         marker = "o" if method.endswith("robust") else "s"
         axis.scatter(x, y, s=110, color=COLORS[method], marker=marker, label=method, edgecolors="white", zorder=3)
-        for p, a, b in zip(own, x, y, strict=True):
+        for p, a, b in zip(of_method, x, y, strict=True):
             number = scenes.index(p.scene) + 1
             axis.annotate(number, (a, b), ha="center", va="center", fontsize=7, color="white", zorder=4)
     axis.axhline(2.0**-24, color="0.6", lw=0.8, ls="--")
@@ -74,12 +74,12 @@ def _scenes(axis, points):
 def _curves(axis, points, title, label):
     use_median = points[0].family == "samples"
     for color, method in zip(OTHERS, dict.fromkeys(p.method for p in points), strict=False):
-        own = [p for p in points if p.method == method]
-        y = [max(p.median_error if use_median else p.worst_error, FLOOR) for p in own]
-        axis.plot([p.seconds * 1e3 for p in own], y, "o-", ms=4, color=color, label=method)
-        for p, error in zip(own, y, strict=True):
-            place = p.seconds * 1e3, error
-            axis.annotate(p.scene, place, (5, 4), textcoords="offset points", fontsize=7, color=color)
+        of_method = [p for p in points if p.method == method]
+        y = [max(p.median_error if use_median else p.worst_error, FLOOR) for p in of_method]
+        axis.plot([p.seconds * 1e3 for p in of_method], y, "o-", ms=4, color=color, label=method)
+        for p, error in zip(of_method, y, strict=True):
+            position = p.seconds * 1e3, error
+            axis.annotate(p.scene, position, (5, 4), textcoords="offset points", fontsize=7, color=color)
     axis.set(xscale="log", yscale="log", title=title, ylabel=label, xlabel="ms per million pixels")
     axis.margins(x=0.15, y=0.12)
     axis.legend(frameon=False, fontsize=8)
@@ -92,14 +92,14 @@ def table(points) -> str:
         return ""
     lines = ["| scene | " + " | ".join(METHODS) + " | cheapest below 1e-12 |", "|---|" + "---|" * (len(METHODS) + 1)]
     for scene in dict.fromkeys(p.scene for p in points if p.family == "arithmetic"):
-        own = {p.method: p for p in points if p.scene == scene and p.family == "arithmetic"}
-        good = [p for p in own.values() if not p.wrong and p.worst_error < 1e-12]
+        by_method = {p.method: p for p in points if p.scene == scene and p.family == "arithmetic"}
+        good = [p for p in by_method.values() if not p.wrong and p.worst_error < 1e-12]
         best = min(good, key=lambda p: p.seconds).method if good else "none"
-        lines.append(f"| {scene} | " + " | ".join(_cell(own[m]) for m in METHODS) + f" | {best} |")
+        lines.append(f"| {scene} | " + " | ".join(_cell(by_method[m]) for m in METHODS) + f" | {best} |")
     return "\n".join(lines)
 
 
-def rest(points) -> str:
+def other_families(points) -> str:
     """Return all other points as a Markdown table."""
     if all(p.family == "arithmetic" for p in points):
         return ""

@@ -29,7 +29,7 @@ def sampled() -> list[Point]:
     """Measure thin lens and camera obscura by number of samples, compared with a picture of REFERENCE samples."""
     lens = replace(Case("", "", [], SMALL).camera, aperture=Aperture(0.05, 5.0))
     obscura = example("CAMERA_OBSCURA", {"resolution_x": 48, "resolution_y": 48, "obscura_hole": 0.05, "clip_end": 1e3})
-    found = []
+    points = []
     for method, camera in (("thin lens", lens), ("camera obscura", obscura)):
         shapes, pixels = shapes_of(STILL), camera.raster.width * camera.raster.height
         picture = partial(_picture, camera, shapes)
@@ -38,8 +38,10 @@ def sampled() -> list[Point]:
         for n, (image, seconds, spread) in zip(SAMPLES, results, strict=True):
             error = np.abs(image - reference).max(axis=-1)
             scene = str(n)
-            found.append(Point("samples", scene, method, _mean_square(error), error.max(), "of white", seconds, spread))
-    return found
+            points.append(
+                Point("samples", scene, method, _mean_square(error), error.max(), "of white", seconds, spread)
+            )
+    return points
 
 
 def _picture(camera, shapes, samples):
@@ -69,12 +71,12 @@ def evaluated() -> list[Point]:
         [partial(resolved, tolerance) for tolerance in TOLERANCES],
         [still.raster.width * still.raster.height] * len(TOLERANCES),
     )
-    found = []
+    points = []
     for tolerance, ((motion, calls), seconds, spread) in zip(TOLERANCES, results, strict=True):
         errors = [measured(motion, evaluate, [frame]).measured for frame in frames]
         scene = f"{tolerance:g} px: {calls}"
-        found.append(Point("time", scene, "slit scan", np.median(errors), max(errors), "px", seconds, spread))
-    return found
+        points.append(Point("time", scene, "slit scan", np.median(errors), max(errors), "px", seconds, spread))
+    return points
 
 
 def stepped() -> list[Point]:
@@ -92,11 +94,11 @@ def stepped() -> list[Point]:
     counts = range(5)
     runs = [lambda n=n: steps(n) for n in counts] + [lambda: table(target)]
     names = [("Newton", f"{n}") for n in counts] + [("table and one step", "table")]
-    found = []
+    points = []
     for (method, scene), (r, seconds, spread) in zip(names, timed(runs, [len(target)] * len(runs)), strict=True):
         error = np.abs(r - exact)
-        found.append(Point("inverse", scene, method, np.median(error), error.max(), "rad", seconds, spread))
-    return found
+        points.append(Point("inverse", scene, method, np.median(error), error.max(), "rad", seconds, spread))
+    return points
 
 
 class Faulty:
@@ -121,11 +123,11 @@ def verified() -> list[Point]:
     grids = (2, 9, 33, 65, side)
     names = ["corners", *(f"{n} x {n}" for n in grids[1:-1]), "every pixel"]
     results = timed([lambda n=n: verify(camera, None, n) for n in grids], [side * side] * len(grids))
-    found = []
+    points = []
     for scene, (findings, seconds, spread) in zip(names, results, strict=True):
         missed = FAULT - findings[-1].worst_pixels
-        found.append(Point("verification", scene, "round trip", missed, missed, "px not seen", seconds, spread))
-    return found
+        points.append(Point("verification", scene, "round trip", missed, missed, "px not seen", seconds, spread))
+    return points
 
 
 FAMILIES = {"samples": sampled, "time": evaluated, "inverse": stepped, "verification": verified}

@@ -44,7 +44,7 @@ def main(description: str) -> int:
     record = json.dumps([asdict(point) for point in points], indent=1, default=float)
     stem.with_suffix(".json").write_text(record + "\n")
     diagram.draw(points, stem)
-    print("\n\n".join(filter(None, (diagram.table(points), diagram.rest(points)))))
+    print("\n\n".join(filter(None, (diagram.table(points), diagram.other_families(points)))))
     return 0
 
 

@@ -55,33 +55,33 @@ def triangles(shapes, k, origin):
     return *SQUARE, axes
 
 
-def meshes(case, given):
+def meshes(case, rays):
     """Yield the world vertices and the faces of each shape."""
     for k in range(len(case.shapes)):
-        points, faces, axes = triangles(case.shapes, k, given.origins[0])
+        points, faces, axes = triangles(case.shapes, k, rays.origins[0])
         yield points @ axes.T + case.shapes.center[k], faces
 
 
-def ours(case, given):
+def ours(case, rays):
     """Return the distances by this caster."""
     distance = cast(case.camera, case.shapes, passes=("distance",), dtype=np.float64)["distance"]
-    return np.array([distance[pixel] for pixel in given.pixels])
+    return np.array([distance[pixel] for pixel in rays.pixels])
 
 
-def embree(case, given):
+def embree(case, rays):
     """Return the distances by Embree 4 with embreex: triangles, float32."""
     from embreex.mesh_construction import TriangleMesh
     from embreex.rtcore_scene import EmbreeScene
 
     world = EmbreeScene()
-    corners = [points[faces] for points, faces in meshes(case, given)]
+    corners = [points[faces] for points, faces in meshes(case, rays)]
     TriangleMesh(world, np.concatenate(corners).astype(np.float32))
-    origins, directions = (np.ascontiguousarray(a, np.float32) for a in (given.begun, given.directions))
-    found = world.run(origins, directions, query="DISTANCE").astype(np.float64)
-    return np.where(found < 1e36, found, np.inf) + given.start
+    origins, directions = (np.ascontiguousarray(a, np.float32) for a in (rays.begun, rays.directions))
+    distances = world.run(origins, directions, query="DISTANCE").astype(np.float64)
+    return np.where(distances < 1e36, distances, np.inf) + rays.start
 
 
-def mitsuba(case, given):
+def mitsuba(case, rays):
     """Return the distances by Mitsuba 3, llvm_ad_rgb: exact spheres for round spheres, otherwise triangles, float32."""
     import mitsuba as mi
     import trimesh
@@ -89,7 +89,7 @@ def mitsuba(case, given):
     mi.set_variant("llvm_ad_rgb")
     shapes, content = case.shapes, {"type": "scene"}
     with tempfile.TemporaryDirectory() as folder:
-        for k, (points, faces) in enumerate(meshes(case, given)):
+        for k, (points, faces) in enumerate(meshes(case, rays)):
             axes = shapes.axes[k]
             if shapes.kind[k] == SPHERE and np.array_equal(axes, axes[0, 0] * np.eye(3)):
                 content[f"s{k}"] = {"type": "sphere", "center": shapes.center[k].tolist(), "radius": float(axes[0, 0])}
@@ -98,48 +98,48 @@ def mitsuba(case, given):
             trimesh.Trimesh(points, faces, process=False).export(path)
             content[f"s{k}"] = {"type": "ply", "filename": path, "face_normals": True}
         world = mi.load_dict(content)
-    parts = (mi.Float(np.ascontiguousarray(a, np.float32)) for a in (*given.begun.T, *given.directions.T))
+    parts = (mi.Float(np.ascontiguousarray(a, np.float32)) for a in (*rays.begun.T, *rays.directions.T))
     x, y, z, *direction = parts
     hit = world.ray_intersect_preliminary(mi.Ray3f(mi.Point3f(x, y, z), mi.Vector3f(*direction)))
-    return np.array(hit.t, np.float64) + given.start
+    return np.array(hit.t, np.float64) + rays.start
 
 
-def ray_cast(case, given):
+def ray_cast(case, rays):
     """Return the distances by Blender's scene.ray_cast: triangles, float32."""
     import bpy
 
-    build(case, given)
+    build(case, rays)
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    found = []
-    for origin, direction in zip(given.begun, given.directions, strict=True):
-        hit, place, *_ = bpy.context.scene.ray_cast(depsgraph, origin, direction, distance=1.7e38)
-        found.append(np.linalg.norm(np.array(place, float) - origin) if hit else np.inf)
-    return np.array(found) + given.start
+    distances = []
+    for origin, direction in zip(rays.begun, rays.directions, strict=True):
+        hit, position, *_ = bpy.context.scene.ray_cast(depsgraph, origin, direction, distance=1.7e38)
+        distances.append(np.linalg.norm(np.array(position, float) - origin) if hit else np.inf)
+    return np.array(distances) + rays.start
 
 
-def cycles(case, given):
+def cycles(case, rays):
     """Return the distances by Cycles with one sample per pixel: its own camera, triangles, float32."""
     import bpy
     from tests.blender.cycles.cycles import cycles_surface
 
-    build(case, given)
+    build(case, rays)
     if not set_camera(bpy.context.scene, case.raw):
         return None
-    reach = 2.0 ** np.ceil(np.log2(max(np.abs(m).max() for m, _ in meshes(case, given)) + 1e-30))
+    reach = 2.0 ** np.ceil(np.log2(max(np.abs(m).max() for m, _ in meshes(case, rays)) + 1e-30))
     images = cycles_surface(bpy.context.scene, "Position", float(min(reach, 1e30)))
-    places = np.array([images[pixel] for pixel in given.pixels])
-    distance = np.linalg.norm(places - given.origins, axis=1)
+    places = np.array([images[pixel] for pixel in rays.pixels])
+    distance = np.linalg.norm(places - rays.origins, axis=1)
     return np.where(np.isnan(distance), np.inf, distance)
 
 
-def build(case, given) -> None:
+def build(case, rays) -> None:
     """Make an empty Blender file with a mesh object for each shape, with the shape's matrix."""
     import bpy
     from mathutils import Matrix
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
     for k in range(len(case.shapes)):
-        points, faces, axes = triangles(case.shapes, k, given.origins[0])
+        points, faces, axes = triangles(case.shapes, k, rays.origins[0])
         mesh = bpy.data.meshes.new("Shape")
         mesh.from_pydata(points.tolist(), [], faces.tolist())
         item = bpy.data.objects.new("Shape", mesh)

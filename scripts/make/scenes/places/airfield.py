@@ -53,8 +53,8 @@ def airfield(scene):
         turned(scene, "Hub", hub, *wheel, steps=24, color="eae1d0", index=7)
     for k in range(7):
         angle = pi / 2 + 0.42 * (k - 3)
-        place = 70 * cos(angle), 70 * sin(angle), 20 + 6 * sin(2.4 * k)
-        add(scene, "Cloud", uv_sphere(), place, scale=(9, 4, 2.6 + sin(k)), color="f7f7f4", index=8)
+        location = 70 * cos(angle), 70 * sin(angle), 20 + 6 * sin(2.4 * k)
+        add(scene, "Cloud", uv_sphere(), location, scale=(9, 4, 2.6 + sin(k)), color="f7f7f4", index=8)
         hill = (75 * cos(angle + 0.2), 75 * sin(angle + 0.2), -3), (0, 0, 0), (22, 12, 9 + 3 * sin(3 * k))
         add(scene, "Hill", uv_sphere(), *hill, color="7f9f88", index=8)
     sun(scene, (52, 0, -36), 2.2, "fff0d8")
@@ -71,9 +71,13 @@ def airfield(scene):
     return axis
 
 
-def wing(scene, name: str, half: float, deep: float, place, raised: float) -> None:
+def wing(scene, name: str, half: float, deep: float, location, raised: float) -> None:
     """Add a wing: two subdivided slabs with round tips that rise outward by ``raised`` degrees."""
     for side in (-1, 1):
-        at = place[0] + side * half / 2 * cos(radians(raised)), place[1], place[2] + half / 2 * sin(radians(raised))
+        at = (
+            location[0] + side * half / 2 * cos(radians(raised)),
+            location[1],
+            location[2] + half / 2 * sin(radians(raised)),
+        )
         size, turn = (half + 0.1, deep, 0.16), (0, -side * raised, 0)
         soft(scene, name, size, at, turn, crease=0.3, color="f0b941", index=5)

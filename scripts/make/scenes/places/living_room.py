@@ -67,15 +67,15 @@ def shell(scene) -> None:
         for copies in plank.modifiers[-2:]:  # no two neighbors show the same part of the image
             copies.offset_u, copies.offset_v = 0.37, 0.43
         textured(color, packed("Plank", wood(color, k)))
-    for name, place, turn, half, color in (
+    for name, location, turn, half, color in (
         ("Back wall", (0, 3, 1.35), (90, 0, 0), 3.2, "eae4d6"),
         ("Front wall", (0, -3, 1.35), (90, 0, 180), 3.2, "e9dfce"),
         ("Right wall", (3.2, 0, 1.35), (90, 0, -90), 3.0, "d3ddd6"),
     ):
-        wall = add(scene, name, square(), place, turn, (half + 0.01, 1.36, 1), color=color, index=WALLS)
+        wall = add(scene, name, square(), location, turn, (half + 0.01, 1.36, 1), color=color, index=WALLS)
         mapped(wall, (2, 0, 0), (0, 2, 0))
         textured(color, packed("Wallpaper", wallpaper(color)))
-        skirting = block(scene, "Skirting", (2 * half, 0.02, 0.09), place, turn, color=WHITE, index=WALLS)
+        skirting = block(scene, "Skirting", (2 * half, 0.02, 0.09), location, turn, color=WHITE, index=WALLS)
         skirting.rotation_euler.x, skirting.location.z = 0, 0.045
     add(scene, "Ceiling", square(), (0, 0, 2.7), (180, 0, 0), (3.21, 3.01, 1), color=WHITE, index=WALLS)
     repeated(block(scene, "Beam", (6.4, 0.14, 0.16), (0, -2.25, 2.63), color=DARK_WOOD, index=WALLS), (4, (0, 1.5, 0)))
@@ -218,10 +218,10 @@ def lounge(scene) -> None:
     turned(scene, "Lampshade", shade, (2.75, 1.25, 1.38), color="f3e3bd", index=LAMPS)
 
 
-def plant(scene, place) -> None:
+def plant(scene, location) -> None:
     """Add a pot with long bent leaves."""
     pot = [(0, 0), (0.15, 0), (0.21, 0.34), (0.23, 0.34), (0.23, 0.38), (0.2, 0.38), (0.19, 0.33), (0, 0.33)]
-    turned(scene, "Pot", pot, place, color="c9714f", index=PLANT)
+    turned(scene, "Pot", pot, location, color="c9714f", index=PLANT)
     spine = [(0.02, 0, 0), (0.16, 0.1, 0.4), (0.42, 0.13, 0.72), (0.75, 0.08, 0.8), (0.98, 0, 0.62)]
     rows = [(x, side * half, z - 0.25 * half) for x, half, z in ((x, w, z) for x, w, z in spine) for side in (-1, 0, 1)]
     rows = [(x, y, z if k % 3 != 1 else z - 0.04) for k, (x, y, z) in enumerate(rows)]
@@ -229,7 +229,7 @@ def plant(scene, place) -> None:
     for k in range(13):
         size = 0.75 + 0.25 * sin(2.6 * k)
         turn = 0, -22 - 26 * (k % 3), 137.5 * k
-        made = add(scene, "Leaf", leaf, (place[0], place[1], place[2] + 0.33), turn, size,
+        made = add(scene, "Leaf", leaf, (location[0], location[1], location[2] + 0.33), turn, size,
                    color=("4f9a5f", "68ad5c")[k % 2], index=PLANT)  # fmt: skip
         modified(made, "SUBSURF", levels=2, render_levels=2)
         modified(made, "SOLIDIFY", thickness=0.008)

@@ -61,12 +61,12 @@ def hill(scene) -> None:
         tree(scene, (0, 0, 0), 0.95 + 0.2 * kind, kind)
         trees.append(assembled(scene, f"Tree {kind}", set(scene.objects) - before))
     kinds = bpy.data.collections.new("Trees")
-    for one in trees:
-        kinds.children.link(one)
+    for tree_kind in trees:
+        kinds.children.link(tree_kind)
     scattered(forest, kinds, 0.035, seed=3)
 
 
-def sail(scene, place) -> None:
+def sail(scene, location) -> None:
     """Add a canopy, a NURBS surface of 4 by 4 points, on four posts."""
     bpy.ops.surface.primitive_nurbs_surface_surface_add()
     made = bpy.context.object
@@ -80,10 +80,10 @@ def sail(scene, place) -> None:
     spline.use_endpoint_u = spline.use_endpoint_v = True
     spline.order_u = spline.order_v = 4
     spline.resolution_u = spline.resolution_v = 8
-    add(scene, "Canopy", data, place, color="eae1d0", index=6)
+    add(scene, "Canopy", data, location, color="eae1d0", index=6)
     for u in (-1, 1):
         for v in (-1, 1):
             top = 2.9 + 0.75 * u * v
             post = [(0, 0), (0.05, 0), (0.05, top), (0, top)]
-            foot = place[0] + 2.16 * u, place[1] + 1.47 * v, 0
+            foot = location[0] + 2.16 * u, location[1] + 1.47 * v, 0
             turned(scene, "Post", post, foot, steps=16, color="8b6242", index=6)

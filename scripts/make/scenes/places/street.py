@@ -102,9 +102,9 @@ def entry(scene, x: float, color: str) -> None:
     block(scene, "Step", (1.3, 0.6, 0.16), (x, 3.75, 0.18), color="a39a8e", index=DOOR)
 
 
-def car(scene, name: str, place, color: str) -> None:
+def car(scene, name: str, location, color: str) -> None:
     """Add a small car parallel to x."""
-    x, y, _ = place
+    x, y, _ = location
     soft(scene, name, (3.9, 1.6, 0.66), (x, y, 0.58), crease=0.5, color=color, index=CAR)
     outline = [(-1.25, 0), (1.05, 0), (0.45, 0.55), (-0.95, 0.55)]
     cabin = prism(scene, "Cabin", outline, 1.36, (x - 0.1, y, 0.84), edge=0.12, color="bcd3e0", index=CAR)

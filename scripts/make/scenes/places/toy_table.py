@@ -44,7 +44,7 @@ def disc(radius: float, high: float, edge: float):
     return [(0, high), *upper, *((x, high - z) for x, z in reversed(upper)), (0, 0)]
 
 
-def ring(scene, name: str, radius: float, thick: float, place, turn=(0, 0, 0), **look):
+def ring(scene, name: str, radius: float, thick: float, location, turn=(0, 0, 0), **look):
     """Add a torus."""
     circle = [(radius + thick * cos(2 * pi * k / 24), thick * sin(2 * pi * k / 24)) for k in range(25)]
-    return turned(scene, name, circle, place, turn, steps=64, sharp=180, **look)
+    return turned(scene, name, circle, location, turn, steps=64, sharp=180, **look)
