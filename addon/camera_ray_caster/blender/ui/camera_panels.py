@@ -48,7 +48,7 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
             layout.operator(LensOfClip.bl_idname, icon="TRACKER")
         if camera is not None and camera.type == "CAMERA":
             draw_cycles(layout, camera.data)
-        draw_first(layout, notes(context), CameraNotes.bl_idname)
+        draw_first(layout, context, notes(context), CameraNotes.bl_idname)
 
 
 class CameraNotes(Popover, bpy.types.Panel):

@@ -77,7 +77,7 @@ class SidebarCameras(Sidebar, bpy.types.Panel):
         draw_all(layout)
         export = layout.operator(Export.bl_idname, text="Export All", icon="EXPORT")
         export.format, export.cameras, export.frames = "json", "ALL", usual(context.scene)
-        draw_line(layout, in_steps.latest(), LatestRun.bl_idname)
+        draw_line(layout, context, in_steps.latest(), LatestRun.bl_idname)
 
 
 CLASSES = (UseCamera, SidebarCameras)

@@ -6,6 +6,8 @@ LETTER = 6.3
 """Approximate width of a letter in a panel, in pixels at interface scale 1."""
 MARGIN = 20.0
 """Approximate margin on each side of a panel's fields, in pixels at interface scale 1."""
+ICON = 65.0
+"""Width that a panel's margins and an icon leave no letters for, in pixels at interface scale 1."""
 NARROW = 280
 """Region width up to which a label next to its field would be cut off, in pixels at interface scale 1."""
 
@@ -50,8 +52,13 @@ def draw_message(layout, context, text: str, icon: str = "INFO") -> None:
     text = capital(text)
     column = layout.column(align=True)
     column.scale_y = 0.85
-    for i, line in enumerate(wrap(text, max(16, int((width_of(context) - 65) / LETTER)))):
+    for i, line in enumerate(wrap(text, letters(context))):
         column.label(text=line, icon="BLANK1" if i else icon)
+
+
+def letters(context) -> int:
+    """Return how many letters fit into a row with an icon."""
+    return max(16, int((width_of(context) - ICON) / LETTER))
 
 
 def capital(text: str) -> str:

@@ -30,6 +30,19 @@ TIMES = {
     pixel_time.SWEEP: "street_scanner",
 }  # fmt: skip
 """Scene of each time of the pixels, but for one time."""
+SHORT = {
+    "EQUIRECTANGULAR": "Equirect.", "EQUIANGULAR_CUBEMAP_FACE": "Cube Face", "FISHEYE_EQUIDISTANT": "Equidistant",
+    "FISHEYE_EQUISOLID": "Equisolid", "FISHEYE_LENS_POLYNOMIAL": "Fisheye Poly", "CENTRAL_CYLINDRICAL": "Central Cyl.",
+    "OPENCV_PINHOLE": "CV Pinhole", "OPENCV_FISHEYE": "CV Fisheye", "UCM": "Unified (UCM)", "EUCM": "EUCM",
+    "DOUBLE_SPHERE": "Dbl. Sphere", "THIN_PRISM_FISHEYE": "Thin Prism", "FOV": "FOV",
+    "RADIAL_POLYNOMIAL": "Radial Poly", "OCAM": "OCam", "FISHEYE_ORTHOGRAPHIC": "Fisheye Ortho",
+    "FISHEYE_STEREOGRAPHIC": "Stereographic", "CYLINDRICAL": "Pano Cylinder",
+    "STEREOGRAPHIC_PANORAMA": "Pano Stereog.", "OMNIDIRECTIONAL_STEREO": "Omni Stereo",
+    "TWISTED_ORTHOGRAPHIC": "Twisted Ortho", "CAMERA_OBSCURA": "Obscura", pixel_time.ROWS: "Slit Rows",
+    pixel_time.COLUMNS: "Slit Columns", pixel_time.IMAGE: "Time Displ.", pixel_time.ROLLING_SHUTTER: "Rolling",
+    pixel_time.SWEEP: "Sweep",
+}  # fmt: skip
+"""Names below the gallery's pictures, where the label is wider than a picture."""
 _kept: list[tuple[str, str, str, int, int]] = []
 """The items: Blender does not keep their texts."""
 
@@ -132,7 +145,8 @@ def scene_of(key: str) -> str:
 
 def _pictures(camera, context) -> list[tuple[str, str, str, int, int]]:
     _kept[:] = [
-        (entry.key, entry.label, entry.text, gallery.icon(scene_of(entry.key)), i) for i, entry in enumerate(pictured())
+        (key, SHORT.get(key, label), f"{label}: {text}", gallery.icon(scene_of(key)), i)
+        for i, (key, label, text, *_) in enumerate(pictured())
     ]
     return _kept
 

@@ -7,9 +7,10 @@ the full text.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from textwrap import shorten, wrap
 from typing import Any, NamedTuple
 
-from .drawing import capital, draw_message, width_of
+from .drawing import capital, draw_message, letters, width_of
 
 UNIT = 20.0
 """Pixels of an interface unit at interface scale 1."""
@@ -31,24 +32,31 @@ def draw_notes(layout, context, notes: Iterable[Note]) -> None:
             note.mend(layout.row(align=True))
 
 
-def draw_first(layout, notes: list[Note], panel: str) -> None:
-    """Draw two rows in any case: the first note, which opens ``panel``, and its control; a row may be empty."""
+def draw_first(layout, context, notes: list[Note], panel: str) -> None:
+    """Draw two rows in any case: the first note, which opens ``panel``, and its control, or the note's next words; a
+    row may be empty.
+    """
     if not notes:
         layout.label(text="No notes", icon="CHECKMARK")
         layout.label(text="")
         return
     first, text = notes[0], capital(notes[0].text)
-    draw_line(layout, text if len(notes) == 1 else f"{len(notes)} notes: {text}", panel, first.icon)
-    if first.mend is None:
-        layout.label(text="")
-    else:
+    text = text if len(notes) == 1 else f"{len(notes)} notes: {text}"
+    if first.mend is not None:
+        draw_line(layout, context, text, panel, first.icon)
         first.mend(layout.row(align=True))
+        return
+    line, *more = wrap(text, letters(context))
+    layout.popover(panel, text=line, icon=first.icon)
+    layout.label(text=shorten(" ".join(more), letters(context), placeholder=" ..."), icon="BLANK1")
 
 
-def draw_line(layout, text: str, panel: str, icon: str = "INFO", otherwise: str = "") -> None:
-    """Draw one row in any case: a text, which opens ``panel``, or the text ``otherwise`` if it is empty."""
+def draw_line(layout, context, text: str, panel: str, icon: str = "INFO", otherwise: str = "") -> None:
+    """Draw one row in any case: a text, which opens ``panel``, as many words as fit; or the text ``otherwise`` if it is
+    empty.
+    """
     if text:
-        layout.popover(panel, text=text, icon=icon)
+        layout.popover(panel, text=shorten(text, letters(context), placeholder=" ..."), icon=icon)
     else:
         layout.label(text=otherwise, icon="BLANK1")
 

@@ -31,7 +31,7 @@ class SidebarVerify(Sidebar, bpy.types.Panel):
         row.operator("camera_ray_caster.verify", text="With Cycles").with_cycles = True
         report = reports.verified(context.scene)
         text, icon = ("", "NONE") if report is None else verdict(context, report)
-        draw_line(layout, text, VerifyErrors.bl_idname, icon, "Not verified yet")
+        draw_line(layout, context, text, VerifyErrors.bl_idname, icon, "Not verified yet")
 
 
 def verdict(context, report) -> tuple[str, str]:
