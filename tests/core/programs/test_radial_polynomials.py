@@ -17,7 +17,7 @@ CURVE = 0.4 * (1.04 - 0.05 * 0.4 + 0.02 * 0.4**2 - 0.01 * 0.4**3)
 
 def pixel(file, camera, point):
     """The pixel of a point, x right, y down, z ahead, from the picture's upper left corner."""
-    lens = crc.load_calibration(str(SAMPLES / file), camera=camera, size=SIZE)
+    lens = crc.load_calibration(str(SAMPLES / file), camera=camera, size=SIZE, pose=np.eye(4))
     x, y = lens.project((point[0], -point[1], -point[2]))
     return x, SIZE[1] - y
 
@@ -33,6 +33,32 @@ def pixel(file, camera, point):
 )  # fmt: skip
 def test_panorama_programs(file, camera, point, expected):
     np.testing.assert_allclose(pixel(file, camera, point), expected, rtol=0, atol=1e-9)
+
+
+TURNED = 'p f2 w3600 h1800 v360\ni w800 h600 f0 v50 r10 p20 y30 TrX0 n"a.jpg"\n'
+SEEN = {(400, 300): (2099.788217, 699.886911), (500, 300): (2168.915979, 712.766067),
+        (400, 200): (2112.676377, 634.450229), (10, 20): (1840.105205, 511.614468)}  # fmt: skip
+"""Pixels of its picture, and of the panorama by pano_trafo of Hugin 2022.0; the first one's center is (0, 0)."""
+
+
+def test_a_turned_picture_is_where_pano_trafo_has_it(tmp_path):
+    (tmp_path / "a.pto").write_text(TURNED)
+    rays = crc.load_rig(tmp_path / "a.pto")["Camera"].rays()
+    for (column, row), expected in SEEN.items():
+        x, y, z = rays.directions[599 - row, column]
+        place = 1800 + 10 * np.degrees(np.arctan2(x, y)) - 0.5, 900 - 10 * np.degrees(np.arcsin(z)) - 0.5
+        np.testing.assert_allclose(place, expected, rtol=0, atol=1e-6)
+    same = crc.load_rig(SAMPLES / "ptgui.json")["b"]  # has the same angles
+    np.testing.assert_allclose(same.pose.basis, crc.load_rig(tmp_path / "a.pto")["Camera"].pose.basis, rtol=0, atol=0)
+
+
+@pytest.mark.parametrize(
+    ("file", "moved"), [("hugin.pto", ("TrX0", "TrX0.5")), ("ptgui.json", ('"vpd": 0', '"vpd": 2'))]
+)
+def test_pictures_from_another_place_are_refused(file, moved, tmp_path):
+    (tmp_path / file).write_text((SAMPLES / file).read_text().replace(*moved))
+    with pytest.raises(crc.InputError, match="it must be 0: pictures are taken from one place"):
+        crc.load_rig(tmp_path / file)
 
 
 def test_lensfun():

@@ -1,7 +1,8 @@
 """Hugin's projects, .pto: a line i for each picture, with letters for its numbers; those of Panorama Tools, too.
 
 w, h: size; f: projection; v: horizontal field of view in degrees; a, b, c: lens correction; d, e: shift of the center
-from the middle of the picture, in pixels, to the right and down. v=0 means that v is that of picture 0.
+from the middle of the picture, in pixels, to the right and down; y, p, r: yaw, pitch and roll. v=0 means that v is that
+of picture 0.
 Reference: Hugin documentation, Nona: the format of its scripts; Panorama Tools documentation.
 """
 
@@ -13,10 +14,12 @@ from math import radians, tan
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens, different, one_of_several
-from .parts.panorama_tools import FISHEYE, RECTILINEAR, lens_of, ptlens
+from .parts.panorama_tools import FISHEYE, RECTILINEAR, lens_of, ptlens, turned
+from .parts.placed import Placed
 from .parts.program import ProgramFiles
 
 PROJECTIONS = {"0": RECTILINEAR, "2": FISHEYE, "3": FISHEYE}
+MOVED = "TrX", "TrY", "TrZ", "Tpy", "Tpp"
 WORD = re.compile(r'([A-Za-z]+)("[^"]*"|\S+)')
 
 
@@ -42,7 +45,16 @@ def _pictures(document: Document) -> list[Fields]:
 
 def read(document: Document) -> list[Lens]:
     """See ProgramFiles."""
-    return different(one_of_several(picture.label, _lens, picture) for picture in _pictures(document))
+    return different(lens for lens, _ in _lenses(document))
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles."""
+    return turned(_lenses(document), MOVED, "ypr")
+
+
+def _lenses(document: Document) -> list[tuple[Lens, Fields]]:
+    return [(one_of_several(picture.label, _lens, picture), picture) for picture in _pictures(document)]
 
 
 def _lens(picture: Fields) -> Lens:
@@ -62,6 +74,6 @@ def _lens(picture: Fields) -> Lens:
 
 PROGRAM = ProgramFiles(
     "Hugin", ".pto of Hugin and Panorama Tools", looks, marks="hugin pto image lines TrX Ra Va",
-    reads="rectilinear and fisheye with a, b, c, d, e", lost="angles of the pictures; other projections are refused",
-    read=read,
+    reads="rectilinear and fisheye with a, b, c, d, e", lost="other projections are refused, and moved pictures",
+    read=read, poses=poses,
 )  # fmt: skip

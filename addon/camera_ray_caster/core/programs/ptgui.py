@@ -2,7 +2,7 @@
 
 A focal length and the diagonal of the sensor are in millimeters; a, b, c are those of Panorama Tools. The fisheye is
 equidistant if its fisheyefactor is 0. The center is the middle of the picture: shifts and shears are refused, since
-their directions are not documented.
+their units and directions are not documented, and readers do not agree on them. The angles are those of Panorama Tools.
 Reference: PTGui documentation, Project file format; Lens parameters a, b, c.
 """
 
@@ -13,9 +13,12 @@ from math import hypot
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens, different, one_of_several
-from .parts.panorama_tools import FISHEYE, RECTILINEAR, lens_of, ptlens
+from .parts.panorama_tools import FISHEYE, RECTILINEAR, lens_of, ptlens, turned
+from .parts.placed import Placed
 from .parts.program import ProgramFiles
 
+MOVED = "vpx", "vpy", "vpd"
+"""Entries of a picture that was taken from another place."""
 PROJECTIONS = {"rectilinear": RECTILINEAR, "circularfisheye": FISHEYE, "fullframefisheye": FISHEYE}
 
 
@@ -26,10 +29,22 @@ def looks(document: Document) -> bool:
 
 def read(document: Document) -> list[Lens]:
     """See ProgramFiles."""
+    return different(lens for lens, _ in _lenses(document))
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles."""
+    return turned(_lenses(document), MOVED)
+
+
+def _lenses(document: Document) -> list[tuple[Lens, Fields]]:
+    """Return the lens of each group of pictures, and the entries of its position."""
     project = document.entries.part("project")
-    lenses = project.parts("globallenses")
-    groups = enumerate(project.parts("imagegroups"))
-    return different(one_of_several(f"lens of group {i}", _lens, group, lenses, i) for i, group in groups)
+    lenses, groups = project.parts("globallenses"), enumerate(project.parts("imagegroups"))
+    return [
+        (one_of_several(f"lens of group {i}", _lens, group, lenses, i), group.part("position").part("params"))
+        for i, group in groups
+    ]
 
 
 def _lens(group: Fields, lenses: list[Fields], number: int) -> Lens:
@@ -62,5 +77,5 @@ def _lens(group: Fields, lenses: list[Fields], number: int) -> Lens:
 PROGRAM = ProgramFiles(
     "PTGui", ".pts of version 11 or later", looks, marks="project globallenses imagegroups focallength sensordiagonal",
     reads="rectilinear and equidistant fisheye with a, b, c",
-    lost="angles of the pictures; shifts, shears and other projections are refused", read=read,
+    lost="shifts, shears, viewpoints and other projections are refused", read=read, poses=poses,
 )  # fmt: skip

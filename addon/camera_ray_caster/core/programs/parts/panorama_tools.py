@@ -1,8 +1,10 @@
 """Lenses of Panorama Tools and its relatives: a polynomial of the radius, in halves of the picture's shorter side.
 
 The radius of the ideal picture is focal tan(theta) of a pinhole, and focal theta of a fisheye; the polynomial gives
-that of the real picture. Both models are exact.
-Reference: Panorama Tools documentation, Lens correction model.
+that of the real picture. Both models are exact. All pictures are taken from one place. The middle of the panorama is
+along y, up is z: a camera that looks there is turned clockwise about its axis by the roll, then up by the pitch, then
+to the right by the yaw, in degrees.
+References: Panorama Tools documentation, Lens correction model; Image positioning model.
 """
 
 from __future__ import annotations
@@ -10,8 +12,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from .lens import Lens, matrix
+import numpy as np
 
+from ...maths.rotations import rotation
+from .fields import Fields
+from .lens import Lens, matrix, once_each
+from .placed import Placed
+
+ANGLES = "yaw", "pitch", "roll"
+UPRIGHT = np.array(((1, 0, 0), (0, 0, 1), (0, -1, 0)))
+"""From x right, y down, z ahead to x right, y ahead, z up."""
 RECTILINEAR, FISHEYE = "RADIAL_POLYNOMIAL", "FTHETA"
 
 
@@ -32,3 +42,24 @@ def lens_of(
     pixels = " ".join(repr(focal * term) for term in scaled)
     settings = {key: value for key, value in settings.items() if key not in ("fx", "fy")}
     return Lens(name, model, settings | {"ftheta_angle_to_radius": pixels})
+
+
+def turned(
+    pictures: Sequence[tuple[Lens, Fields]], moved: Sequence[str], angles: Sequence[str] = ANGLES
+) -> list[Placed]:
+    """Return the poses of pictures by their lenses, which have their names, and the entries with their angles. Raises
+    InputError if one of the entries ``moved`` is not 0: the picture is taken from another place.
+    """
+    placed = []
+    shared = once_each(lens for lens, _ in pictures)
+    for first, (lens, position) in zip(shared, pictures, strict=True):
+        position.document.check()
+        for name in moved:
+            if position.number(name, 0.0):
+                raise position.refusal(name, "0: pictures are taken from one place")
+        yaw, pitch, roll = np.radians([position.number(name, 0.0) for name in angles])
+        right, up, clockwise = rotation(np.array(((0, yaw, 0), (pitch, 0, 0), (0, 0, roll))))
+        pose = np.eye(4)
+        pose[:3, :3] = UPRIGHT @ right @ up @ clockwise
+        placed.append(Placed(first.name, lens.name, None, pose))
+    return placed
