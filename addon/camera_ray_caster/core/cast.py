@@ -10,15 +10,16 @@ from time import perf_counter
 import numpy as np
 
 from . import arguments, memory, tuning
-from .any_rays.sweep import cast_sweep, check_passes, is_cast_by_rays
+from .any_rays.choice import cast_sweep, search_for, sweep_tiles
 from .camera.camera import Camera
 from .camera.times import SweepTime
 from .casting.images import Images, check_reusable
-from .casting.needs import image_bytes, pictures
+from .casting.needs import check_passes, image_bytes, pictures
 from .casting.passes import PASSES
 from .casting.plan import Plan, make_plan
 from .casting.previews import Previews, Show
 from .casting.request import MATERIAL, SHADINGS, Request
+from .casting.search import nearest_hits
 from .casting.tiles import STEPS, Effort, Tile, cast_tile, in_threads, listening, moments, shares
 from .maths.speed import Scratch, processors
 from .records import Shapes
@@ -81,7 +82,6 @@ def cast(
     ``into`` that does not fit.
     """
     scene = Scene.given(camera, shapes, "cast")
-    camera, shapes = scene.camera, scene.shapes
     started = perf_counter()
     threads = processors() if threads is None else arguments.count(threads, "threads")
     samples = arguments.count(samples, "samples", MOST_SAMPLES)
@@ -92,64 +92,57 @@ def cast(
     if precision is not None:
         warnings.warn("precision has no effect; version 0.4 will refuse it", DeprecationWarning, stacklevel=2)
     request = Request(passes, tuple(PASSES), shading, arguments.flag(cull, "cull"))
-    shape = camera.raster.shape
+    shape = scene.camera.raster.shape
     if into is None:
         memory.require(image_bytes(shape, passes, dtype), memory.of_pixels("the passes", shape))
     else:
         check_reusable(into, passes, shape, dtype)
-    check_passes(camera, passes)
+    check_passes(scene.camera, passes)
     request = replace(request, others=pictures(scene, passes))
-    camera = without_times(scene)
-    time = camera.pixel_time
-    middle = (time.first + time.last) / 2 if time else None
-    if isinstance(time, SweepTime) or (samples == 1 and is_cast_by_rays(camera)):
-        found = cast_sweep(camera, shapes, request, dtype, progress)
-        images = Images(found) if into is None else into
-        images.take(found)
-        images.camera, images.shapes = scene.camera, shapes
-        images.rays = shape[0] * shape[1]
-        images.plan = make_plan(*moment(camera, shapes, middle), request)
-        images.seconds = {"plan": 0.0, "rays": 0.0, "cast": perf_counter() - started, "passes": 0.0}
-        if finished is not None:
-            finished(images, slice(0, camera.raster.shape[0]))
-            images.seconds["write"] = perf_counter() - started - images.seconds["cast"]
-        return images
-    whole = make_plan(*moment(camera, shapes, middle), request)
+    moving = scene.at_rest()
+    time = moving.camera.pixel_time
+    by_beam = isinstance(time, SweepTime)
+    middle = moving.at(None if time is None else (time.first + time.last) / 2)
+    whole = make_plan(middle.camera, middle.shapes, request)
     images = Images({name: PASSES[name].empty(shape, dtype) for name in passes}) if into is None else into
     images.keep(passes)
-    images.camera, images.shapes, images.plan = scene.camera, shapes, whole
-    sampled = ("combined",) if samples > 1 and "combined" in passes else ()
+    images.camera, images.shapes, images.plan = scene.camera, scene.shapes, whole
+    sampled = ("combined",) if samples > 1 and "combined" in passes and not by_beam else ()
     parts = [(replace(request, passes=tuple(name for name in passes if name not in sampled)), 1)]
     parts += [(replace(request, passes=sampled, sampled=True), samples)] if sampled else []
     plans: dict[Request, Plan] = {}
     if time is None:
-        plans = {part: whole if count == 1 else make_plan(camera, shapes, part) for part, count in parts}
+        plans = {part: whole if count == 1 else make_plan(moving.camera, moving.shapes, part) for part, count in parts}
         tiles = list(shares(plans[parts[-1][0]], threads, parts[-1][1]))
     else:
-        tiles = list(listening(moments(camera, time), progress))
+        tiles = list(sweep_tiles(shape) if by_beam else listening(moments(moving.camera, time), progress))
+    search = search_for(whole) if time is None else nearest_hits
     images.seconds = {"plan": perf_counter() - started}
     rays = sum(count for part, count in parts if part.passes)
     images.rays = shape[0] * shape[1] * rays
     effort = Effort(len(tiles) * rays)
-    previews = Previews(whole, time, samples if sampled else 1, preview if "combined" in passes else None)
+    show = preview if "combined" in passes and not by_beam else None
+    previews = Previews(whole, time, samples if sampled else 1, show)
     last = previews.spans[-1]
     open_tiles = list(tiles)
 
     def run(job: tuple[range, Tile], scratch: Scratch) -> np.ndarray:
         span, tile = job
+        if by_beam:
+            return cast_sweep(moving, tile, images, effort)
         seconds = np.zeros(len(STEPS))
-        then = moment(camera, shapes, tile.frame)
+        then = moving.at(tile.frame)
         with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
             for part, _ in parts:
                 if part.passes and (part.sampled or span is last):
-                    plan = plans.get(part) or make_plan(*then, part)
-                    into = {name: images[name] for name in part.passes}
-                    seconds += cast_tile(
-                        plan, tile, span if part.sampled else None, into, scratch, effort, previews.sums
-                    )
+                    plan = plans.get(part) or make_plan(then.camera, then.shapes, part)
+                    outs = {name: images[name] for name in part.passes}
+                    numbers = span if part.sampled else None
+                    seconds += cast_tile(plan, search, tile, numbers, outs, scratch, effort, previews.sums)
         return seconds
 
     write = 0.0
+    whole_rows = time is None or by_beam  # else a row may have pixels of many times
 
     def tell(rows: slice) -> None:
         nonlocal write
@@ -160,7 +153,7 @@ def cast(
 
     def end(job: tuple[range, Tile]) -> None:
         span, tile = job
-        if time is None and span is last:
+        if whole_rows and span is last:
             open_tiles.remove(tile)
             tell(tile.rows)
 
@@ -182,23 +175,10 @@ def cast(
 
     alone = len(tiles) == 1 and bool(is_small)
     busy = in_threads(run, rounds(), workers, effort, progress, end, alone, meanwhile)
-    if time is not None:  # a row may have pixels of many times
+    if not whole_rows:
         tell(slice(0, shape[0]))
     share = (perf_counter() - began - write) / max(busy.sum(), np.finfo(float).tiny)
     images.seconds |= dict(zip(STEPS, busy * share, strict=True))
     if finished is not None:
         images.seconds["write"] = write
     return images
-
-
-def moment(camera: Camera, shapes: Shapes, frame: float | None) -> tuple[Camera, Shapes]:
-    """Return camera and shapes at a frame, or as they are if ``frame`` is None: the picture has one time."""
-    return (camera, shapes) if frame is None else (camera.at(frame), shapes.at(frame))
-
-
-def without_times(scene: Scene) -> Camera:
-    """Return the camera of a scene, without the times of its pixels if nothing moves meanwhile."""
-    camera, motions = scene.camera, (scene.camera.timeline.motion, scene.shapes.timeline.motion)
-    if camera.pixel_time is None or not all(motion is None or motion.is_still for motion in motions):
-        return camera
-    return replace(camera, pixel_time=None)

@@ -57,6 +57,17 @@ class Scene:
         """The scene at the previous frame. None if it was not read."""
         return self._other("previous")
 
+    def at(self, frame: float | None) -> Scene:
+        """Return the scene at a frame, without pixel times; itself if ``frame`` is None."""
+        return self if frame is None else Scene(self.camera.at(frame), self.shapes.at(frame))
+
+    def at_rest(self) -> Scene:
+        """Return the scene without pixel times if nothing moves meanwhile, else itself."""
+        motions = self.camera.timeline.motion, self.shapes.timeline.motion
+        if not all(motion is None or motion.is_still for motion in motions):
+            return self
+        return Scene(replace(self.camera, pixel_time=None), self.shapes)
+
     def with_timeline(
         self, motion: MovingScene | None = None, next: Scene | None = None, previous: Scene | None = None
     ) -> Scene:

@@ -10,9 +10,9 @@ from typing import Any
 
 import bpy
 
-from ...core.any_rays.sweep import check_passes
 from ...core.camera.camera import Camera
 from ...core.cast import Images
+from ...core.casting.needs import check_passes
 from ...core.casting.passes import PASSES
 from ...core.casting.request import SHADINGS
 from ...core.file_set import CannotWrite

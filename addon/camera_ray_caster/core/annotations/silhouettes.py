@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..any_rays.sweep import is_cast_by_rays
+from ..any_rays.choice import uses_tree
 from ..camera.camera import Camera
 from ..cast import Images, cast
 from ..casting.pixels import is_hit
@@ -63,7 +63,7 @@ def _alone(camera: Camera, shapes: Shapes, plan: Plan) -> Iterator[tuple[int, in
     """Yield the row of each shape that has pixels of its own, the first column and row of a window, and which pixels of
     the window would show the shape alone, (rows, columns) bool.
     """
-    if camera.pixel_time is not None or is_cast_by_rays(camera):
+    if camera.pixel_time is not None or uses_tree(camera):
         for row in range(len(shapes)):
             pixels = cast(camera, _only(shapes, row), passes=("shape_index",), threads=1)["shape_index"] >= 0
             if pixels.any():

@@ -11,7 +11,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from .. import arguments, memory
-from ..casting.needs import image_bytes
+from ..casting.needs import WITHOUT_PIXEL, image_bytes
 from ..casting.passes import PASSES
 from ..conventions import gamma
 from ..maths.vector import norm
@@ -20,9 +20,6 @@ from ..records import InputError, Shapes
 from .found import Span
 from .moving import HitGroup, Moving, all_apart, cast_apart, moving_of
 from .search import BodySearch
-
-WITHOUT_PIXEL = "solid_angle", "footprint", "flow_forward", "flow_backward", "flow_hidden"
-"""Passes that a ray alone does not have."""
 
 KNOWN = tuple(name for name in PASSES if name not in WITHOUT_PIXEL)
 """The passes of rays, in the order of PASSES."""
@@ -104,19 +101,12 @@ def cast_rays(
     all_hits = arguments.flag(all_hits, "all_hits")
     _require(shapes, shape, passes, dtype)
     count = origin.shape[1]
-    each = _times(shapes, times, shape)
+    each = times_of(shapes, times, shape)
     if all_hits:
         return _all(shapes, each, origin, direction, shape, passes, (near, far), dtype)
     images = RayImages({name: PASSES[name].empty((1, count), dtype) for name in passes})
     images.shapes, images.rays = shapes, RayPattern(origins, directions, times, rings, near, far)
-    moving = _moving(shapes, each, passes)
-    if moving is not None and each is not None:
-        cast_apart(moving, search_of(moving.still), origin, direction, each, (near, far), images)
-    for then, some in _by_time(shapes, each) if moving is None else ():
-        search = search_of(then)
-        own = origin[:, some], direction[:, some]
-        t, body = search.nearest(*own, near, far)
-        search.write(*own, t, body, images, np.arange(count)[some])
+    write_nearest(shapes, origin, direction, each, (near, far), images)
     for name, image in images.items():
         images[name] = image.reshape((*shape, *image.shape[2:]))
     return images
@@ -138,11 +128,25 @@ def occluded(origins, targets, shapes: Shapes, *, times=None) -> np.ndarray:
     towards[:, ~(np.abs(towards).max(axis=0) > 0)] = np.nan
     with np.errstate(all="ignore"):
         rounding = gamma(4) * np.maximum(norm(start), norm(end)) / norm(towards)
-        for group in _groups(shapes, _times(shapes, times, shape), start, towards, (0.0, 1.0)):
+        for group in _groups(shapes, times_of(shapes, times, shape), start, towards, (0.0, 1.0)):
             hits = group.hits
             error = group.found.t_errors(start[:, hits.ray], towards[:, hits.ray], hits) + rounding[hits.ray]
             hidden[hits.ray[(hits.t > error) & (hits.t < 1 - error)]] = True
     return hidden.reshape(shape)
+
+
+def write_nearest(
+    shapes: Shapes, origin: np.ndarray, direction: np.ndarray, times: np.ndarray | None, span: Span, images
+) -> None:
+    """Write the passes of the nearest hits of rays (3, n), with times (n,) if shapes move, into images of one row."""
+    moving = _moving(shapes, times, tuple(images))
+    if moving is not None and times is not None:
+        cast_apart(moving, search_of(moving.still), origin, direction, times, span, images)
+        return
+    for then, some in _by_time(shapes, times):
+        search = search_of(then)
+        rays = origin[:, some], direction[:, some]
+        search.write(*rays, *search.nearest(*rays, *span), images, np.arange(origin.shape[1])[some])
 
 
 _searches: WeakKeyDictionary[Shapes, BodySearch] = WeakKeyDictionary()
@@ -215,7 +219,7 @@ def _require(shapes: Shapes, shape: tuple[int, ...], passes: tuple[str, ...], dt
     memory.require(128 * count + image_bytes((1, count), passes, dtype), f"the passes of {count:,} rays", PARTS)
 
 
-def _times(shapes: Shapes, times, shape: tuple[int, ...]) -> np.ndarray | None:
+def times_of(shapes: Shapes, times, shape: tuple[int, ...]) -> np.ndarray | None:
     """Return the time of each ray, (n,); None if the shapes have one time."""
     if times is None:
         return None

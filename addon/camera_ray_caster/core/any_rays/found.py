@@ -10,7 +10,7 @@ import numpy as np
 from ..casting.hit_values import HitValues
 from ..casting.hits import NOTHING, Hits
 from ..casting.passes import PASSES
-from ..casting.rays import given_rays
+from ..casting.rays import TileRays, given_rays
 from ..casting.store import store
 from ..casting.target import RayTarget
 from ..maths.speed import Scratch, lazy
@@ -96,13 +96,13 @@ class Found:
         with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
             for first in range(0, len(t), CHUNK):
                 chunk = slice(first, first + CHUNK)
-                bodies = body[None, chunk]
-                index = np.full(bodies.shape, NOTHING)
-                index[bodies >= 0] = self.at[bodies[bodies >= 0]]
-                triangles = self.is_triangle[bodies]
-                met, place = np.unique(bodies[triangles], return_inverse=True)
-                of_pixel = np.zeros(bodies.shape, np.int32)
-                of_pixel[triangles] = place
-                seen = {MESH: SeenTriangles(self.at[met], self.number[met], of_pixel)}
                 rays = given_rays(origin[:, chunk], direction[:, chunk], scratch)
-                yield chunk, Hits(self.target, rays, t[None, chunk], index, known=seen)
+                yield chunk, self.hits_of(self.target, rays, t[None, chunk], body[None, chunk])
+
+    def hits_of(self, target: RayTarget, rays: TileRays, t: np.ndarray, body: np.ndarray) -> Hits:
+        """Return the hits of rays on these shapes, given their t and bodies, (rows, columns), -1 for none."""
+        index, of_pixel = np.full(body.shape, NOTHING), np.zeros(body.shape, np.int32)
+        index[body >= 0] = self.at[body[body >= 0]]
+        triangles = self.is_triangle[body]
+        met, of_pixel[triangles] = np.unique(body[triangles], return_inverse=True)
+        return Hits(target, rays, t, index, known={MESH: SeenTriangles(self.at[met], self.number[met], of_pixel)})

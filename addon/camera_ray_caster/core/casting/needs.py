@@ -6,6 +6,7 @@ from collections.abc import Collection, Iterable
 
 import numpy as np
 
+from ..camera.camera import Camera
 from ..records import InputError
 from ..scene import Scene
 from .passes import PASSES
@@ -14,11 +15,24 @@ from .pictures import Picture
 COLORED = {"combined", "albedo"}
 """The passes that show colors of materials."""
 
+WITHOUT_PIXEL = "solid_angle", "footprint", "flow_forward", "flow_backward", "flow_hidden"
+"""Passes that a ray alone does not have."""
+
 
 def image_bytes(shape: tuple[int, int], passes: Iterable[str], dtype) -> int:
     """Return the number of bytes of the arrays of some passes."""
     sizes = (max(PASSES[name].channels, 1) * np.dtype(PASSES[name].dtype or dtype).itemsize for name in passes)
     return shape[0] * shape[1] * sum(sizes)
+
+
+def check_passes(camera: Camera, passes: Collection[str]) -> None:
+    """Raise InputError for passes that need neighboring pixels, if the camera's pixels are single beams."""
+    absent = [name for name in passes if name in WITHOUT_PIXEL]
+    if absent and not camera.model.differentiable:
+        raise InputError(
+            f"{camera.model.label} of camera {camera.name!r} has no {', '.join(absent)}: its pixels are single beams, "
+            "not parts of a picture"
+        )
 
 
 def has_colors(passes: Collection[str]) -> bool:

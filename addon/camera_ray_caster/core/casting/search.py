@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from heapq import merge
 from operator import attrgetter
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -17,6 +17,12 @@ from ..shapes.search_rays import Crossings, SearchRays
 from .hits import NOTHING, Hits
 from .plan import Plan
 from .rays import TileRays
+
+
+class HitSearch(Protocol):
+    """A search for the nearest hits within the clip range, as ``nearest_hits`` is one."""
+
+    def __call__(self, plan: Plan, rays: TileRays, listen: Callable[[], object], /) -> Hits: ...
 
 
 def nearest_hits(

@@ -19,7 +19,7 @@ from ..maths.speed import STRIP, Scratch, lending, sharing
 from ..records import Cancelled
 from .plan import Plan
 from .rays import chief_rays, sampled_rays
-from .search import nearest_hits
+from .search import HitSearch
 from .store import add_combined, store
 
 STEPS = "rays", "cast", "passes"
@@ -89,14 +89,14 @@ def shares(plan: Plan, threads: int, samples: int = 1) -> Iterator[Tile]:
     cuts = np.searchsorted(done, done[-1] * np.arange(1, count) / count)
     cuts = np.unique(np.clip(np.rint(cuts / STRIP), 1, height // STRIP - 1).astype(int)) * STRIP
     for first, last in pairwise((0, *cuts[(cuts > 0) & (cuts < height)].tolist(), height)):
-        yield from _bands(slice(first, last), slice(0, width), most)
+        yield from bands(slice(first, last), slice(0, width), most)
 
 
 def moments(camera: Camera, pixel_time: PixelTime) -> Iterator[Tile]:
     """Yield the tiles of each frame of the pixel times."""
     for frame, rows, columns, where in groups(pixel_time, camera.raster.columns(), camera.raster.rows()):
         rows, columns = (slice(*s.indices(n)) for s, n in zip((rows, columns), camera.raster.shape, strict=True))
-        for tile in _bands(rows, columns, tuning.TILE_PIXELS[0]):
+        for tile in bands(rows, columns, tuning.TILE_PIXELS[0]):
             meant = where[tile.rows.start - rows.start : tile.rows.stop - rows.start]
             yield replace(tile, frame=frame, where=None if meant.all() else meant)
 
@@ -114,7 +114,7 @@ def listening(tiles: Iterable[Tile], progress: Callable[[float], bool] | None) -
         yield tile
 
 
-def _bands(rows: slice, columns: slice, pixels: int) -> Iterator[Tile]:
+def bands(rows: slice, columns: slice, pixels: int) -> Iterator[Tile]:
     """Yield a part of the picture in bands of whole rows, of about equal size and at most ``pixels`` pixels."""
     step = max(1, pixels // (columns.stop - columns.start))
     count = -(-(rows.stop - rows.start) // step)
@@ -123,8 +123,8 @@ def _bands(rows: slice, columns: slice, pixels: int) -> Iterator[Tile]:
 
 
 def cast_tile(
-    plan: Plan, tile: Tile, samples: range | None, images: dict[str, np.ndarray], scratch: Scratch, effort: Effort,
-    sums: np.ndarray | None = None,
+    plan: Plan, search: HitSearch, tile: Tile, samples: range | None, images: dict[str, np.ndarray], scratch: Scratch,
+    effort: Effort, sums: np.ndarray | None = None,
 ) -> np.ndarray:  # fmt: skip
     """Cast one tile and store its passes in ``images``; return the seconds of STEPS.
 
@@ -146,7 +146,7 @@ def cast_tile(
         else:
             rays = sampled_rays(plan.camera, *place[:2], sample, place[2], scratch)
         generated = perf_counter()
-        hits = nearest_hits(plan, rays, effort.listen)
+        hits = search(plan, rays, effort.listen)
         found = perf_counter()
         if total is None:
             store(hits, parts, tile.where)

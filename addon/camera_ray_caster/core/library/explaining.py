@@ -8,7 +8,6 @@ import numpy as np
 
 from ..arguments import numbers, shown, word
 from ..camera.camera import Camera
-from ..cast import moment
 from ..casting.request import MATERIAL, SHADINGS
 from ..lesson.lesson import Lesson, lesson
 from ..records import InputError, Shapes
@@ -36,12 +35,12 @@ def explain(camera, shapes=None, pixel=None, *, shading: str = MATERIAL, samples
     Raises InputError, in one line, for a pixel outside of the frame; TypeError for a camera or shapes of another type.
     """
     scene, pixel = Scene.given_with(camera, shapes, pixel, "explain")
-    camera, shapes = scene.camera, scene.shapes
     position = numbers(pixel, "pixel")
     if position.shape != (2,) or not (np.isfinite(position) & (position == np.floor(position))).all():
         raise InputError(f"pixel is {shown(pixel)}: it must be (column, row), two whole numbers")
     column, row = position.astype(int).tolist()
-    time = camera.pixel_time
+    time = scene.camera.pixel_time
     frame = None if time is None else float(np.asarray(time.frame_at(column + 0.5, row + 0.5)).ravel()[0])
     shading = word(shading, "shading", SHADINGS)
-    return lesson(*moment(camera, shapes, frame), column, row, shading=shading, samples=samples)
+    then = scene.at(frame)
+    return lesson(then.camera, then.shapes, column, row, shading=shading, samples=samples)

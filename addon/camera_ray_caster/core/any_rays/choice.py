@@ -1,0 +1,68 @@
+"""Which search finds the nearest hits of a picture: that of tiles, or the tree of bodies, ray by ray; and the cast of a
+scanner that sweeps, in which each beam is a ray with a time of its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
+from time import perf_counter
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..casting.hits import Hits
+from ..casting.plan import Plan
+from ..casting.rays import TileRays
+from ..casting.search import HitSearch, nearest_hits
+from ..casting.tiles import Effort, Tile, bands
+from ..maths.vector import matvec
+from ..scene import Scene
+from .door import search_of, times_of, write_nearest
+from .search import RAYS, BodySearch
+
+
+def search_for(plan: Plan) -> HitSearch:
+    """Return the search for the rays of a plan, ready to be used by several threads."""
+    return partial(_by_tree, search_of(plan.shapes)) if uses_tree(plan.camera) else nearest_hits
+
+
+def uses_tree(camera: Camera) -> bool:
+    """Whether the tree is taken: for scanners whose beams have origins of their own, which the search of tiles bounds
+    by balls around all origins and azimuths. A street and a room take 0.4 to 0.5 times the processor time, a table 0.5
+    to 1.2 times.
+    """
+    return not camera.model.differentiable and not camera.model.central
+
+
+def _by_tree(bodies: BodySearch, plan: Plan, rays: TileRays, listen: Callable[[], object]) -> Hits:
+    camera, shape = plan.camera, rays.shape
+    origin, direction = (
+        np.array([np.broadcast_to(part, shape).reshape(-1) for part in matvec(camera.pose.basis, vector)])
+        for vector in (rays.origin, rays.direction)
+    )
+    origin += camera.pose.eye[:, None]
+    t, body = bodies.nearest(origin, direction, camera.clip_start, camera.clip_end)
+    listen()
+    return bodies.hits_of(plan.target, rays, t.reshape(shape), body.reshape(shape))
+
+
+def sweep_tiles(shape: tuple[int, int]) -> Iterator[Tile]:
+    """Yield a picture, (rows, columns), in tiles for ``cast_sweep``."""
+    height, width = shape
+    return bands(slice(0, height), slice(0, width), RAYS)
+
+
+def cast_sweep(scene: Scene, tile: Tile, images: dict[str, np.ndarray], effort: Effort) -> np.ndarray:
+    """Cast the beams of a tile of whole rows and store their passes in ``images``; return the seconds of STEPS."""
+    began, camera, shapes = perf_counter(), scene.camera, scene.shapes
+    raster = replace(camera.raster, y0=camera.raster.y0 + tile.rows.start, y1=camera.raster.y0 + tile.rows.stop)
+    rays = replace(camera, raster=raster).rays()
+    origin, direction = (np.array(part.reshape(-1, 3).T, order="C") for part in (rays.origins, rays.directions))
+    generated = perf_counter()
+    outs = {name: image[tile.rows].reshape(1, -1, *image.shape[2:]) for name, image in images.items()}
+    span = camera.clip_start, camera.clip_end
+    write_nearest(shapes, origin, direction, times_of(shapes, rays.time, raster.shape), span, outs)
+    effort.step()
+    return np.array([generated - began, perf_counter() - generated, 0.0])
