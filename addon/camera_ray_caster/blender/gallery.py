@@ -55,14 +55,14 @@ def groups() -> dict[str, dict[str, str]]:
     return {
         "Introduction": LECTURE,
         "Time": {_label(name): name for name in TIMES},
-        **{group: {it.label: scene_name(it.key) for it in MODELS if it.group == group} for group in GROUPS},
+        **{group: {model.label: scene_name(model.key) for model in MODELS if model.group == group} for group in GROUPS},
         "Places": {_label(name): name for name in PLACES},
     }
 
 
 def label(name: str) -> str:
     """Return the label of a scene in the menus: that of its camera model, if there is one."""
-    return {scene_name(it.key): it.label for it in MODELS}.get(name, _label(name))
+    return {scene_name(model.key): model.label for model in MODELS}.get(name, _label(name))
 
 
 def _label(name: str) -> str:
@@ -71,17 +71,17 @@ def _label(name: str) -> str:
 
 def scenes() -> list[Path]:
     """Return the files of the example scenes, sorted by name."""
-    found = folder()
-    return sorted(found.glob("*.blend")) if found else []
+    scene_folder = folder()
+    return sorted(scene_folder.glob("*.blend")) if scene_folder else []
 
 
 def icon(name: str) -> int:
     """Return the icon of a scene's picture, or 0 without a picture. The picture is loaded on the first call."""
     if not _previews:
         _previews.append(bpy.utils.previews.new())
-    known, found = _previews[0], folder()
+    known, scene_folder = _previews[0], folder()
     if name not in known:
-        picture = found / "pictures" / f"{name}.png" if found else None
+        picture = scene_folder / "pictures" / f"{name}.png" if scene_folder else None
         if picture is None or not picture.is_file():
             return 0
         known.load(name, str(picture), "IMAGE")

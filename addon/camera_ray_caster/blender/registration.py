@@ -90,9 +90,9 @@ class Undo(ExitStack):
     def add_handlers(self, handlers) -> None:
         """Append functions to the named lists in ``bpy.app.handlers``, until they are undone."""
         for name, function in handlers:
-            own = getattr(bpy.app.handlers, name)
-            own.append(function)
-            self.callback(own.remove, function)
+            handler_list = getattr(bpy.app.handlers, name)
+            handler_list.append(function)
+            self.callback(handler_list.remove, function)
 
 
 def _unless_gone(remove, *arguments) -> None:

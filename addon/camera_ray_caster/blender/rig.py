@@ -48,12 +48,12 @@ def add_rig(
     file cannot be read: InputError.
     """
     paths, rate = list(paths), frame_rate(scene)
-    found = [one for path in paths for one in mounted(path, model, size_of(scene), rate, meters_of(scene))]
-    trajectories = [one for one in found if not one.lenses]
-    cameras = [one for one in found if one.lenses]
-    if len(trajectories) > 1 or (trajectories and any(len(one.poses) > 1 for one in cameras)):
+    all_mounted = [camera for path in paths for camera in mounted(path, model, size_of(scene), rate, meters_of(scene))]
+    trajectories = [camera for camera in all_mounted if not camera.lenses]
+    cameras = [camera for camera in all_mounted if camera.lenses]
+    if len(trajectories) > 1 or (trajectories and any(len(camera.poses) > 1 for camera in cameras)):
         raise InputError("the files have two movements: give one trajectory, or one file of images, and rigs")
-    for note in filter(None, (one.note for one in found)):
+    for note in filter(None, (camera.note for camera in all_mounted)):
         say(note)
     empty = bpy.data.objects.new(Path(paths[0]).stem, None)
     scene.collection.objects.link(empty)
@@ -64,7 +64,7 @@ def add_rig(
         if trajectories and cameras:
             _place(empty, zip(trajectories[0].frames, trajectories[0].poses, strict=True))
             empty[KEYED] = trajectories[0].frames
-        objects = [_camera(scene, one, empty, say) for one in cameras or trajectories]
+        objects = [_camera(scene, camera, empty, say) for camera in cameras or trajectories]
     if scene.camera is None and objects:
         scene.camera = objects[0]
     _mark(scene, cameras or trajectories, objects)
@@ -73,9 +73,9 @@ def add_rig(
 
 def contents(scene, path: str) -> list[str]:
     """Return what ``add_rig`` finds in a file, a line for each camera up to LISTED. Raises InputError."""
-    found = _mounted(path, size_of(scene), frame_rate(scene), meters_of(scene), Path(path).stat().st_mtime_ns)
-    lines = [f"{one.name}: {_in_words(one)}" for one in found[:LISTED]]
-    return [f"{len(found)} {'camera' if len(found) == 1 else 'cameras'}", *lines, *["…"] * (len(found) > LISTED)]
+    cameras = _mounted(path, size_of(scene), frame_rate(scene), meters_of(scene), Path(path).stat().st_mtime_ns)
+    lines = [f"{camera.name}: {_in_words(camera)}" for camera in cameras[:LISTED]]
+    return [f"{len(cameras)} {'camera' if len(cameras) == 1 else 'cameras'}", *lines, *["…"] * (len(cameras) > LISTED)]
 
 
 @lru_cache(maxsize=1)
@@ -84,9 +84,9 @@ def _mounted(path: str, size, rate: float, meters: float, changed: int) -> list[
     return mounted(path, "", size, rate, meters)
 
 
-def _in_words(one: Mounted) -> str:
-    model = label_of(one.lens.model) if one.lens else "changing lenses" if one.lenses else "no lens"
-    return f"{model}, {len(one.poses)} {'pose' if len(one.poses) == 1 else 'poses'}"
+def _in_words(camera: Mounted) -> str:
+    model = label_of(camera.lens.model) if camera.lens else "changing lenses" if camera.lenses else "no lens"
+    return f"{model}, {len(camera.poses)} {'pose' if len(camera.poses) == 1 else 'poses'}"
 
 
 def files_of(path: str) -> list[Path]:
@@ -96,54 +96,54 @@ def files_of(path: str) -> list[Path]:
 
 def frames_of(objects: Iterable) -> list[float]:
     """Return the frames that have keyframes of a place, of objects or their parents, in order."""
-    moved = {one for item in objects for one in (item, item.parent) if one is not None}
-    found: set[float] = set()
+    moved = {mover for item in objects for mover in (item, item.parent) if mover is not None}
+    frames: set[float] = set()
     for item in moved:
-        found.update(item.get(KEYED, ()))
-    return sorted(found)
+        frames.update(item.get(KEYED, ()))
+    return sorted(frames)
 
 
 def shows(item, frame: float) -> bool:
     """Whether a camera of a rig has a pose in a frame; one that stands still has it in all."""
-    own = frames_of([item])
-    return not own or frame in own
+    frames = frames_of([item])
+    return not frames or frame in frames
 
 
 KEYED = "frames_of_poses"
 """Name of a custom property with the frames of an object's poses in its file."""
 
 
-def _camera(scene, one: Mounted, parent, say):
-    data = bpy.data.cameras.new(one.name)
-    item = bpy.data.objects.new(one.name, data)
+def _camera(scene, camera: Mounted, parent, say):
+    data = bpy.data.cameras.new(camera.name)
+    item = bpy.data.objects.new(camera.name, data)
     scene.collection.objects.link(item)
     item.parent = parent
-    if one.lens is not None:
-        _link(data, one.lens, one)
-    elif one.lenses:
-        _key_lens(data, one)
-    if one.size is not None:
-        item[SIZE] = one.size
-    poses = list(zip(one.frames, one.poses, strict=True))
-    if any(one.rolling):
-        poses = _rolled(scene, data, one, say)
+    if camera.lens is not None:
+        _link(data, camera.lens, camera)
+    elif camera.lenses:
+        _key_lens(data, camera)
+    if camera.size is not None:
+        item[SIZE] = camera.size
+    poses = list(zip(camera.frames, camera.poses, strict=True))
+    if any(camera.rolling):
+        poses = _rolled(scene, data, camera, say)
     _place(item, poses)
-    if None not in one.frames:
-        item[KEYED] = one.frames
+    if None not in camera.frames:
+        item[KEYED] = camera.frames
     return item
 
 
-def _rolled(scene, data, one: Mounted, say) -> list[tuple[float, np.ndarray]]:
+def _rolled(scene, data, camera: Mounted, say) -> list[tuple[float, np.ndarray]]:
     """Set the rolling shutter of a camera and of its scene; return the times of its first and last rows with the poses
     there.
     """
     poses, shutters = [], {}
-    for frame, pose, rolling in zip(one.frames, one.poses, one.rolling, strict=True):
+    for frame, pose, rolling in zip(camera.frames, camera.poses, camera.rolling, strict=True):
         if rolling is None:
             poses.append((frame, pose))
             continue
         frames = [offset * frame_rate(scene) for offset in rolling.offsets]
-        settings, times = rolling_shutter(rolling.readout, frames, one.size or size_of(scene))
+        settings, times = rolling_shutter(rolling.readout, frames, camera.size or size_of(scene))
         shutters[tuple(np.round(frames, 6)), rolling.readout] = settings
         poses += [(frame + times[0], pose), (frame + times[1], rolling.pose)]
     for setting in (MODE, *SETTINGS[ROLLING_SHUTTER]):
@@ -153,23 +153,23 @@ def _rolled(scene, data, one: Mounted, say) -> list[tuple[float, np.ndarray]]:
     moved = float(np.abs(times - frames).max())
     if len(shutters) > 1 or moved > 1e-6:
         change = "varies: that of its last frame is set" if len(shutters) > 1 else f"is moved by {moved:.3g} frames"
-        say(f"the rolling shutter of {one.name!r} {change}; its rows keep their poses")
+        say(f"the rolling shutter of {camera.name!r} {change}; its rows keep their poses")
     return poses
 
 
-def _link(data, lens: Lens, one: Mounted) -> None:
+def _link(data, lens: Lens, camera: Mounted) -> None:
     """Link a camera's data to the file of its lens, if its model reads files; else set the settings."""
     if lens.model not in READING:
         set_lens(data, lens)
         return
-    own = getattr(data, GROUP)
-    for setting, value in ((MODEL, lens.model), (FILE, one.file), (FILE_CAMERA, "" if one.alone else lens.name)):
-        setattr(own, setting.name, value)
+    group = getattr(data, GROUP)
+    for setting, value in ((MODEL, lens.model), (FILE, camera.file), (FILE_CAMERA, "" if camera.alone else lens.name)):
+        setattr(group, setting.name, value)
 
 
-def _key_lens(data, one: Mounted) -> None:
+def _key_lens(data, camera: Mounted) -> None:
     """Key the settings of a lens that changes from frame to frame."""
-    for lens, frame in zip(one.lenses, one.frames, strict=True):
+    for lens, frame in zip(camera.lenses, camera.frames, strict=True):
         set_lens(data, lens)
         for owner, name in settings_in(data, lens):
             owner.keyframe_insert(name, frame=frame)
@@ -191,7 +191,7 @@ def _place(item, poses: Iterable[tuple[float | None, np.ndarray]]) -> None:
 
 def _mark(scene, cameras: list[Mounted], objects: list) -> None:
     """Bind cameras to the frames by markers of the timeline, if there are several and each frame is that of one."""
-    shown = [(frame, item) for one, item in zip(cameras, objects, strict=True) for frame in one.frames]
+    shown = [(frame, item) for camera, item in zip(cameras, objects, strict=True) for frame in camera.frames]
     frames = {frame for frame, _ in shown}
     if len(cameras) < 2 or len(frames) < len(shown) or not all(frame == int(frame or 0) for frame in frames):
         return

@@ -47,29 +47,29 @@ def shape_of(array: np.ndarray) -> str:
     return f"of shape {array.shape}" + ("" if np.isfinite(array).all() else ", with NaN or infinite numbers")
 
 
-def count(value, name: str, most: float = inf) -> int:
-    """Return a whole number from 1 to ``most``."""
-    limit = "a whole number from 1" + (f" to {most}" if most < inf else "")
+def count(value, name: str, highest: float = inf) -> int:
+    """Return a whole number from 1 to ``highest``."""
+    limit = "a whole number from 1" + (f" to {highest}" if highest < inf else "")
     try:
         number = 0 if isinstance(value, bool | np.bool_) else index(value)
     except (TypeError, ValueError) as error:
         raise _refusal(name, value, limit) from error
-    if not 1 <= number <= most:
+    if not 1 <= number <= highest:
         raise _refusal(name, value, limit)
     return number
 
 
-def number(value, name: str, most: float, least: float | None = None) -> float:
-    """Return a Python or numpy number from ``least``, by default -most, to most as a float."""
-    least = -most if least is None else least
+def number(value, name: str, highest: float, lowest: float | None = None) -> float:
+    """Return a Python or numpy number from ``lowest``, by default -highest, to ``highest`` as a float."""
+    lowest = -highest if lowest is None else lowest
     is_number = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
     try:
-        found = float(value) if is_number else nan
+        result = float(value) if is_number else nan
     except OverflowError:  # of a whole number
-        found = nan
-    if not least <= found <= most:
-        raise _refusal(name, value, f"a number from {least:.12g} to {most:.12g}")
-    return found
+        result = nan
+    if not lowest <= result <= highest:
+        raise _refusal(name, value, f"a number from {lowest:.12g} to {highest:.12g}")
+    return result
 
 
 def folder(value) -> Path:
@@ -83,10 +83,10 @@ def folder(value) -> Path:
     return path
 
 
-def name(value, what: str = "name") -> str:
+def name(value, argument: str = "name") -> str:
     """Return a string that files can hold."""
-    if not _can_be(str.encode, word(value, what)):
-        raise _refusal(what, value, "a string without halves of characters (lone surrogates)")
+    if not _can_be(str.encode, word(value, argument)):
+        raise _refusal(argument, value, "a string without halves of characters (lone surrogates)")
     return value
 
 
@@ -109,7 +109,7 @@ def spelled(value, known: Collection[str]):
     """Return a value, a word of ``known`` in any case as it is spelled there."""
     if not isinstance(value, str) or value in known:
         return value
-    return next((one for one in known if one.casefold() == value.casefold()), value)
+    return next((spelling for spelling in known if spelling.casefold() == value.casefold()), value)
 
 
 def word(value, name: str, known: Collection[str] | None = None) -> str:
@@ -127,17 +127,17 @@ def words(value: str | Iterable[str], name: str, known: Collection[str]) -> tupl
     if isinstance(value, str):
         value = (value,)
     try:
-        given_one_by_one = iter(value)
+        iterator = iter(value)
     except TypeError as error:
         raise _refusal(name, value, f"some of {', '.join(known)}") from error
-    most = 100 * len(known)  # an iterator without end is refused
-    given = [spelled(one, known) for one in islice(given_one_by_one, most + 1)]
-    if len(given) > most:
-        raise _refusal(name, value, f"at most {most} names")
-    for one in given:
-        if not isinstance(one, str) or one not in known:
-            raise unknown(name.removesuffix("es"), one, known)
-    return tuple(dict.fromkeys(given))
+    limit = 100 * len(known)  # an iterator without end is refused
+    names = [spelled(word, known) for word in islice(iterator, limit + 1)]
+    if len(names) > limit:
+        raise _refusal(name, value, f"at most {limit} names")
+    for word in names:
+        if not isinstance(word, str) or word not in known:
+            raise unknown(name.removesuffix("es"), word, known)
+    return tuple(dict.fromkeys(names))
 
 
 def real_type(value, name: str) -> np.dtype:
@@ -161,28 +161,28 @@ def function(value, name: str) -> Callable[..., Any] | None:
 def numbers(value, name: str) -> np.ndarray:
     """Return numbers as a float64 array."""
     try:
-        given = np.asanyarray(value)
-        if given.dtype.kind in "cmM" or isinstance(given, np.ma.MaskedArray):
+        array = np.asanyarray(value)
+        if array.dtype.kind in "cmM" or isinstance(array, np.ma.MaskedArray):
             raise TypeError
-        return np.asarray(given, dtype=np.float64)
+        return np.asarray(array, dtype=np.float64)
     except Exception as error:  # numpy may raise anything, with several lines of text
         raise _refusal(name, value, "real numbers, without a mask") from error
 
 
-def unknown(what: str, value, known: Collection[str]) -> InputError:
+def unknown(kind: str, value, known: Collection[str]) -> InputError:
     """Return the error for a word that is none of ``known``: it names the nearest one, and all."""
-    spellings = {one.lower(): one for one in known}
+    spellings = {spelling.lower(): spelling for spelling in known}
     near = get_close_matches(value.lower(), spellings, 1) if isinstance(value, str) else []
     nearest = (isinstance(value, str) and meant(value, known)) or (spellings[near[0]] if near else "")
     guess = f"did you mean {nearest}? " if nearest else ""
-    return InputError(f"unknown {what} {shown(value)}: {guess}choose from {', '.join(known)}")
+    return InputError(f"unknown {kind} {shown(value)}: {guess}choose from {', '.join(known)}")
 
 
-def chosen(value, what: str, known: Collection[str]) -> str:
+def chosen(value, kind: str, known: Collection[str]) -> str:
     """Return the word of ``known`` that is given in any case. Raises InputError that names the nearest one."""
     value = spelled(value, known)
     if not isinstance(value, str) or value not in known:
-        raise unknown(what, value, known)
+        raise unknown(kind, value, known)
     return value
 
 

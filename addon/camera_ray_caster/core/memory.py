@@ -36,7 +36,7 @@ def available() -> int | None:
             return int(status.free_commit) if known else None
         if system == "Linux":
             with open("/proc/meminfo", encoding="ascii") as lines:
-                kilobytes = {name: int(rest.split()[0]) for name, rest in (line.split(":") for line in lines)}
+                kilobytes = {name: int(amount.split()[0]) for name, amount in (line.split(":") for line in lines)}
             return 1024 * (kilobytes["MemAvailable"] + kilobytes.get("SwapFree", 0))
         return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     except (OSError, ValueError, KeyError):
@@ -46,18 +46,18 @@ def available() -> int | None:
 LESS = "render a border of the frame (Ctrl B, and crop to it), fewer pixels or fewer passes"
 
 
-def require(needed: int, what: str, cure: str = LESS) -> None:
-    """Raise InputError if ``what``, named in the plural, needs more bytes than are available."""
+def require(needed: int, arrays: str, cure: str = LESS) -> None:
+    """Raise InputError if ``arrays``, named in the plural, needs more bytes than are available."""
     there = available() if needed > ALWAYS_THERE else None
     if there is not None and needed > there:
         raise InputError(
-            f"{what} take {needed / 2**30:.3g} GiB of memory and {there / 2**30:.3g} GiB are available: {cure}"
+            f"{arrays} take {needed / 2**30:.3g} GiB of memory and {there / 2**30:.3g} GiB are available: {cure}"
         )
 
 
-def of_pixels(what: str, shape: tuple[int, ...]) -> str:
-    """Return ``what`` followed by its size in pixels, as text; ``shape`` is (rows, columns)."""
-    return f"{what} of {' x '.join(str(side) for side in reversed(shape))} pixels"
+def of_pixels(arrays: str, shape: tuple[int, ...]) -> str:
+    """Return ``arrays`` followed by its size in pixels, as text; ``shape`` is (rows, columns)."""
+    return f"{arrays} of {' x '.join(str(side) for side in reversed(shape))} pixels"
 
 
 EXHAUSTED = {errno.EMFILE: "open files", errno.ENFILE: "open files", errno.ENOMEM: "memory", errno.EAGAIN: "processes"}
@@ -65,9 +65,10 @@ EXHAUSTED = {errno.EMFILE: "open files", errno.ENFILE: "open files", errno.ENOME
 
 def exhausted(error: BaseException) -> str:
     """Return a line on what the process has run out of: memory, threads or open files; "" for any other error."""
-    what = EXHAUSTED.get(error.errno or 0, "") if isinstance(error, OSError) else ""
+    resource = EXHAUSTED.get(error.errno or 0, "") if isinstance(error, OSError) else ""
     if isinstance(error, MemoryError):
-        what = "memory"
+        resource = "memory"
     if isinstance(error, RuntimeError) and "start new thread" in str(error):
-        what = "threads"
-    return f"not enough {what}: raise the limits of this process (ulimit), or end other programs" if what else ""
+        resource = "threads"
+    remedy = "raise the limits of this process (ulimit), or end other programs"
+    return f"not enough {resource}: {remedy}" if resource else ""

@@ -57,8 +57,8 @@ class Mesh:
         their digits, it is the median of some of the vertices instead.
         """
         low, high = self.vertices.min(axis=1).astype(np.float64), self.vertices.max(axis=1).astype(np.float64)
-        some = np.sort(self.vertices[:, :: max(1, self.vertices.shape[1] // SAMPLED)].astype(np.float64))
-        first, median, last = (some[:, some.shape[1] * k // 4] for k in (1, 2, 3))
+        sampled = np.sort(self.vertices[:, :: max(1, self.vertices.shape[1] // SAMPLED)].astype(np.float64))
+        first, median, last = (sampled[:, sampled.shape[1] * k // 4] for k in (1, 2, 3))
         return np.where(high - low > FARTHEST * (last - first).max(), median, low / 2 + high / 2)
 
     @cached_property
@@ -86,7 +86,7 @@ class Mesh:
         outer[order[1:][same]] = outer[order[:-1][same]] = False
         return outer.reshape(3, -1)
 
-    def middles(self, which: np.ndarray) -> np.ndarray:
+    def middles(self, triangles: np.ndarray) -> np.ndarray:
         """Return the middles, (3, 1), from which the places of some triangles are computed; or (3, k), of each."""
         return self.middle[:, None]
 
@@ -105,9 +105,9 @@ class LooseTriangles(Mesh):
     outer: np.ndarray
     """(3, k) bool: ``is_outer`` in their meshes."""
 
-    def middles(self, which: np.ndarray) -> np.ndarray:
+    def middles(self, triangles: np.ndarray) -> np.ndarray:
         """See ``Mesh``."""
-        return self.middle_of[:, which]
+        return self.middle_of[:, triangles]
 
     @cached_property
     def is_outer(self) -> np.ndarray:

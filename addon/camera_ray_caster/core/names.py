@@ -32,19 +32,19 @@ def file_names(names: Iterable[str]) -> dict[str, str]:
 
     Raises InputError if two names would have the same file on some system; see ``folded``.
     """
-    found = {name: file_name(name) for name in names}
+    files = {name: file_name(name) for name in names}
     owners: dict[str, str] = {}
-    for name, file in found.items():
+    for name, file in files.items():
         other = owners.setdefault(folded(file), name)
         if other != name:
             raise InputError(f"files of {other!r} and {name!r} would have the same name, {file!r}: rename one of them")
-    return found
+    return files
 
 
 def frame_digits(frame: float) -> str:
     """Return a frame for a file name, as Blender writes it: four digits or more, after a minus if it is negative; and
     up to six decimals if it lies between whole frames.
     """
-    whole, point, rest = f"{abs(frame):.6f}".rstrip("0").partition(".")
-    digits = whole.zfill(4) + (point + rest if rest else "")
+    whole, point, decimals = f"{abs(frame):.6f}".rstrip("0").partition(".")
+    digits = whole.zfill(4) + (point + decimals if decimals else "")
     return f"-{digits}" if round(frame, 6) < 0 else digits

@@ -28,8 +28,8 @@ class Scene:
         if isinstance(camera, Scene) and shapes is None:
             return camera
         if not (isinstance(camera, Camera) and isinstance(shapes, Shapes)):
-            both = f"{type(camera)} and {type(shapes)}"
-            raise TypeError(f"{to} takes a camera and shapes, or a scene and all else by name, not {both}")
+            types = f"{type(camera)} and {type(shapes)}"
+            raise TypeError(f"{to} takes a camera and shapes, or a scene and all else by name, not {types}")
         return cls(camera, shapes)
 
     @classmethod

@@ -19,7 +19,7 @@ def opencv_pinhole(scene):
     """
     room(scene)
     lens = {"model": "OPENCV_PINHOLE", **picture(448, 280, 210), "k1": -0.24, "k2": 0.045, "p1": 0.004, "p2": -0.006}
-    photograph(scene, CORNER, AHEAD, 448, 280, settings=lens)
+    photograph(scene, CORNER, AHEAD, 448, 280, addon=lens)
 
 
 def opencv_fisheye(scene):
@@ -28,7 +28,7 @@ def opencv_fisheye(scene):
     """
     room(scene)
     lens = {"model": "OPENCV_FISHEYE", **picture(448, 280, 110), "k1": 0.03, "k2": -0.022, "k3": 0.0008}
-    photograph(scene, MIDDLE, FRONT, 448, 280, settings=lens)
+    photograph(scene, MIDDLE, FRONT, 448, 280, addon=lens)
 
 
 def ucm(scene):
@@ -108,7 +108,7 @@ def ray_table(scene):
     room(scene)
     np.savez_compressed(FOLDER / "ray_table.npz", **ball_mirror(52))
     lens = {"model": "RAY_TABLE", "calibration_file": "//ray_table.npz"}
-    photograph(scene, (0, 0.5, 2.4), (0, -6, 2.4), 208, 208, settings=lens)
+    photograph(scene, (0, 0.5, 2.4), (0, -6, 2.4), 208, 208, addon=lens)
 
 
 def ball_mirror(side: int, radius: float = 0.6, away: float = 3.0, largest: float = 0.9) -> dict[str, np.ndarray]:

@@ -24,16 +24,16 @@ from .npz import Npz
 from .of_program import ProgramFormat
 from .stmap import Stmap
 
-_OF_PROGRAMS = [ProgramFormat(one) for one in PROGRAMS if one.export is not None and one.export.files]
+_OF_PROGRAMS = [ProgramFormat(program) for program in PROGRAMS if program.export is not None and program.export.files]
 FORMATS: tuple[Format, ...] = (
-    *sorted(_OF_PROGRAMS, key=lambda one: not one.table), Stmap(), Npz(), CameraJson(),
+    *sorted(_OF_PROGRAMS, key=lambda each: not each.table), Stmap(), Npz(), CameraJson(),
 )
 """All formats, in the order of menus: those of lenses first, those that need whole cameras last."""
 
 
 def find_format(key: str) -> Format:
     """Return the format of a key. Raises InputError that lists the formats for an unknown key."""
-    formats = {one.key: one for one in FORMATS}
+    formats = {each.key: each for each in FORMATS}
     return formats[the_word(key, "format", formats)]
 
 
@@ -47,8 +47,8 @@ def export(
     The iterator makes each content when it is reached. Raises InputError, in one line, for an unknown format, and for a
     camera that the format cannot represent; the message then lists the formats that can.
     """
-    chosen, able, heads, said = _prepared(key, shots, fit)
-    return with_heads(chosen.files(able), heads), said
+    chosen, able, heads, remarks = _prepared(key, shots, fit)
+    return with_heads(chosen.files(able), heads), remarks
 
 
 def records(key: str, shots: Sequence[Shot]) -> list[CameraRecord]:
@@ -71,25 +71,25 @@ def _prepared(key: str, shots: Sequence[Shot], fit: Any):
     for shot in shots:
         reason = _refusal(chosen, shot)
         if reason is not None:
-            able = ", ".join(one.key for one in FORMATS if _refusal(one, shot) is None)
-            what = f"{shot.camera.model.label} of camera {shot.camera.name!r}"
+            able = ", ".join(each.key for each in FORMATS if _refusal(each, shot) is None)
+            lens = f"{shot.camera.model.label} of camera {shot.camera.name!r}"
             of_lens = fit is None and can_fit(chosen, shot.camera) and rigid.refusal(shot.camera) is None
             near = f", or {FIT} (--fit)" if of_lens else ""
             if len({shot.name for shot in shots}) > 1:
                 near += ", or export the other cameras (--cameras)"
             raise InputError(
-                f"{chosen.label} cannot represent the {what}{reason and ', '}{reason}: choose one of {able}{near}"
+                f"{chosen.label} cannot represent the {lens}{reason and ', '}{reason}: choose one of {able}{near}"
             )
-    said = [*dict.fromkeys(line for shot in shots for line in chosen.omissions(shot)), *fits]
+    remarks = [*dict.fromkeys(line for shot in shots for line in chosen.omissions(shot)), *fits]
     if not chosen.rigid:
-        return chosen, shots, fits, said
+        return chosen, shots, fits, remarks
     if chosen.unit is None and shots[0].meters != 1:
         fits.append(f"lengths are in {unit_name(None)} of {shots[0].meters:.6g} m")
-        said.append(fits[-1])
+        remarks.append(fits[-1])
     shots = Each(shots, chosen.at_ends)
-    most = max(rigid.with_rotation(shot.camera)[1] for shot in shots)
-    moved = f"poses are the nearest rotations to Blender's matrices, which moves pixels by up to {most:.1e}"
-    return chosen, Each(shots, partial(_rotated, chosen)), fits, [moved, *said]
+    farthest = max(rigid.with_rotation(shot.camera)[1] for shot in shots)
+    moved = f"poses are the nearest rotations to Blender's matrices, which moves pixels by up to {farthest:.1e}"
+    return chosen, Each(shots, partial(_rotated, chosen)), fits, [moved, *remarks]
 
 
 def _rotated(chosen: Format, shot: Shot) -> Shot:

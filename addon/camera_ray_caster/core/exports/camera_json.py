@@ -112,8 +112,8 @@ def _of_report(report: Mapping[str, Any], frame: float | None, view: str | None)
         raise InputError(f"this report has no view {shown(view)}" + (f", only {', '.join(views)}" if views else ""))
     record = report["record"] if view is None else views[view]
     if record is None or RECORD not in record:
-        what = "whose time is an image, or whose table of rays is large"
-        raise InputError(f"this report has no record of its camera, {what}: export a camera.json")
+        reason = "whose time is an image, or whose table of rays is large"
+        raise InputError(f"this report has no record of its camera, {reason}: export a camera.json")
     if frame not in (None, report[FRAME]):
         raise InputError(f"this report is of frame {report[FRAME]:g}, not {shown(frame)}")
     return _camera(record)
@@ -122,9 +122,9 @@ def _of_report(report: Mapping[str, Any], frame: float | None, view: str | None)
 def _text(shots: Sequence[Shot]) -> str:
     cameras = []
     for name in dict.fromkeys(shot.name for shot in shots):
-        own = {shot.frame: plain(_said(shot)) for shot in shots if shot.name == name}
-        common = shared(list(own.values()))
-        frames = [{FRAME: frame, **without(said, common)} for frame, said in own.items()]
+        by_frame = {shot.frame: plain(_said(shot)) for shot in shots if shot.name == name}
+        common = shared(list(by_frame.values()))
+        frames = [{FRAME: frame, **without(entry, common)} for frame, entry in by_frame.items()]
         cameras.append({"name": name, "all_frames": common, "frames": frames})
     document = {"format": FORMAT, "format_version": NUMBER, "version": VERSION, "conventions": CONVENTIONS}
     return as_text(document | {"cameras": cameras})
@@ -142,16 +142,16 @@ def recorded(camera: Camera) -> dict[str, Any]:
     A camera that moves from pixel to pixel also has ``evaluations``, ``intervals`` and other facts about its
     ``motion``.
     """
-    said: dict[str, Any] = {"record": plain(_record(camera))}
+    entry: dict[str, Any] = {"record": plain(_record(camera))}
     motion = camera.timeline.motion
     if isinstance(motion, Motion):
-        said["evaluations"] = [
-            {FRAME: frame, "record": without(plain(_record(_of_one_time(state))), said["record"])}
+        entry["evaluations"] = [
+            {FRAME: frame, "record": without(plain(_record(_of_one_time(state))), entry["record"])}
             for frame, (state, _) in sorted(motion.states.items())
         ]
-        said["intervals"] = plain([interval.frames for interval in motion.intervals])
-        said["motion"] = plain({name: getattr(motion, name) for name in ACCURACY})
-    return said
+        entry["intervals"] = plain([interval.frames for interval in motion.intervals])
+        entry["motion"] = plain({name: getattr(motion, name) for name in ACCURACY})
+    return entry
 
 
 def _of_one_time(camera: Camera) -> Camera:
@@ -168,20 +168,20 @@ def _record(camera: Camera) -> dict[str, Any]:
     return record | {"settings": settings | ({FILE.name: ""} if FILE.name in settings else {})}
 
 
-def _camera(said: Mapping[str, Any]) -> Camera:
+def _camera(entry: Mapping[str, Any]) -> Camera:
     """Return the camera of an entry."""
-    camera = camera_from(_restored_record(said["record"]))
-    if "evaluations" not in said:
+    camera = camera_from(_restored_record(entry["record"]))
+    if "evaluations" not in entry:
         return camera
     states = {}
-    for evaluation in said["evaluations"]:
-        record = _restored_record(merged(said["record"], evaluation["record"]))
+    for evaluation in entry["evaluations"]:
+        record = _restored_record(merged(entry["record"], evaluation["record"]))
         states[evaluation[FRAME]] = replace(camera_from(record), pixel_time=camera.pixel_time), no_shapes()
     accuracy: dict[str, Any] = {
-        name: tuple(value) if isinstance(value, list) else value for name, value in said["motion"].items()
+        name: tuple(value) if isinstance(value, list) else value for name, value in entry["motion"].items()
     }
     accuracy["unresolved"] = tuple(map(tuple, accuracy["unresolved"]))
-    intervals = tuple(TimeInterval.of(states, tuple(frames)) for frames in said["intervals"])
+    intervals = tuple(TimeInterval.of(states, tuple(frames)) for frames in entry["intervals"])
     return replace(camera, timeline=Timeline(Motion(intervals, states, **accuracy)))
 
 
@@ -199,12 +199,12 @@ def _chosen(cameras: Sequence[Mapping[str, Any]], name: str | None) -> Mapping[s
 
 
 def _frame(camera: Mapping[str, Any], frame: float | None) -> dict[str, Any]:
-    frames = {own[FRAME]: own for own in camera["frames"]}
+    frames = {entry[FRAME]: entry for entry in camera["frames"]}
     if not frames:
         raise InputError(f"camera {camera['name']!r} has no frame in this file: export it again")
     chosen = next(iter(frames)) if frame is None else number(frame, "frame", pixel_time.LAST_FRAME)
     if chosen not in frames:
-        nearest = min(frames, key=lambda own: abs(own - chosen))
+        nearest = min(frames, key=lambda recorded_frame: abs(recorded_frame - chosen))
         raise InputError(
             f"camera {camera['name']!r} has no frame {shown(frame)} in this file: the nearest is {nearest:g}"
         )

@@ -30,26 +30,26 @@ FIT, FIT_WITHIN = "Fit Nearest Lens", "Within"
 Refusal = Callable[[Format, Shot], str | None]
 
 
-def with_fits(chosen: Format, shots: Sequence[Shot], part: Any, refusal: Refusal) -> tuple[list[Shot], list[str]]:
+def with_fits(chosen: Format, shots: Sequence[Shot], within: Any, refusal: Refusal) -> tuple[list[Shot], list[str]]:
     """Return the shots, with fitted cameras where the format refuses a lens, and a remark on each of those lenses.
 
-    part: of the picture that counts: see ``within`` of ``crc.fit``. Raises InputError if no
+    within: the part of the picture that counts: see ``within`` of ``crc.fit``. Raises InputError if no
     lens of the format is near.
     """
     known: dict[str, tuple[Camera, str]] = {}
-    found = []
+    fitted_shots = []
     for shot in shots:
         camera = shot.camera
         if refusal(chosen, shot) is None or not can_fit(chosen, camera):
-            found.append(shot)
+            fitted_shots.append(shot)
             continue
         key = repr((type(camera.model), camera.settings, camera.raster))
         if key not in known:
-            nearest = _nearest(chosen, shot, part, refusal)
-            known[key] = nearest.camera, _remark(shot, nearest, part)
+            nearest = _nearest(chosen, shot, within, refusal)
+            known[key] = nearest.camera, _remark(shot, nearest, within)
         fitted, remark = known[key]
-        found.append(replace(shot, camera=_lent(camera, fitted), fit=remark))
-    return found, list(dict.fromkeys(shot.fit for shot in found if shot.fit))
+        fitted_shots.append(replace(shot, camera=_lent(camera, fitted), fit=remark))
+    return fitted_shots, list(dict.fromkeys(shot.fit for shot in fitted_shots if shot.fit))
 
 
 def can_fit(chosen: Format, camera: Camera) -> bool:
@@ -62,12 +62,12 @@ def _lent(camera: Camera, fitted: Camera) -> Camera:
     return replace(camera, model=fitted.model, record=replace(fitted.record, name=camera.record.name))
 
 
-def _nearest(chosen: Format, shot: Shot, part: Any, refusal: Refusal) -> Fit:
+def _nearest(chosen: Format, shot: Shot, within: Any, refusal: Refusal) -> Fit:
     camera, terms = shot.camera, dict[str, set[str]]()
     for key, names in getattr(chosen, "table", {}).values():
         terms.setdefault(key, set()).update(names)
-    region = region_of(camera, part, "fit")
-    found: list[Fit] = []
+    region = region_of(camera, within, "fit")
+    fits: list[Fit] = []
     for kind in MODELS:
         if kind.key not in terms or not set(CALIBRATION) <= set(kind.SETTINGS):
             continue
@@ -77,27 +77,27 @@ def _nearest(chosen: Format, shot: Shot, part: Any, refusal: Refusal) -> Fit:
         except InputError:  # this model sees too little
             continue
         if refusal(chosen, replace(shot, camera=_lent(camera, fitted.camera))) is None:
-            found.append(fitted)
-    what = f"{camera.model.label} of camera {camera.name!r}"
-    if not found:
+            fits.append(fitted)
+    lens = f"{camera.model.label} of camera {camera.name!r}"
+    if not fits:
         raise InputError(
-            f"no lens of {chosen.label} can be fitted to the {what}: fit less of the picture "
+            f"no lens of {chosen.label} can be fitted to the {lens}: fit less of the picture "
             f"({FIT_WITHIN}, --fit DEGREES), or choose another format"
         )
-    best = min(found, key=lambda fit: (fit.unseen, fit.mean))
+    best = min(fits, key=lambda fit: (fit.unseen, fit.mean))
     if best.worst > FAR * max(camera.raster.size):
         raise InputError(
-            f"no lens of {chosen.label} is like the {what}: the nearest one, {best.summary}; fit less of the picture "
+            f"no lens of {chosen.label} is like the {lens}: the nearest one, {best.summary}; fit less of the picture "
             f"({FIT_WITHIN}, --fit DEGREES), or choose another format"
         )
     return best
 
 
-def _remark(shot: Shot, fit: Fit, part: Any) -> str:
-    within = ", within a part of the picture"
-    if np.ndim(part) == 0:
-        within = f", within {part * 180 / pi:.4g} degrees of the viewing direction" if part < pi else ""
-    return f"{shot.name}: fitted to its {shot.camera.model.label}{within}: {fit.summary}"
+def _remark(shot: Shot, fit: Fit, within: Any) -> str:
+    where = ", within a part of the picture"
+    if np.ndim(within) == 0:
+        where = f", within {within * 180 / pi:.4g} degrees of the viewing direction" if within < pi else ""
+    return f"{shot.name}: fitted to its {shot.camera.model.label}{where}: {fit.summary}"
 
 
 def in_comments(remarks: Sequence[str]) -> str:

@@ -48,8 +48,9 @@ def _of_frame(camera: Camera) -> list[Lens]:
     if kind is FisheyeStereographic:
         return _unified(model, {"unified_xi": 1.0})
     if isinstance(model, Calibrated | OpencvPinhole) and model.K is not None:
-        own = {one.name: camera.settings[one.name] for one in model.SETTINGS if one not in CALIBRATION}
-        return _unified(model, own) if model.key == "UCM" else [_lens(model, model.key, 1.0, own)]
+        names = [setting.name for setting in model.SETTINGS if setting not in CALIBRATION]
+        settings = {name: camera.settings[name] for name in names}
+        return _unified(model, settings) if model.key == "UCM" else [_lens(model, model.key, 1.0, settings)]
     return []
 
 

@@ -38,13 +38,13 @@ class Npz(Format):
         """See Format."""
         for shot in shots:
             rays = shot.camera.rays()
-            own = {} if rays.time is None else {"time": rays.time}
+            times = {} if rays.time is None else {"time": rays.time}
             pose, content = np.eye(4), BytesIO()
             pose[:3, 3] = shot.camera.pose.eye
             if rigid.refusal(shot.camera) is None:  # readers refuse mirrored and sheared axes; rays are in the world
                 pose[:3, :3] = shot.camera.pose.basis
             raster = shot.camera.raster
             area = np.array((raster.x0, raster.y0, raster.x1, raster.y1)) / (raster.size * 2)
-            given = {"origins": rays.origins, "directions": rays.directions, "valid": rays.valid}
-            np.savez(content, **given, pose=pose, area=area, **own)
+            rays_by_name = {"origins": rays.origins, "directions": rays.directions, "valid": rays.valid}
+            np.savez(content, **rays_by_name, pose=pose, area=area, **times)
             yield f"{shot.stem}.npz", content.getvalue()

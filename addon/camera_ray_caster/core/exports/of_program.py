@@ -64,14 +64,14 @@ class ProgramFormat(Format):
 
     def records(self, shots) -> list[CameraRecord]:
         """Return the records of cameras that the format does not refuse."""
-        found: list[CameraRecord] = []
+        records: list[CameraRecord] = []
         known: dict[str, Lens] = {}
         for shot in shots:
             lens = find_lens(self.table, shot.camera) or NO_LENS
             if all(isinstance(value, float | int | str) for value in lens.settings.values()):
                 lens = known.setdefault(repr(lens), lens)  # equal lenses are held once
-            found.append(record_of(shot, lens))
-        return found
+            records.append(record_of(shot, lens))
+        return records
 
     def files(self, shots):
         """See Format."""

@@ -38,27 +38,27 @@ def restored(value) -> Any:
 
 def shared(mappings: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     """Return the entries that are the same in all plain mappings, including entries of nested mappings."""
-    first, found = mappings[0], {}
+    first, equal = mappings[0], {}
     for key, value in first.items():
         others = [other[key] for other in mappings if key in other]
         if len(others) < len(mappings):
             continue
         if all(_same(value, other) for other in others):
-            found[key] = value
+            equal[key] = value
         elif all(isinstance(other, dict) for other in others):
-            found[key] = shared(others)
-    return found
+            equal[key] = shared(others)
+    return equal
 
 
 def without(mapping: Mapping[str, Any], base: Mapping[str, Any]) -> dict[str, Any]:
     """Return the entries of a plain mapping that are not the same in ``base``, including entries of nested mappings."""
-    found = {}
+    own_entries = {}
     for key, value in mapping.items():
         if key in base and isinstance(value, dict) and isinstance(base[key], dict):
-            found[key] = without(value, base[key])
+            own_entries[key] = without(value, base[key])
         elif key not in base or not _same(value, base[key]):
-            found[key] = value
-    return {key: value for key, value in found.items() if value != {} or key not in base}
+            own_entries[key] = value
+    return {key: value for key, value in own_entries.items() if value != {} or key not in base}
 
 
 def differing(mapping: Mapping[str, Any], base: Mapping[str, Any]) -> dict[str, Any]:
@@ -66,13 +66,13 @@ def differing(mapping: Mapping[str, Any], base: Mapping[str, Any]) -> dict[str, 
     return {key: value for key, value in mapping.items() if key not in base or not _same(value, base[key])}
 
 
-def merged(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
-    """Return ``base`` with the entries of ``own`` in place of its own, also in nested mappings: undoes ``without``."""
-    found = dict(base)
-    for key, value in own.items():
-        both = isinstance(value, dict) and isinstance(base.get(key), dict)
-        found[key] = merged(base[key], value) if both else value
-    return found
+def merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return ``base`` with the entries of ``changes`` in place of its own, also nested ones: undoes ``without``."""
+    result = dict(base)
+    for key, value in changes.items():
+        is_nested = isinstance(value, dict) and isinstance(base.get(key), dict)
+        result[key] = merged(base[key], value) if is_nested else value
+    return result
 
 
 def _same(left, right) -> bool:

@@ -36,9 +36,9 @@ def near(camera: Camera) -> Camera:
 
 def with_rotation(camera: Camera) -> tuple[Camera, float]:
     """Return ``near`` of a camera, and the largest movement of a point by it in pixels."""
-    found = near(camera)
+    rotated = near(camera)
     width, height = camera.raster.size
     rays = camera.rays_at(*np.meshgrid(np.linspace(0.5, width - 0.5, PLACES), np.linspace(0.5, height - 0.5, PLACES)))
     points = (rays.origins + rays.directions)[rays.valid]
-    moved = found.project(points) - camera.project(points)
-    return found, float(np.nanmax(np.hypot(*moved.T), initial=0.0))
+    moved = rotated.project(points) - camera.project(points)
+    return rotated, float(np.nanmax(np.hypot(*moved.T), initial=0.0))

@@ -46,17 +46,17 @@ class Stmap(Format):
 
     def omissions(self, shot):
         """See Format. A line on the distance between the two eyes is added if they are apart."""
-        one, other = shot.camera, shot.target or shot.camera
-        apart = float(np.linalg.norm(one.pose.eye - other.pose.eye))
-        line = f"{one.name!r} and {other.name!r} are {apart:.3g} apart: the maps are exact for distant objects only"
+        camera, target = shot.camera, shot.target or shot.camera
+        apart = float(np.linalg.norm(camera.pose.eye - target.pose.eye))
+        line = f"{camera.name!r} and {target.name!r} are {apart:.3g} apart: the maps are exact for distant objects only"
         return [*super().omissions(shot), *([line] if apart else [])]
 
     def files(self, shots):
         """See Format. Raises InputError if the perspective of the same lens is undefined."""
         for name in dict.fromkeys(shot.name for shot in shots):
-            own = [shot for shot in shots if shot.name == name]
-            pairs = [(shot, shot.target or perspective_of(shot.camera)) for shot in own]
-            still = len(own) > 1 and len({_maps(shot.camera, target) for shot, target in pairs}) == 1
+            of_camera = [shot for shot in shots if shot.name == name]
+            pairs = [(shot, shot.target or perspective_of(shot.camera)) for shot in of_camera]
+            still = len(of_camera) > 1 and len({_maps(shot.camera, target) for shot, target in pairs}) == 1
             for shot, target in pairs[:1] if still else pairs:
                 stem = shot.name if still else shot.stem
                 yield f"{stem}_undistort.exr", places(target, shot.camera)
@@ -92,8 +92,8 @@ def places(camera: Camera, other: Camera) -> np.ndarray:
     with np.errstate(all="ignore"):  # NaN means: no place
         there = other.model.project(rays.directions @ inverse(other.pose.basis).T)
         there = (there - (left, bottom)) / other.raster.picture_size
-        found = (np.abs(there) <= np.finfo(np.float32).max).all(axis=-1)
+        is_seen = (np.abs(there) <= np.finfo(np.float32).max).all(axis=-1)
     result = np.zeros((y1 - y0, x1 - x0, 3), np.float32)
-    result[..., :2] = np.where(found[..., None], there, -1.0)
-    result[..., 2] = found
+    result[..., :2] = np.where(is_seen[..., None], there, -1.0)
+    result[..., 2] = is_seen
     return result
