@@ -200,16 +200,22 @@ def test_what_was_made_of_something_else_is_made_again(command, blender, scene, 
 def test_an_option_that_is_not_named_is_a_setting_of_the_pictures(registered, scene, monkeypatch):
     """``--skip-existing`` keeps no picture that was made with another value of an option which nobody thought of."""
     from camera_ray_caster.blender.terminal import cast
-    from camera_ray_caster.blender.terminal.pictures import WHICH, Pictures
+    from camera_ray_caster.blender.terminal.pictures import Pictures
+    from camera_ray_caster.blender.terminal.words import unstamped
 
-    add_json = cast.add_json
-    monkeypatch.setattr(cast, "add_json", lambda parser: (add_json(parser), parser.set_defaults(new="a word")))
-    options = cast.options_of([str(scene)], "cast.py")
-    declared = vars(options).keys()
-    assert declared >= set(WHICH)
-    settings = Pictures(options).stamp()["settings"]
+    def add_others(parser):
+        parser.add_argument("--new", default="a word")
+        unstamped(parser.add_argument("--where", default="here"))
+
+    monkeypatch.setattr(cast, "add_json", add_others)
+    settings = Pictures(cast.options_of([str(scene)], "cast.py")).stamp()["settings"]
     assert settings["new"] == "a word"
-    assert settings.keys() == declared - set(WHICH) | {"calibration", "rig"}
+    assert "where" not in settings
+    assert settings.keys() == {
+        "new", "scene", "calibration_camera", "model", "resolution", "enable_autoexec", "rig_parent", "passes",
+        "shading", "engine", "samples", "device", "format", "half", "annotations", "keypoints", "points", "points_axes",
+        "noise", "dropout", "quantum", "seed", "file_output", "calibration", "rig",
+    }  # fmt: skip
 
 
 def test_a_witness_that_disagreed_still_does(command, scene, tmp_path):

@@ -17,7 +17,7 @@ from .jobs import PictureJob, first_jobs
 from .options import add_frame, add_json, command_parser, show, warn
 from .pictures import Pictures, add_words, parsed, suffixes_of, summary
 from .progress import follow
-from .words import add_frames, count, scheduler_address, share
+from .words import add_frames, count, scheduler_address, share, unstamped
 
 
 def run(arguments: Sequence[str], prog: str) -> int:
@@ -86,30 +86,29 @@ def options_of(arguments: Sequence[str], prog: str) -> argparse.Namespace:
     frames = parser.add_mutually_exclusive_group()
     add_frame(frames)
     add_frames(frames)
-    parser.add_argument(
-        "--shard", type=share, metavar="K/N", help="make only every N-th of the frames, from the K-th on"
-    )
+    unstamped(parser.add_argument("--shard", type=share, metavar="K/N", help=
+        "make only every N-th of the frames, from the K-th on"))  # fmt: skip
     add_words(parser)
-    parser.add_argument("--skip-existing", action="store_true",
-                        help="skip pictures that are already finished, from the same file and settings")  # fmt: skip
-    parser.add_argument("--dataset", action="store_true", help=
+    unstamped(parser.add_argument("--skip-existing", action="store_true", help=
+        "skip pictures that are already finished, from the same file and settings"))  # fmt: skip
+    unstamped(parser.add_argument("--dataset", action="store_true", help=
         "make the folder a data set: CAMERA_FRAME files of the scene's frames, rays of cameras that stand still once, "
-        "dataset.json, a reader and a preview; a second run makes the missing pictures")  # fmt: skip
-    parser.add_argument("--complete", action="store_true", help=
+        "dataset.json, a reader and a preview; a second run makes the missing pictures"))  # fmt: skip
+    unstamped(parser.add_argument("--complete", action="store_true", help=
         "FILE.blend is the folder of a data set whose pictures were made by shares (--shard): write what a run without "
-        "shares would have written beside them, or say which pictures are missing")  # fmt: skip
-    parser.add_argument("--folders", type=count, default=0, metavar="N", help=
-        "put at most N files into a folder, for file systems that are slow with more; default: all in one folder")
-    parser.add_argument("--retries", type=int, default=0, metavar="N", help=
+        "shares would have written beside them, or say which pictures are missing"))  # fmt: skip
+    unstamped(parser.add_argument("--folders", type=count, default=0, metavar="N", help=
+        "put at most N files into a folder, for file systems that are slow with more; default: all in one folder"))
+    unstamped(parser.add_argument("--retries", type=int, default=0, metavar="N", help=
         "with --dataset, how often a picture that fails is tried again; the others are made, and the exit status is 2; "
-        "default: %(default)s")  # fmt: skip
-    parser.add_argument("--log", type=Path, metavar="FILE", help="also append progress to a file, every 30 s")
+        "default: %(default)s"))  # fmt: skip
+    unstamped(parser.add_argument("--log", type=Path, metavar="FILE", help=
+        "also append progress to a file, every 30 s"))  # fmt: skip
     where = parser.add_mutually_exclusive_group()
-    where.add_argument("--workers", type=count, metavar="N", help=
-        "number of Dask processes on this machine; default: no Dask, only this process")  # fmt: skip
-    where.add_argument("--scheduler", type=scheduler_address, metavar="tcp://HOST:PORT",
-                       help="address of the scheduler of a Dask cluster; its workers need this package, "
-                            "bpy, the file and the folder")  # fmt: skip
+    unstamped(where.add_argument("--workers", type=count, metavar="N", help=
+        "number of Dask processes on this machine; default: no Dask, only this process"))  # fmt: skip
+    unstamped(where.add_argument("--scheduler", type=scheduler_address, metavar="tcp://HOST:PORT", help=
+        "address of the scheduler of a Dask cluster; its workers need this package, bpy, the file and the folder"))
     parser.add_argument("--file-output", action="store_true",
                         help="also write the files of the compositor's File Output nodes; default: the "
                              "nodes write nothing")  # fmt: skip

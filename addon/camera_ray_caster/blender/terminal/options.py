@@ -26,7 +26,7 @@ from ..read.physics import simulate
 from ..read.size import size_of
 from ..read.unique import find_unique, unique_name
 from ..rig import add_rig, frames_of, shows
-from .words import Parser, frame_number, picture_size
+from .words import Parser, frame_number, picture_size, unstamped
 
 ENDS = "exit status: 0 done; 1 done, but a reference check of the camera's rays failed; 2 bad input; 130 interrupted."
 
@@ -39,13 +39,13 @@ def command_parser(prog: str, purpose: str, example: str, result: str, ends: str
         epilog=f"example:\n  {example}\n{fill(result, WIDTH)}\n\n{fill(ends, WIDTH)}",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument(
-        "file", nargs="?", type=Path, metavar="FILE.blend", help="Blender file to open; default: the file that is open"
-    )
+    unstamped(parser.add_argument("file", nargs="?", type=Path, metavar="FILE.blend", help=
+        "Blender file to open; default: the file that is open"))  # fmt: skip
     parser.add_argument("--scene", metavar="NAME", help="name of the scene; default: the scene that the file opens")
-    parser.add_argument("--camera", metavar="NAME", help="name of the camera; default: the scene's active camera")
-    parser.add_argument("--calibration", type=Path, metavar="FILE",
-                        help=f"calibration file of {READ}; it determines the camera's model")  # fmt: skip
+    unstamped(parser.add_argument("--camera", metavar="NAME", help=
+        "name of the camera; default: the scene's active camera"))  # fmt: skip
+    unstamped(parser.add_argument("--calibration", type=Path, metavar="FILE", help=
+        f"calibration file of {READ}; it determines the camera's model"))  # fmt: skip
     parser.add_argument(
         "--calibration-camera",
         default="",
@@ -67,14 +67,13 @@ def command_parser(prog: str, purpose: str, example: str, result: str, ends: str
 
 def add_json(parser) -> None:
     """Add --json."""
-    parser.add_argument("--json", action="store_true", help="print the report as JSON instead of a table")
+    unstamped(parser.add_argument("--json", action="store_true", help="print the report as JSON instead of a table"))
 
 
 def add_frame(parser) -> None:
     """Add --frame."""
-    parser.add_argument(
-        "--frame", type=frame_number, help="frame, which may have a fraction; default: the current frame of the file"
-    )
+    unstamped(parser.add_argument("--frame", type=frame_number, help=
+        "frame, which may have a fraction; default: the current frame of the file"))  # fmt: skip
 
 
 def open_scene(options, say: Callable[[str], object] | None = None):

@@ -42,7 +42,7 @@ from ..rig import files_of, shows
 from . import files, ray_maps
 from .jobs import Jobs, Outcome, PictureJob, RayMap
 from .options import go_to, open_scene, stem, use_camera
-from .words import Parser, add_cameras, check_cameras, pass_names, sample_count
+from .words import Parser, add_cameras, check_cameras, pass_names, sample_count, unstamped
 
 CYCLES = "CYCLES"
 OWN = CameraRayCaster.bl_idname
@@ -50,14 +50,6 @@ ENGINES = OWN, CYCLES, EEVEE, WORKBENCH
 
 DEFAULT_PASSES = ("combined", "depth", "normal", "position", "object_index")
 """Passes that are cast if a view layer has only the combined pass enabled."""
-
-WHICH = (
-    "prog", "file", "camera", "cameras", "frame", "frames", "shard", "calibration", "rig", "output", "pictures", "json",
-    "skip_existing", "dataset", "workers", "scheduler", "own_frames", "folders", "retries", "log", "complete",
-)  # fmt: skip
-"""Options that say which pictures are made, where and by whom, and files, whose content a stamp holds. All others are
-settings of the pictures.
-"""
 
 
 def add_words(parser) -> None:
@@ -88,7 +80,8 @@ def add_words(parser) -> None:
     parser.add_argument("--keypoints", nargs="+", metavar="NAME", help=
         f"also annotate these key points: empties, meshes with vertex groups, or {ALL}")  # fmt: skip
     add_points(parser)
-    parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
+    unstamped(parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help=
+        "default: %(default)s"))  # fmt: skip
 
 
 def parsed(parser: Parser, arguments: Sequence[str]) -> Namespace:
@@ -156,7 +149,7 @@ class Pictures:
 
     def stamp(self) -> dict[str, Any]:
         """Return the stamp that all pictures share; see ``stamps``."""
-        settings = {name: value for name, value in vars(self.options).items() if name not in WHICH}
+        settings = {name: getattr(self.options, name) for name in self.options.stamped}
         calibration = self.options.calibration
         rig = [file_hash(path) for name in self.options.rig or () for path in files_of(name)]
         return stamp_of(settings | {"calibration": calibration and file_hash(calibration), "rig": rig or None})

@@ -33,7 +33,10 @@ class Parser(argparse.ArgumentParser):
                 words[-1] += f"={word}"
             else:
                 words.append(word)
-        return super().parse_args(words)
+        options = super().parse_args(words)
+        stamped = (action.dest for action in self._actions if getattr(action, "stamped", True))
+        options.stamped = [name for name in stamped if hasattr(options, name)]  # --help has no value
+        return options
 
     def print_help(self, file=None):
         """Write the help. argparse ignores errors of writing, which tell of a full disk or a closed pipe."""
@@ -42,6 +45,13 @@ class Parser(argparse.ArgumentParser):
     def error(self, message):
         """Raise InputError."""
         raise InputError(f"{message} (--help lists the options)")
+
+
+def unstamped(option: argparse.Action) -> None:
+    """Declare an option that says which pictures are made, where and by whom, or a file whose content the stamp holds:
+    pictures that were made with another value of it stay valid. All other options are settings of the pictures.
+    """
+    option.stamped = False  # type: ignore[attr-defined]
 
 
 T = TypeVar("T")
@@ -90,18 +100,17 @@ def frame_range(text: str) -> range:
 
 def add_frames(parser) -> None:
     """Add --frames A:B[:S]."""
-    parser.add_argument("--frames", type=frame_range, metavar="A:B[:S]", help=
-        "frames A to B, in steps of S (default: 1)")  # fmt: skip
+    unstamped(parser.add_argument("--frames", type=frame_range, metavar="A:B[:S]", help=
+        "frames A to B, in steps of S (default: 1)"))  # fmt: skip
 
 
 def add_cameras(parser) -> None:
     """Add --cameras NAME ...; see ``find_cameras``. Files of --rig may set ``own_frames``; see ``shown_at``."""
-    parser.add_argument(
-        "--cameras", nargs="+", metavar="NAME", help=f"names of several of the scene's cameras, or {ALL}"
-    )
-    parser.add_argument("--rig", nargs="+", metavar="FILE", help=
+    unstamped(parser.add_argument("--cameras", nargs="+", metavar="NAME", help=
+        f"names of several of the scene's cameras, or {ALL}"))  # fmt: skip
+    unstamped(parser.add_argument("--rig", nargs="+", metavar="FILE", help=
         "files with cameras and their poses, or a trajectory: adds these cameras to the scene, below an empty, and "
-        "uses them unless --cameras names others")  # fmt: skip
+        "uses them unless --cameras names others"))  # fmt: skip
     parser.add_argument(
         "--rig-parent", metavar="NAME", help="object below which the cameras of --rig are put; default: none"
     )

@@ -24,8 +24,8 @@ def looks(document: Document) -> bool:
 
 def _cameras(document: Document) -> list[Fields]:
     sections = document.entries.named().items()
-    return [one.labeled(one.text("name", section)) for section, one in sections
-            if one.has("matrix", "distortions", "rotation", "translation")]  # fmt: skip
+    return [camera.labeled(camera.text("name", section)) for section, camera in sections
+            if camera.has("matrix", "distortions", "rotation", "translation")]  # fmt: skip
 
 
 def read(document: Document) -> list[Lens]:
@@ -44,8 +44,8 @@ def poses(document: Document) -> list[Placed]:
 
 
 def _pose(camera: Fields) -> np.ndarray:
-    turn, place = camera.numbers("rotation", 3), camera.numbers("translation", 3)
-    return inverted(of_rotation(camera.document, turn, place, camera.said("rotation")))
+    turn, translation = camera.numbers("rotation", 3), camera.numbers("translation", 3)
+    return inverted(of_rotation(camera.document, turn, translation, camera.said("rotation")))
 
 
 PROGRAM = ProgramFiles(

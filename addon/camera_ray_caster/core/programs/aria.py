@@ -40,8 +40,8 @@ def poses(document: Document) -> list[Placed]:
     placed = []
     for camera in _cameras(document):
         pose = camera.part("T_Device_Camera")
-        turn, place = pose.matrix("UnitQuaternion", 4), pose.numbers("Translation", 3)
-        placed.append(Placed(camera.label, "", None, of_quaternion(document, turn, place, camera.label)))
+        turn, translation = pose.matrix("UnitQuaternion", 4), pose.numbers("Translation", 3)
+        placed.append(Placed(camera.label, "", None, of_quaternion(document, turn, translation, camera.label)))
     return placed
 
 

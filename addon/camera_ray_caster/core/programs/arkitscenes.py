@@ -32,8 +32,8 @@ def read(document: Document) -> list[Lens]:
     words = _pincam(document)
     if words is None:
         raise document.refusal("it is a trajectory, which has no lens")
-    width, height, *rest = document.numbers(words, "the line", 6)
-    return [Lens("", "OPENCV_PINHOLE", document.size(width, height) | matrix(*rest))]
+    width, height, *intrinsics = document.numbers(words, "the line", 6)
+    return [Lens("", "OPENCV_PINHOLE", document.size(width, height) | matrix(*intrinsics))]
 
 
 def poses(document: Document) -> list[Placed]:
@@ -53,10 +53,10 @@ def _rows(document: Document) -> list[list[str]]:
 
 def _moved(document: Document, number: int, words: list[str]) -> Placed:
     document.check()
-    time, *rest = document.numbers(words, f"pose {number}", 7)
+    time, *pose = document.numbers(words, f"pose {number}", 7)
     to_camera = np.eye(4)
-    to_camera[:3, :3] = rotation(np.array([rest[:3]]))[0]
-    to_camera[:3, 3] = rest[3:]
+    to_camera[:3, :3] = rotation(np.array([pose[:3]]))[0]
+    to_camera[:3, 3] = pose[3:]
     return Placed("", "", None, inverted(to_camera), time)
 
 

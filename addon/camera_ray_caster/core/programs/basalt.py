@@ -49,10 +49,10 @@ def poses(document: Document) -> list[Placed]:
     """See ProgramFiles: in the IMU's frame."""
     placed = []
     for number, pose in enumerate(document.entries.part("value0").parts("T_imu_cam")):
-        turn, place = ([pose.number(name) for name in names] for names in
+        turn, position = ([pose.number(name) for name in names] for names in
                        (("qw", "qx", "qy", "qz"), ("px", "py", "pz")))  # fmt: skip
         name = f"cam{number}"
-        placed.append(Placed(name, "", None, of_quaternion(document, turn, place, name)))
+        placed.append(Placed(name, "", None, of_quaternion(document, turn, position, name)))
     return placed
 
 
@@ -61,7 +61,8 @@ def _lens(camera: Fields) -> Lens:
     model, terms = MODELS[kind]
     intrinsics = camera.part("intrinsics")
     numbers = {name: intrinsics.number(name) for name in ("fx", "fy", "cx", "cy", *terms)}
-    settings = {own: numbers[name] for name, own in terms.items()} | ({"unified_beta": 1.0} if kind == "ucm" else {})
+    settings = {setting: numbers[name] for name, setting in terms.items()}
+    settings |= {"unified_beta": 1.0} if kind == "ucm" else {}
     camera_matrix = matrix(*(numbers[name] for name in ("fx", "fy", "cx", "cy")))
     return Lens(camera.label, model, camera.size("resolution") | camera_matrix | settings)
 

@@ -26,7 +26,8 @@ def looks(document: Document) -> bool:
     if entries.has("depth_scale"):
         return has_plain(document)
     images = entries.named()
-    return all(map(str.isdecimal, entries)) and any(one.has("cam_K") or one.has("cam_R_w2c") for one in images.values())
+    has_cameras = any(image.has("cam_K") or image.has("cam_R_w2c") for image in images.values())
+    return has_cameras and all(map(str.isdecimal, entries))
 
 
 def read(document: Document) -> list[Lens] | None:
@@ -39,8 +40,8 @@ def poses(document: Document) -> list[Placed]:
     placed = []
     for number, image in document.entries.named().items():
         document.check()
-        turn, place = image.numbers("cam_R_w2c", 9), image.numbers("cam_t_w2c", 3)
-        pose = of_rotation(document, turn, place, f"the pose of {number}")
+        turn, translation = image.numbers("cam_R_w2c", 9), image.numbers("cam_t_w2c", 3)
+        pose = of_rotation(document, turn, translation, f"the pose of {number}")
         placed.append(Placed(number, "", float(number), inverted(pose)))
     return placed
 

@@ -31,8 +31,8 @@ def _pictures(document: Document) -> list[tuple[str, list[float], np.ndarray]]:
     pictures = []
     for number in range(int(min(max(count, 0), len(lines)))):
         document.check()
-        name, own = f"picture {number}", lines[1 + number * PER_PICTURE :][:PER_PICTURE]
-        rows = [document.numbers(line.split(), name, 3) for line in own]
+        name, lines_of_picture = f"picture {number}", lines[1 + number * PER_PICTURE :][:PER_PICTURE]
+        rows = [document.numbers(line.split(), name, 3) for line in lines_of_picture]
         if len(rows) < PER_PICTURE:
             raise document.refusal(f"{name} has {len(rows)} lines: it must have {PER_PICTURE}")
         if rows[0][0]:

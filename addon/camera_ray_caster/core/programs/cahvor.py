@@ -31,8 +31,9 @@ def looks(document: Document) -> bool:
 
 
 def _entries(document: Document) -> Fields:
-    found = [match for line in document.lines() if (match := LINE.match(line))]
-    return Fields(document, {one[1]: one[2].strip() if one[1] == "Model" else one[2].split() for one in found})
+    matches = [match for line in document.lines() if (match := LINE.match(line))]
+    texts = {match[1]: match[2].strip() for match in matches}
+    return Fields(document, {name: text if name == "Model" else text.split() for name, text in texts.items()})
 
 
 def read(document: Document) -> list[Lens]:
@@ -52,11 +53,11 @@ def _lens(document: Document) -> tuple[Lens, np.ndarray]:
     rows = [entries.numbers(name, 3) for name in "HVA"]
     kind, axis = entries.text("Model"), entries.numbers("O", 3, default=rows[2])
     radial, pupil = (entries.numbers(name, 3, default=[0.0] * 3) for name in "RE")
-    found = KIND.search(kind)
-    if (found is None) != (not entries.has("E")):
+    match = KIND.search(kind)
+    if (match is None) != (not entries.has("E")):
         raise document.refusal(f"Model is {kind!r}: CAHVORE1, CAHVORE2 or CAHVORE3,L has E, and no other model")
-    told = found[2] and [found[2]] if found and found[1] == "3" else [LINEARITY[found[1]] if found else 1.0]
-    linearity = document.numbers(told, "linearity", 1)[0]
+    linearity_words = match[2] and [match[2]] if match and match[1] == "3" else [LINEARITY[match[1]] if match else 1.0]
+    linearity = document.numbers(linearity_words, "linearity", 1)[0]
     return lens_of(document, entries.size("Dimensions"), rows, axis, radial, pupil, linearity)
 
 

@@ -25,10 +25,10 @@ def looks(document: Document) -> bool:
 
 
 def _cameras(document: Document) -> list[Fields]:
-    found: dict[str, dict[str, list[str]]] = {}
+    by_camera: dict[str, dict[str, list[str]]] = {}
     for match in filter(None, map(LINE.fullmatch, document.lines())):
-        found.setdefault(match[1], {})[match[2]] = match[3].replace(";", " ").split()
-    return [Fields(document, entries, name) for name, entries in found.items() if "A" in entries]
+        by_camera.setdefault(match[1], {})[match[2]] = match[3].replace(";", " ").split()
+    return [Fields(document, entries, name) for name, entries in by_camera.items() if "A" in entries]
 
 
 def read(document: Document) -> list[Lens]:

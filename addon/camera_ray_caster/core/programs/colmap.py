@@ -107,7 +107,8 @@ def pair(path: Path) -> tuple[Path, Path] | None:
     """See ProgramFiles. A folder stands for the model in it, or in its sparse/0."""
     if path.is_dir():
         folders = path, path / "sparse" / "0", path / "sparse"
-        there = [one for folder in folders for one in (folder / "images.bin", folder / "images.txt") if one.is_file()]
+        files = [folder / name for folder in folders for name in ("images.bin", "images.txt")]
+        there = [file for file in files if file.is_file()]
         return pair(there[0]) if there else None
     if path.stem not in ("images", "cameras") or path.suffix not in (".bin", ".txt"):
         return None

@@ -33,11 +33,11 @@ def _cameras(document: Document) -> dict[int, Fields]:
     for entry in document.entries.each("cameraData"):
         if entry.count_of("cameraData") != 2:
             raise entry.refusal("cameraData", "a list of pairs, a socket and its camera")
-        number, camera = (Fields(document, {"socket": one}) for one in entry.values["cameraData"])
+        number, camera = (Fields(document, {"socket": item}) for item in entry.values["cameraData"])
         socket = number.whole("socket")
-        found = camera.part("socket").labeled(f"CAM_{chr(FIRST + socket % 26)}")
-        if found.count_of("intrinsicMatrix") and any(found.matrix("intrinsicMatrix", 9)[:8]):
-            cameras[socket] = found
+        labeled = camera.part("socket").labeled(f"CAM_{chr(FIRST + socket % 26)}")
+        if labeled.count_of("intrinsicMatrix") and any(labeled.matrix("intrinsicMatrix", 9)[:8]):
+            cameras[socket] = labeled
     return cameras
 
 
@@ -74,8 +74,8 @@ def poses(document: Document) -> list[Placed]:
 
 def _pose(extrinsics: Fields) -> np.ndarray:
     turn, translation = extrinsics.matrix("rotationMatrix", 9), extrinsics.part("translation")
-    place = [translation.number(axis) for axis in "xyz"]
-    return of_rotation(extrinsics.document, turn, place, extrinsics.said("rotationMatrix"))
+    position = [translation.number(axis) for axis in "xyz"]
+    return of_rotation(extrinsics.document, turn, position, extrinsics.said("rotationMatrix"))
 
 
 PROGRAM = ProgramFiles(

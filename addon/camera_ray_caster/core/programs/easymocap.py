@@ -37,7 +37,7 @@ def looks(document: Document) -> bool:
 
 
 def _names(document: Document) -> list[str]:
-    return [one.text("names") for one in document.entries.each("names")]
+    return [name.text("names") for name in document.entries.each("names")]
 
 
 def read(document: Document) -> list[Lens]:

@@ -16,12 +16,12 @@ from .parts.program import ProgramFiles
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
     pictures = list(document.entries.named().values())
-    return bool(pictures) and all(one.has("position", "rotation", "fx") for one in pictures)
+    return bool(pictures) and all(picture.has("position", "rotation", "fx") for picture in pictures)
 
 
 def _pictures(document: Document) -> list[Fields]:
     pictures = document.entries.named()
-    return [one.labeled(one.text("img_name", name)) for name, one in pictures.items()]
+    return [picture.labeled(picture.text("img_name", name)) for name, picture in pictures.items()]
 
 
 def _lens(picture: Fields) -> Lens:
@@ -43,8 +43,8 @@ def poses(document: Document) -> list[Placed]:
     lenses = once_each(map(_lens, pictures))
     placed = []
     for picture, lens in zip(pictures, lenses, strict=True):
-        turn, place = picture.matrix("rotation", 9), picture.numbers("position", 3)
-        pose = of_rotation(document, turn, place, picture.said("rotation"))
+        turn, position = picture.matrix("rotation", 9), picture.numbers("position", 3)
+        pose = of_rotation(document, turn, position, picture.said("rotation"))
         placed.append(Placed(lens.name, picture.label, None, pose))
     return placed
 

@@ -34,8 +34,8 @@ def read(document: Document) -> list[Lens]:
         stretch = entries.number(name, 1.0)
         if stretch not in (0.0, 1.0):
             raise document.refusal(f"{name} is {stretch}: profiles of stretched pictures are not read")
-    given = entries.part("calib_params" if plain else "fisheye_params")
-    rows, coefficients = given.matrix("camera_matrix", 9), given.matrix("distortion_coeffs")
+    parameters = entries.part("calib_params" if plain else "fisheye_params")
+    rows, coefficients = parameters.matrix("camera_matrix", 9), parameters.matrix("distortion_coeffs")
     if len(coefficients) > len(terms):
         raise document.refusal(f"distortion_coeffs has {len(coefficients)} numbers: {kind} has {len(terms)}")
     settings = entries.part("calib_dimension").sides("w", "h")

@@ -35,8 +35,8 @@ def looks(document: Document) -> bool:
     """See ProgramFiles: a calibration, or streams that have one each."""
     entries = document.entries
     streams = list(entries.named().values())
-    in_streams = len(streams) == len(entries) and all(one.part("calibration").has(KIND) for one in streams)
-    listed = bool(streams) and all(one.has(*list(LISTED.values())[:2]) for one in streams)
+    in_streams = len(streams) == len(entries) and all(stream.part("calibration").has(KIND) for stream in streams)
+    listed = bool(streams) and all(stream.has(*list(LISTED.values())[:2]) for stream in streams)
     return listed or in_streams or entries.has(KIND, "projection_params")
 
 
@@ -45,8 +45,8 @@ def read(document: Document) -> list[Lens] | None:
     if document.entries.has(KIND):
         return [_lens(document, document.entries, {})]
     streams = document.entries.named()
-    if any(one.has(LISTED[KIND]) for one in streams.values()):
-        return [_lens(document, one.labeled(one.text("label", name)), LISTED) for name, one in streams.items()]
+    if any(stream.has(LISTED[KIND]) for stream in streams.values()):
+        return [_lens(document, stream.labeled(stream.text("label", name)), LISTED) for name, stream in streams.items()]
     return None
 
 
@@ -65,7 +65,7 @@ def _lens(document: Document, entries: Fields, names: Mapping[str, str]) -> Lens
 def poses(document: Document) -> list[Placed]:
     """See ProgramFiles."""
     streams = document.entries.named()
-    in_world = all(one.has(WORLD) for one in streams.values())
+    in_world = all(stream.has(WORLD) for stream in streams.values())
     placed = []
     for name, stream in streams.items():
         listed = stream.has(LISTED[KIND])
@@ -73,8 +73,8 @@ def poses(document: Document) -> list[Placed]:
         pose = stream.part(WORLD) if in_world else calibration.part(LISTED[DEVICE] if listed else DEVICE)
         label = calibration.text("label") or f"{name}.calibration"
         pose = pose.labeled(label)
-        turn, place = pose.numbers("quaternion_wxyz", 4), pose.numbers("translation_xyz", 3)
-        placed.append(Placed(label, "", None, of_quaternion(document, turn, place, label)))
+        turn, translation = pose.numbers("quaternion_wxyz", 4), pose.numbers("translation_xyz", 3)
+        placed.append(Placed(label, "", None, of_quaternion(document, turn, translation, label)))
     return placed
 
 

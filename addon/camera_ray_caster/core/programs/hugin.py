@@ -25,7 +25,7 @@ WORD = re.compile(r'([A-Za-z]+)("[^"]*"|\S+)')
 
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
-    return any(one.has("w", "h", "f", "v") for one in _pictures(document))
+    return any(picture.has("w", "h", "f", "v") for picture in _pictures(document))
 
 
 def _pictures(document: Document) -> list[Fields]:

@@ -37,21 +37,21 @@ MODELS = {
 
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
-    return not is_camera(document.entries) and any(one.has("camera_model") for one in document.entries.named().values())
+    return not is_camera(document.entries) and bool(_chain(document))
 
 
 def read(document: Document) -> list[Lens]:
     """See ProgramFiles."""
-    return [one_of_several(name, lens_of, one, name) for name, one in _chain(document).items()]
+    return [one_of_several(name, lens_of, camera, name) for name, camera in _chain(document).items()]
 
 
 def poses(document: Document) -> list[Placed]:
     """See ProgramFiles. The frame is the IMU's if each camera has a pose in it, else that of the first camera."""
     chain = _chain(document)
-    by_imu = all(one.has("T_cam_imu") or one.has("T_imu_cam") for one in chain.values())
+    by_imu = all(camera.has("T_cam_imu") or camera.has("T_imu_cam") for camera in chain.values())
     placed, pose = [], np.eye(4)
     for number, (name, camera) in enumerate(chain.items()):
-        unread = [one for one in camera if POSE.match(one) and camera.has(one)]
+        unread = [name for name in camera if POSE.match(name) and camera.has(name)]
         if unread and not any(map(camera.has, POSES)):
             raise document.refusal(f"{camera.said(unread[0])} is a pose that is not read: {', '.join(POSES)} are")
         if by_imu:
@@ -65,7 +65,7 @@ def poses(document: Document) -> list[Placed]:
 
 
 def _chain(document: Document):
-    return {name: one for name, one in document.entries.named().items() if one.has("camera_model")}
+    return {name: camera for name, camera in document.entries.named().items() if camera.has("camera_model")}
 
 
 def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
@@ -74,16 +74,17 @@ def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
     names = list(dict.fromkeys(record.name for record in records))
     before: dict[float, CameraRecord] = {}
     for number, name in enumerate(names):
-        own = {record.frame: record for record in records if record.name == name}
-        told = {_text(record.lens) for record in own.values()}
-        beside = [_beside(before[frame], record) for frame, record in own.items()] if before else []
-        if len(told) > 1 or any(np.abs(one - beside[0]).max() > MOVED * (1 + np.abs(one).max()) for one in beside):
-            what = "its lens" if len(told) > 1 else f"it moves beside {names[number - 1]!r}"
-            raise InputError(f"a camchain is of one rig, but camera {name!r} changes ({what}): export one frame")
-        chain += f"cam{number}:\n{told.pop()}  rostopic: {json.dumps('/' + name, ensure_ascii=False)}\n"
+        by_frame = {record.frame: record for record in records if record.name == name}
+        lens_texts = {_text(record.lens) for record in by_frame.values()}
+        beside = [_beside(before[frame], record) for frame, record in by_frame.items()] if before else []
+        moved = any(np.abs(pose - beside[0]).max() > MOVED * (1 + np.abs(pose).max()) for pose in beside)
+        if len(lens_texts) > 1 or moved:
+            change = "its lens" if len(lens_texts) > 1 else f"it moves beside {names[number - 1]!r}"
+            raise InputError(f"a camchain is of one rig, but camera {name!r} changes ({change}): export one frame")
+        chain += f"cam{number}:\n{lens_texts.pop()}  rostopic: {json.dumps('/' + name, ensure_ascii=False)}\n"
         if beside:
             chain += "  T_cn_cnm1:\n" + "".join(f"  - {row}\n" for row in beside[0].tolist())
-        before = own
+        before = by_frame
     yield "camchain.yaml", chain
 
 

@@ -44,9 +44,9 @@ def read(document: Document) -> list[Lens]:
 
 def _lens(document: Document, distortion: Fields, texts: Fields, name: str, lens: Element) -> Lens:
     kind = distortion.word("model", MODELS)
-    k1, k2 = (distortion.number(one, 0.0) for one in ("k1", "k2"))
+    k1, k2 = (distortion.number(name, 0.0) for name in ("k1", "k2"))
     terms = {
-        "ptlens": ptlens(*(distortion.number(one, 0.0) for one in "abc")),
+        "ptlens": ptlens(*(distortion.number(name, 0.0) for name in "abc")),
         "poly3": [1 - k1, 0.0, k1],
         "poly5": [1.0, 0.0, k1, 0.0, k2],
     }[kind]
@@ -60,7 +60,8 @@ def _lens(document: Document, distortion: Fields, texts: Fields, name: str, lens
     pixels = hypot(width, height) / (FULL_FRAME / crop)
     half = FULL_FRAME / crop / hypot(max(ratio, 1 / ratio), 1) / 2
     model = PROJECTIONS[texts.word("type", PROJECTIONS, "rectilinear")]
-    moved = Fields(document, dict(found.attributes) if (found := lens.child("center")) else {}, name)
+    offset = lens.child("center")
+    moved = Fields(document, dict(offset.attributes) if offset else {}, name)
     center = [side / 2 + moved.number(axis, 0.0) * min(width, height) / 2
               for axis, side in (("x", width), ("y", height))]  # fmt: skip
     return lens_of(name, model, dict(FRAME_SIZE), focal * pixels, (center[0], center[1]), half * pixels, terms)

@@ -45,9 +45,9 @@ def poses(document: Document) -> list[Placed]:
     placed = []
     for number, (row, lens) in enumerate(zip(_rows(document), _lenses(document), strict=True), 1):
         document.numbers(row[:, :4].ravel().tolist(), f"pose {number}", 12)
-        down, right, back, place = row.T[:4]
+        down, right, back, position = row.T[:4]
         pose = np.eye(4)
-        pose[:3] = np.stack((right, down, -back, place), axis=1)
+        pose[:3] = np.stack((right, down, -back, position), axis=1)
         placed.append(Placed(lens.name, "", float(number), checked(document, pose, f"pose {number}")))
     return placed
 

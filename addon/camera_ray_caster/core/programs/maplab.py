@@ -40,8 +40,8 @@ def read(document: Document) -> list[Lens] | None:
 def poses(document: Document) -> list[Placed]:
     """See ProgramFiles: in the body."""
     entries = document.entries
-    known = [one for one in entries.parts("extrinsics") if one.has("sensor_id")]
-    bodies = {id_: one.labeled(id_) for one in known if (id_ := one.text("sensor_id"))}
+    known = [extrinsics for extrinsics in entries.parts("extrinsics") if extrinsics.has("sensor_id")]
+    bodies = {id_: extrinsics.labeled(id_) for extrinsics in known if (id_ := extrinsics.text("sensor_id"))}
     placed = []
     for rig in _rigs(document):
         id_ = rig.text("id")
@@ -49,19 +49,20 @@ def poses(document: Document) -> list[Placed]:
         for camera, owner in zip(_cameras(rig), rig.parts("cameras"), strict=True):
             pose = pose_in(owner.labeled(camera.label), "T_B_C")
             placed.append(Placed(camera.label, "", None, body @ pose))
-    if len({one.camera for one in placed}) < len(placed):
+    if len({pose.camera for pose in placed}) < len(placed):
         raise document.refusal("its rigs have cameras of one name: give each a label of its own")
     return placed
 
 
 def _rigs(document: Document) -> list[Fields]:
     entries = document.entries
-    return [entries] if entries.has("cameras") else [one for one in entries.parts("sensors") if one.has("cameras")]
+    rigs = [entries] if entries.has("cameras") else entries.parts("sensors")
+    return [rig for rig in rigs if rig.has("cameras")]
 
 
 def _cameras(rig: Fields) -> list[Fields]:
-    cameras = [one.part("camera") for one in rig.parts("cameras")]
-    return [one.labeled(one.text("label") or f"cam{number}") for number, one in enumerate(cameras)]
+    cameras = [camera.part("camera") for camera in rig.parts("cameras")]
+    return [camera.labeled(camera.text("label") or f"cam{number}") for number, camera in enumerate(cameras)]
 
 
 def _lens(camera: Fields) -> Lens:
@@ -76,7 +77,7 @@ def _lens(camera: Fields) -> Lens:
     word = spelled(distortion.text("type", "none"))
     terms: tuple[str, ...] = ()
     if word not in ("none", ""):
-        known = [one for one, bend in BENDS.items() if (kind, bend) in DISTORTIONS]
+        known = [name for name, bend in BENDS.items() if (kind, bend) in DISTORTIONS]
         bend = BENDS[camera.document.one_of(word, camera.said("distortion"), known)]
         model, terms = DISTORTIONS[kind, bend]
     first = camera.matrix("intrinsics", len(shape) + 4)

@@ -43,27 +43,29 @@ PIXELS = [1.0, 2.0, 5.0]
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
     entries = document.entries
-    return entries.has("intrinsics") and all(one.has("intrinsicId") for one in entries.parts("intrinsics"))
+    return entries.has("intrinsics") and all(
+        intrinsics.has("intrinsicId") for intrinsics in entries.parts("intrinsics")
+    )
 
 
 def read(document: Document) -> list[Lens]:
     """See ProgramFiles."""
     entries = document.entries
     version = entries.numbers("version", default=PIXELS)
-    cameras = [one.labeled(one.text("intrinsicId")) for one in entries.parts("intrinsics")]
+    cameras = [camera.labeled(camera.text("intrinsicId")) for camera in entries.parts("intrinsics")]
     return [one_of_several(camera.label, _lens, camera, version) for camera in cameras]
 
 
 def poses(document: Document) -> list[Placed]:
     """See ProgramFiles: those of the views, in the order of the file."""
     entries = document.entries
-    own = {one.text("poseId"): one.part("pose").part("transform") for one in entries.parts("poses")}
-    rigs = {one.text("rigId"): one.parts("subPoses") for one in entries.parts("rigs")}
+    transforms = {pose.text("poseId"): pose.part("pose").part("transform") for pose in entries.parts("poses")}
+    rigs = {rig.text("rigId"): rig.parts("subPoses") for rig in entries.parts("rigs")}
     placed = []
     for view in entries.parts("views"):
         document.check()
         name = view.text("path") or view.text("viewId")
-        transform = own.get(view.text("poseId"))
+        transform = transforms.get(view.text("poseId"))
         if transform is None or not len(transform):
             continue
         pose, rig = _pose(transform.labeled(name)), view.text("rigId")
@@ -109,8 +111,8 @@ def _lens(camera: Fields, version: list[float]) -> Lens:
         x, y = x + width / 2, y + height / 2
     coefficients = camera.numbers("distortionParams", default=[0.0] * len(terms))
     if len(coefficients) != len(terms) and any(coefficients):
-        said = camera.said("distortionParams")
-        raise camera.document.refusal(f"{said} has {len(coefficients)} numbers: {kind} has {len(terms)}")
+        name_of_entry = camera.said("distortionParams")
+        raise camera.document.refusal(f"{name_of_entry} has {len(coefficients)} numbers: {kind} has {len(terms)}")
     settings = {"fx": focal[0], "fy": focal[-1], "cx": x, "cy": y} | dict(zip(terms, coefficients, strict=False))
     return Lens(camera.label, model, camera.document.size(width, height) | settings)
 

@@ -46,13 +46,13 @@ def read(document: Document) -> list[Lens]:
     root = document.xml
     if root.name == "calibration":
         return [_lens(document, "", root)]
-    return [one_of_several(name, _of_sensor, document, one, name) for name, one in _named_sensors(root)]
+    return [one_of_several(name, _of_sensor, document, sensor, name) for name, sensor in _named_sensors(root)]
 
 
 def _named_sensors(root: Element) -> list[tuple[str, Element]]:
     """Return the sensors that have a calibration, or are spheres, with names of their own."""
-    sensors = [one for one in root.all("sensor") if one.child("calibration") is not None or _is_sphere(one)]
-    labels = [one.attributes.get("label") or one.attributes.get("id", "") for one in sensors]
+    sensors = [sensor for sensor in root.all("sensor") if sensor.child("calibration") is not None or _is_sphere(sensor)]
+    labels = [sensor.attributes.get("label") or sensor.attributes.get("id", "") for sensor in sensors]
     total, count = Counter(labels), Counter[str]()
     named = []
     for label, sensor in zip(labels, sensors, strict=True):
@@ -68,9 +68,9 @@ def _is_sphere(element: Element) -> bool:
 def _of_sensor(document: Document, sensor: Element, name: str) -> Lens:
     if _is_sphere(sensor):
         return _lens(document, name, sensor)
-    own = [child for child in sensor.children if child.name == "calibration"]
-    adjusted = [one for one in own if one.attributes.get("class") == "adjusted"]
-    return _lens(document, name, (adjusted or own)[0])
+    calibrations = [child for child in sensor.children if child.name == "calibration"]
+    adjusted = [calibration for calibration in calibrations if calibration.attributes.get("class") == "adjusted"]
+    return _lens(document, name, (adjusted or calibrations)[0])
 
 
 def _lens(document: Document, name: str, calibration: Element) -> Lens:
@@ -86,8 +86,8 @@ def _lens(document: Document, name: str, calibration: Element) -> Lens:
         "fx": focal + entries.number("b1", 0.0), "fy": focal, "skew": entries.number("b2", 0.0),
         "cx": width / 2 - 0.5 + entries.number("cx", 0.0), "cy": height / 2 - 0.5 + entries.number("cy", 0.0),
     }  # fmt: skip
-    settings |= {own: entries.number(theirs, 0.0) for theirs, own in TERMS.items()}
-    unread = [one for one in ("p3", "p4", *(("k4",) if kind == "frame" else ())) if entries.number(one, 0.0)]
+    settings |= {setting: entries.number(theirs, 0.0) for theirs, setting in TERMS.items()}
+    unread = [term for term in ("p3", "p4", *(("k4",) if kind == "frame" else ())) if entries.number(term, 0.0)]
     if unread:
         raise document.refusal(f"its {', '.join(unread)} of a {kind} camera is not 0, which no model here has")
     if kind == "frame":
@@ -104,11 +104,13 @@ def poses(document: Document) -> list[Placed]:
     placed: list[Placed] = []
     georeferenced = False
     for chunk in root.all("chunk"):
-        sensors = {one.attributes.get("id"): one for one in chunk.all("sensor")}
-        own = {one.attributes.get("id"): one.child("transform") for one in chunk.all("component")}
+        sensors = {sensor.attributes.get("id"): sensor for sensor in chunk.all("sensor")}
+        components = {
+            component.attributes.get("id"): component.child("transform") for component in chunk.all("component")
+        }
         holder = chunk.child("cameras")
         cameras = holder.all("camera") if holder is not None else []
-        by_id = {one.attributes.get("id", ""): one for one in cameras}
+        by_id = {camera.attributes.get("id", ""): camera for camera in cameras}
         for camera in cameras:
             document.check()
             label, number = camera.attributes.get("label", ""), camera.attributes.get("sensor_id")
@@ -120,7 +122,7 @@ def poses(document: Document) -> list[Placed]:
             pose = pose_of(document, transform.text.split(), f"transform of {master.attributes.get('label', '')}")
             if master is not camera and sensor is not None:
                 pose = pose @ _rigid(document, sensor, "location", f"sensor {number}")
-            to_world = own.get(master.attributes.get("component_id")) or chunk.child("transform")
+            to_world = components.get(master.attributes.get("component_id")) or chunk.child("transform")
             if to_world is not None:
                 pose = _moved(document, to_world, pose)
             name = names.get(id(sensor), "") if sensor is not None else f"of sensor {number}"
@@ -129,13 +131,13 @@ def poses(document: Document) -> list[Placed]:
         georeferenced |= reference is not None and reference.text.startswith(GEOGRAPHIC)
     if not placed:
         raise document.refusal("none of its cameras has a transform: align them in Metashape first")
-    middle = np.mean([one.pose[:3, 3] for one in placed], axis=0)
+    middle = np.mean([view.pose[:3, 3] for view in placed], axis=0)
     if not georeferenced or np.linalg.norm(middle) < AXIS / 2:  # a chunk without a scale is not in the world
         return placed
     axes = axes_at(middle)
-    for one in placed:
-        one.pose[:3, 3] -= middle
-        one.pose[:3] = axes @ one.pose[:3]
+    for view in placed:
+        view.pose[:3, 3] -= middle
+        view.pose[:3] = axes @ view.pose[:3]
     return placed
 
 
@@ -150,11 +152,11 @@ def _master(document: Document, camera: Element, cameras: dict[str, Element]) ->
     return cameras[number]
 
 
-def _rigid(document: Document, element: Element, place: str, name: str) -> np.ndarray:
-    """Return the pose (4, 4) of an element's rotation and its ``place``; without them, the identity."""
-    given = {name: text.split() for name, text in element.texts().items()}
-    turn = document.numbers(given.get("rotation", np.eye(3).ravel().tolist()), f"rotation of {name}", 9)
-    translation = document.numbers(given.get(place, [0.0] * 3), f"{place} of {name}", 3)
+def _rigid(document: Document, element: Element, entry: str, name: str) -> np.ndarray:
+    """Return the pose (4, 4) of an element's rotation and its ``entry``; without them, the identity."""
+    texts = {name: text.split() for name, text in element.texts().items()}
+    turn = document.numbers(texts.get("rotation", np.eye(3).ravel().tolist()), f"rotation of {name}", 9)
+    translation = document.numbers(texts.get(entry, [0.0] * 3), f"{entry} of {name}", 3)
     return of_rotation(document, turn, translation, f"rotation of {name}")
 
 

@@ -68,8 +68,8 @@ def read(document: Document) -> list[Lens]:
         if kind == LONLAT:
             return [Lens("", model, size | _edges(document, fx, fy, cx, cy, width, height))]
         return [Lens("", model, size | matrix(2 * fx, 2 * fy, cx, cy) | {"unified_xi": 1.0})]
-    first, rest = (numbers := entries.numbers("intrinsics", len(terms) + 4))[:4], numbers[4:]
-    return [Lens("", model, size | matrix(*first) | dict(zip(terms, rest, strict=True)))]
+    first, coefficients = (numbers := entries.numbers("intrinsics", len(terms) + 4))[:4], numbers[4:]
+    return [Lens("", model, size | matrix(*first) | dict(zip(terms, coefficients, strict=True)))]
 
 
 def poses(document: Document) -> list[Placed]:
@@ -89,12 +89,12 @@ def _cahvor(document: Document, entries: Fields) -> tuple[Lens, np.ndarray] | No
     kind = CAHVOR.fullmatch(entries.text("lensmodel"))
     if kind is None:
         return None
-    fx, fy, cx, cy, alpha, beta, *rest = entries.numbers("intrinsics", 9 if kind[1] is None else 12)
+    fx, fy, cx, cy, alpha, beta, *distortion = entries.numbers("intrinsics", 9 if kind[1] is None else 12)
     axis = (sin(alpha) * cos(beta), sin(beta), cos(alpha) * cos(beta))
     linearity = 1.0 if kind[1] is None else document.numbers([kind[1]], "linearity", 1)[0]
     rows = [(fx, 0.0, cx), (0.0, fy, cy), (0.0, 0.0, 1.0)]
     size = document.size(*entries.numbers("imagersize", 2))
-    return lens_of(document, size, rows, axis, rest[:3], rest[3:] or [0.0] * 3, linearity)
+    return lens_of(document, size, rows, axis, distortion[:3], distortion[3:] or [0.0] * 3, linearity)
 
 
 def _entries(document: Document) -> Fields:
@@ -153,7 +153,7 @@ def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
             "extrinsics": [*half_turn_vector(pose[:3, :3]).tolist(), *pose[:3, 3].tolist()],
             "imagersize": list(record.lens.size),
         }
-        lines = "".join(f"    '{name}': [ {', '.join(map(repr, own))} ],\n" for name, own in numbers.items())
+        lines = "".join(f"    '{name}': [ {', '.join(map(repr, values))} ],\n" for name, values in numbers.items())
         kind = word_of(MODELS, record.lens)
         yield f"{record.stem}.cameramodel", f"{{\n    'lensmodel': '{kind}',\n{lines}}}\n"
 

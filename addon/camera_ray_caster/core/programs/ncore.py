@@ -58,7 +58,7 @@ def _lens(sensor: Fields) -> Lens:
 def poses(document: Document) -> list[Placed]:
     """See ProgramFiles."""
     sensors = _sensors(document).items()
-    return [Placed(name, "", None, pose_in(one.labeled(name), POSE)) for name, one in sensors if one.has(POSE)]
+    return [Placed(name, "", None, pose_in(sensor.labeled(name), POSE)) for name, sensor in sensors if sensor.has(POSE)]
 
 
 PROGRAM = ProgramFiles(

@@ -32,14 +32,14 @@ def refusal(record: CameraRecord) -> str | None:
 def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
     """See FileWriter. Three files with all cameras and frames. Raises InputError for lenses that differ."""
     angles = {2 * atan(record.lens.size[0] / 2 / record.lens.settings["fx"]): record.stem for record in records}
-    least, most = min(angles), max(angles)
-    if most - least > NEAR:
-        differ = f"{angles[least]!r} and {angles[most]!r} differ"
+    narrowest, widest = min(angles), max(angles)
+    if widest - narrowest > NEAR:
+        differ = f"{angles[narrowest]!r} and {angles[widest]!r} differ"
         raise InputError(f"NeRF has one camera_angle_x, but {differ}: {SEPARATELY}, or as transforms.json")
     of = {7: "val", 9: "test"}
-    for part in PARTS:
-        frames = [_frame(record) for number, record in enumerate(records) if of.get(number % 10, "train") == part]
-        yield f"transforms_{part}.json", as_text({"camera_angle_x": next(iter(angles)), "frames": frames})
+    for split in PARTS:
+        frames = [_frame(record) for number, record in enumerate(records) if of.get(number % 10, "train") == split]
+        yield f"transforms_{split}.json", as_text({"camera_angle_x": next(iter(angles)), "frames": frames})
 
 
 def _frame(record: CameraRecord) -> dict:

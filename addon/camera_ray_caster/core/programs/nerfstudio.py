@@ -89,7 +89,7 @@ def _rolling(frame: Fields) -> Rolling:
     first, last = frame.numbers(ROW_TIMES, 2, SHUTTER)
     if first >= last:
         raise frame.refusal(ROW_TIMES, "the seconds from the frame's time to the first row and, later, the last one")
-    readout = frame.word(READOUT, [f"ROLLING_{one}" for one in READOUTS], f"ROLLING_{READOUTS[0]}")
+    readout = frame.word(READOUT, [f"ROLLING_{readout_name}" for readout_name in READOUTS], f"ROLLING_{READOUTS[0]}")
     return Rolling(readout.removeprefix("ROLLING_"), (first, last), pose_in(frame, LAST_ROW) @ FROM_BLENDER)
 
 
@@ -99,12 +99,12 @@ def _of_frames(document: Document, frames: list[Fields]) -> list[Lens]:
     by_lens: dict[str, Lens] = {}
     lenses = []
     for number, frame in enumerate(frames):  # a file may have 100,000 frames
-        own = frame.key(OF_LENS)
-        if own not in by_entries:
+        key = frame.key(OF_LENS)
+        if key not in by_entries:
             document.check()
             lens = _lens(document, frame, frame.text("file_path", str(number)))
-            by_entries[own] = by_lens.setdefault(str(lens[1:]), lens)
-        lenses.append(by_entries[own])
+            by_entries[key] = by_lens.setdefault(str(lens[1:]), lens)
+        lenses.append(by_entries[key])
     return lenses
 
 
@@ -113,15 +113,15 @@ def _lens(document: Document, frame: Fields, name: str) -> Lens:
     fisheye = entries.text("is_fisheye") not in ("", "False", "0.0")
     kind = entries.word("camera_model", (*MODELS, FISHEYE624, SPHERE, PARALLEL),
                         "OPENCV_FISHEYE" if fisheye else "OPENCV")  # fmt: skip
-    given = [entries.number(side) if entries.has(side) else None for side in SIZES]
-    size = document.size(*given)
+    sides = [entries.number(side) if entries.has(side) else None for side in SIZES]
+    size = document.size(*sides)
     if kind == SPHERE:
         return Lens(name, SPHERE, size)
-    width, height = (side or own for side, own in zip(given, document.frame or (1, 1), strict=True))
+    width, height = (side or frame_side for side, frame_side in zip(sides, document.frame or (1, 1), strict=True))
     focal = _focal(entries, "x", width)
     has_y = entries.has("fl_y") or entries.has("camera_angle_y")
     focal_y = _focal(entries, "y", height) if has_y else focal
-    cx, cy = (entries.number(one, side / 2) for one, side in (("cx", width), ("cy", height)))
+    cx, cy = (entries.number(name, side / 2) for name, side in (("cx", width), ("cy", height)))
     if kind == PARALLEL:
         return Lens(name, "ORTHO", size | _orthographic(entries, (focal, focal_y), (cx, cy), (width, height)))
     size |= matrix(focal, focal_y, cx, cy, 0.5)
@@ -150,8 +150,8 @@ def _focal(entries: Fields, axis: str, side: float) -> float:
 def _orthographic(entries: Fields, focal, center, size) -> dict[str, Any]:
     """Return the settings of parallel rays, fl_x and fl_y of which pass through a unit of length."""
     if focal[0] != focal[1] or focal[0] <= 0:
-        said = f"fl_x and fl_y of an {PARALLEL} are {focal[0]:g} and {focal[1]:g}"
-        raise entries.document.refusal(f"{said}: they must be equal")
+        problem = f"fl_x and fl_y of an {PARALLEL} are {focal[0]:g} and {focal[1]:g}"
+        raise entries.document.refusal(f"{problem}: they must be equal")
     longer = max(size)
     return {
         "ortho_scale": longer / focal[0], "sensor_fit": "AUTO",

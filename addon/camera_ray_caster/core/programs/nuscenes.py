@@ -19,12 +19,12 @@ from .parts.program import ProgramFiles
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
     sensors = document.entries.named().values()
-    return bool(sensors) and all(one.has("sensor_token", "camera_intrinsic", "rotation") for one in sensors)
+    return bool(sensors) and all(sensor.has("sensor_token", "camera_intrinsic", "rotation") for sensor in sensors)
 
 
 def _cameras(document: Document) -> list[Fields]:
     sensors = document.entries.named().values()
-    return [one.labeled(one.text("token")) for one in sensors if one.count_of("camera_intrinsic")]
+    return [sensor.labeled(sensor.text("token")) for sensor in sensors if sensor.count_of("camera_intrinsic")]
 
 
 def read(document: Document) -> list[Lens]:
@@ -40,8 +40,8 @@ def poses(document: Document) -> list[Placed]:
     """See ProgramFiles: in the vehicle."""
     placed = []
     for camera in _cameras(document):
-        turn, place = camera.numbers("rotation", 4), camera.numbers("translation", 3)
-        placed.append(Placed(camera.label, "", None, of_quaternion(document, turn, place, camera.label)))
+        turn, translation = camera.numbers("rotation", 4), camera.numbers("translation", 3)
+        placed.append(Placed(camera.label, "", None, of_quaternion(document, turn, translation, camera.label)))
     return placed
 
 

@@ -41,7 +41,7 @@ def looks(document: Document) -> bool:
         return True
     if entries.has("rig") and entries.part("rig").has("sensors"):
         return True
-    return any(one.has("reference_poly") for one in (entries, entries.part("camera_model_parameters")))
+    return any(camera.has("reference_poly") for camera in (entries, entries.part("camera_model_parameters")))
 
 
 def read(document: Document) -> list[Lens]:
@@ -51,16 +51,16 @@ def read(document: Document) -> list[Lens]:
         return [_of_isaac(entries)]
     if entries.has("rig"):
         sensors = entries.part("rig").parts("sensors")
-        cameras = [(one, one.part("properties")) for one in sensors]
-        cameras = [(one, properties) for one, properties in cameras if properties.text("Model") == "ftheta"]
+        cameras = [(sensor, sensor.part("properties")) for sensor in sensors]
+        cameras = [(sensor, properties) for sensor, properties in cameras if properties.text("Model") == "ftheta"]
         if not cameras:
             raise document.refusal("none of its sensors has properties with the Model 'ftheta'")
-        named = [(one.text("name"), properties) for one, properties in cameras]
+        named = [(sensor.text("name"), properties) for sensor, properties in cameras]
         return [one_of_several(name, _of_rig, properties.labeled(name)) for name, properties in named]
     if entries.has("camera_calibrations"):
         calibrations = entries.part("camera_calibrations").named().items()
-        named = [(one.text("logical_sensor_name", key), one) for key, one in calibrations]
-        return [one_of_several(name, _of_nurec, one.labeled(name)) for name, one in named]
+        named = [(calibration.text("logical_sensor_name", key), calibration) for key, calibration in calibrations]
+        return [one_of_several(name, _of_nurec, calibration.labeled(name)) for name, calibration in named]
     inside = entries.part("camera_model_parameters")
     return [of_parameters(entries if entries.has("reference_poly") else inside)]
 
@@ -70,9 +70,9 @@ def _of_rig(properties: Fields) -> Lens:
     if not properties.has("polynomial") and properties.has("bw-poly"):
         kind, entry = "pixeldistance-to-angle", "bw-poly"
     reference = _reference(properties, "polynomial-type", kind)
-    center = [properties.number(one) for one in ("cx", "cy")]
-    linear = [properties.number(f"linear-{one}", plain) for one, plain in zip("cde", (1, 0, 0), strict=True)]
-    sides = [properties.number(one) for one in ("width", "height")]
+    center = [properties.number(name) for name in ("cx", "cy")]
+    linear = [properties.number(f"linear-{term}", plain) for term, plain in zip("cde", (1, 0, 0), strict=True)]
+    sides = [properties.number(name) for name in ("width", "height")]
     polynomial = properties.document.numbers(properties.text(entry).split(), properties.said(entry))
     return _lens(properties, reference, polynomial, center, linear, sides)
 
@@ -80,8 +80,8 @@ def _of_rig(properties: Fields) -> Lens:
 def _of_nurec(calibration: Fields) -> Lens:
     model = calibration.part("camera_model")
     if model.text("type") != "ftheta":
-        said = f"camera_model of {calibration.label} is of type {model.text('type')!r}"
-        raise calibration.document.refusal(f"{said}: it must be 'ftheta'")
+        problem = f"camera_model of {calibration.label} is of type {model.text('type')!r}"
+        raise calibration.document.refusal(f"{problem}: it must be 'ftheta'")
     return of_parameters(model.part("parameters"))
 
 
@@ -103,8 +103,8 @@ def of_parameters(parameters: Fields) -> Lens:
 def _reference(camera: Fields, field: str, kind: str) -> str:
     """Return our key of the polynomial that is the model. Raises InputError for an unknown name."""
     if kind not in REFERENCES:
-        said = f"{field} of {camera.label or 'the camera'} is {kind or None!r}"
-        raise camera.document.refusal(f"{said}: it must be one of {', '.join(REFERENCES)}")
+        problem = f"{field} of {camera.label or 'the camera'} is {kind or None!r}"
+        raise camera.document.refusal(f"{problem}: it must be one of {', '.join(REFERENCES)}")
     return REFERENCES[kind]
 
 
@@ -112,7 +112,7 @@ def _lens(camera: Fields, reference: str, polynomial: list[float], center, linea
     return Lens(camera.label, "FTHETA", camera.document.size(*sides) | {
         "cx": center[0], "cy": center[1],
         "ftheta_reference": reference, f"ftheta_{reference.lower()}": " ".join(map(repr, polynomial)),
-        **{f"ftheta_{one}": number for one, number in zip("cde", linear, strict=True)},
+        **{f"ftheta_{term}": number for term, number in zip("cde", linear, strict=True)},
     })  # fmt: skip
 
 

@@ -65,8 +65,8 @@ def _distorted(document: Document, name: str, focal_and_center: Sequence[float],
     """
     fx, fy, cx, cy = focal_and_center
     width, height = document.frame or (1, 1)
-    part = abs(radial) * ((width / 2) ** 2 + (height / 2) ** 2) / fx**2 if fx > 0 else inf
-    if part > STRONGEST or fx != fy:
+    share = abs(radial) * ((width / 2) ** 2 + (height / 2) ** 2) / fx**2 if fx > 0 else inf
+    if share > STRONGEST or fx != fy:
         raise document.refusal(
             f"the radial distortion of {name} is {radial:g}, with focal lengths {fx:g} and {fy:g}: it is read with "
             f"equal ones, and up to {STRONGEST:g} of the radius in the corner of the frame; undistort the pictures"

@@ -18,7 +18,7 @@ from .parts.program import ProgramFiles
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
     cameras = document.entries.parts("cameras")
-    return bool(cameras) and all(one.has("focal_length") for one in cameras)
+    return bool(cameras) and all(camera.has("focal_length") for camera in cameras)
 
 
 def read(document: Document) -> list[Lens]:
@@ -32,7 +32,7 @@ def poses(document: Document) -> list[Placed]:
 
 
 def _cameras(document: Document) -> list[Fields]:
-    return [one.labeled(f"cam{number}") for number, one in enumerate(document.entries.parts("cameras"))]
+    return [camera.labeled(f"cam{number}") for number, camera in enumerate(document.entries.parts("cameras"))]
 
 
 def _lens(camera: Fields) -> Lens:

@@ -27,22 +27,26 @@ def looks(document: Document) -> bool:
     if document.has_entries:
         return document.entries.text("class_name") in (CAMERA, TRAJECTORY)
     lines = [line.split() for line in document.lines()[:ROWS]]
-    return [len(line) for line in lines] == [3, 4, 4, 4, 4] and all(len(numbers_of(one)) == len(one) for one in lines)
+    return [len(line) for line in lines] == [3, 4, 4, 4, 4] and all(
+        len(numbers_of(words)) == len(words) for words in lines
+    )
 
 
 def _pictures(document: Document) -> list[Fields]:
     entries = document.entries
     pictures = entries.parts("parameters") if entries.text("class_name") == TRAJECTORY else [entries]
-    return [one.labeled(f"picture {number}" if pictures[1:] else "") for number, one in enumerate(pictures, 1)]
+    return [picture.labeled(f"picture {number}" if pictures[1:] else "") for number, picture in enumerate(pictures, 1)]
 
 
 def _lens(picture: Fields) -> Lens:
-    own = picture.part("intrinsic").labeled(picture.label)
-    fx, y, z, skew, fy, z1, cx, cy, last = own.numbers("intrinsic_matrix", 9)
+    intrinsics = picture.part("intrinsic").labeled(picture.label)
+    fx, y, z, skew, fy, z1, cx, cy, last = intrinsics.numbers("intrinsic_matrix", 9)
     if any((y, z, z1)) or last != 1:
-        raise own.refusal("intrinsic_matrix", "fx 0 0 skew fy 0 cx cy 1, by columns")
+        raise intrinsics.refusal("intrinsic_matrix", "fx 0 0 skew fy 0 cx cy 1, by columns")
     picture.document.check()
-    return Lens(picture.label, "OPENCV_PINHOLE", own.sides("width", "height") | matrix(fx, fy, cx, cy) | {"skew": skew})
+    return Lens(
+        picture.label, "OPENCV_PINHOLE", intrinsics.sides("width", "height") | matrix(fx, fy, cx, cy) | {"skew": skew}
+    )
 
 
 def read(document: Document) -> list[Lens]:

@@ -45,10 +45,10 @@ def poses(document: Document) -> list[Placed]:
         return []
     cameras = [lens.name for lens in plain_lenses(document) or []]
     if len(cameras) == 2 and is_pair:
-        turn, place = entries.numbers(ROTATION), entries.numbers(TRANSLATION)
-        if len(turn) not in (3, 9) or len(place) != 3:
-            raise document.refusal(f"R and T have {len(turn)} and {len(place)} numbers: they must have 9 and 3")
-        other = inverted(of_rotation(document, turn, place, "R"))
+        turn, translation = entries.numbers(ROTATION), entries.numbers(TRANSLATION)
+        if len(turn) not in (3, 9) or len(translation) != 3:
+            raise document.refusal(f"R and T have {len(turn)} and {len(translation)} numbers: they must have 9 and 3")
+        other = inverted(of_rotation(document, turn, translation, "R"))
         return [Placed(cameras[0], "", None, np.eye(4)), Placed(cameras[1], "", None, other)]
     if len(cameras) != 1 or not document.entries.has(EXTRINSICS):
         return []
@@ -63,8 +63,8 @@ def poses(document: Document) -> list[Placed]:
 
 def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
     """See FileWriter. One file per camera, or one file per frame if the camera's lens changes."""
-    for stem, lens, some in by_lens(records, _text):
-        yield f"{stem}.yml", f"%YAML:1.0\n---\n{lens}{_poses(some)}"
+    for stem, lens, records_of_lens in by_lens(records, _text):
+        yield f"{stem}.yml", f"%YAML:1.0\n---\n{lens}{_poses(records_of_lens)}"
 
 
 def _text(lens: Lens) -> str:

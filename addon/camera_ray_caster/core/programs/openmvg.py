@@ -28,19 +28,20 @@ def looks(document: Document) -> bool:
     """See ProgramFiles."""
     entries = document.entries
     return entries.has("sfm_data_version") or (
-        entries.has("views", "extrinsics") and all(one.has("key", "value") for one in entries.parts("intrinsics"))
+        entries.has("views", "extrinsics")
+        and all(intrinsics.has("key", "value") for intrinsics in entries.parts("intrinsics"))
     )
 
 
 def read(document: Document) -> list[Lens]:
     """See ProgramFiles."""
-    cameras = {str(one.whole("key")): one.part("value") for one in document.entries.parts("intrinsics")}
+    cameras = {str(camera.whole("key")): camera.part("value") for camera in document.entries.parts("intrinsics")}
     names = dict[str, str]()
-    for one in cameras.values():  # the first camera of a model has its name, the others its number
-        if one.has("polymorphic_name"):
-            names[_number(one)] = one.text("polymorphic_name")
-    return [one_of_several(key, _lens, one.labeled(f"intrinsic {key}"), key, names.get(_number(one), ""))
-            for key, one in cameras.items()]  # fmt: skip
+    for camera in cameras.values():  # the first camera of a model has its name, the others its number
+        if camera.has("polymorphic_name"):
+            names[_number(camera)] = camera.text("polymorphic_name")
+    return [one_of_several(key, _lens, camera.labeled(f"intrinsic {key}"), key, names.get(_number(camera), ""))
+            for key, camera in cameras.items()]  # fmt: skip
 
 
 def _number(camera: Fields) -> str:
@@ -74,13 +75,13 @@ def _flat(data: Fields) -> Fields:
 def poses(document: Document) -> list[Placed]:
     """See ProgramFiles: those of the views, in the order of the file."""
     entries = document.entries
-    extrinsics = {one.whole("key"): one.part("value") for one in entries.parts("extrinsics")}
+    extrinsics = {extrinsic.whole("key"): extrinsic.part("value") for extrinsic in entries.parts("extrinsics")}
     placed = []
-    for one in entries.parts("views"):
+    for entry in entries.parts("views"):
         document.check()
-        view = one.part("value").part("ptr_wrapper").part("data")
+        view = entry.part("value").part("ptr_wrapper").part("data")
         view = _flat(view)
-        name = view.text("filename", str(one.whole("key")))
+        name = view.text("filename", str(entry.whole("key")))
         view = view.labeled(name)
         pose = extrinsics.get(view.whole("id_pose"))
         if pose is not None:

@@ -34,21 +34,21 @@ def looks(document: Document) -> bool:
     parts = document.entries.named()
     if len(parts) < len(document.entries):
         return False
-    return all(one.has("projection_type") for one in parts.values()) or bool(_reconstructions(document))
+    return all(camera.has("projection_type") for camera in parts.values()) or bool(_reconstructions(document))
 
 
 def read(document: Document) -> list[Lens]:
     """See ProgramFiles."""
     cameras: dict[str, Fields] = {}
-    for one in _reconstructions(document) or [Fields(document, {"cameras": document.entries.values})]:
-        cameras |= one.part("cameras").named()
+    for reconstruction in _reconstructions(document) or [Fields(document, {"cameras": document.entries.values})]:
+        cameras |= reconstruction.part("cameras").named()
     return [one_of_several(name, _lens, camera, name) for name, camera in cameras.items()]
 
 
 def _reconstructions(document: Document) -> list[Fields]:
     """Return the parts of a reconstruction.json; [] of any other file."""
     parts = list(document.entries.named().values())
-    return parts if all(one.has("cameras", "shots") for one in parts) else []
+    return parts if all(reconstruction.has("cameras", "shots") for reconstruction in parts) else []
 
 
 def poses(document: Document) -> list[Placed]:
@@ -57,8 +57,8 @@ def poses(document: Document) -> list[Placed]:
     placed = []
     for name, shot in largest.part("shots").named().items() if largest else ():
         document.check()
-        turn, place = shot.numbers("rotation", 3), shot.numbers("translation", 3)
-        to_camera = of_rotation(document, turn, place, shot.said("rotation"))
+        turn, translation = shot.numbers("rotation", 3), shot.numbers("translation", 3)
+        to_camera = of_rotation(document, turn, translation, shot.said("rotation"))
         placed.append(Placed(shot.text("camera"), name, None, inverted(to_camera)))
     return placed
 

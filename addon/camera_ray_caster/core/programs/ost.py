@@ -22,17 +22,17 @@ def looks(document: Document) -> bool:
 
 def read(document: Document) -> list[Lens]:
     """See ProgramFiles."""
-    found: dict[str, list[str]] = {}
+    sections: dict[str, list[str]] = {}
     name = ""
     for line in document.lines():
-        if line in NAMES and line in found:
+        if line in NAMES and line in sections:
             raise document.refusal(f"it has {line} twice: give a file of one camera")
         if line in NAMES or line.startswith("["):
             name = line
-            found[name] = []
+            sections[name] = []
         else:
-            found.setdefault(name, []).extend(line.split())
-    entries = Fields(document, dict(found))
+            sections.setdefault(name, []).extend(line.split())
+    entries = Fields(document, dict(sections))
     if entries.count_of("distortion") == 4:
         raise document.refusal("its distortion has 4 numbers, of a pinhole or of a fisheye: use the .yaml beside it")
     return [of_matrix(document, entries, "camera matrix", "distortion", entries.sides("width", "height"))]

@@ -64,8 +64,8 @@ def read(document: Document) -> list[Lens]:
 def _all(document: Document) -> Fields:
     """Return the entries of a flat file, or of all parts of a file."""
     entries = document.entries
-    for part in PARTS:
-        entries = entries.merged(document.entries.part(part))
+    for name in PARTS:
+        entries = entries.merged(document.entries.part(name))
     return entries
 
 

@@ -21,11 +21,13 @@ from .parts.program import ProgramFiles
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
     cameras = document.entries.parts("cameras")
-    return bool(cameras) and all(one.has("K", "distCoef", "R", "t") for one in cameras)
+    return bool(cameras) and all(camera.has("K", "distCoef", "R", "t") for camera in cameras)
 
 
 def _cameras(document: Document) -> list[Fields]:
-    return [one.labeled(one.text("name", f"camera {i}")) for i, one in enumerate(document.entries.parts("cameras"))]
+    return [
+        camera.labeled(camera.text("name", f"camera {i}")) for i, camera in enumerate(document.entries.parts("cameras"))
+    ]
 
 
 def read(document: Document) -> list[Lens]:
@@ -43,8 +45,8 @@ def poses(document: Document) -> list[Placed]:
 
 
 def _pose(camera: Fields) -> np.ndarray:
-    turn, place = camera.matrix("R", 9), camera.matrix("t", 3)
-    return inverted(of_rotation(camera.document, turn, place, camera.said("R")))
+    turn, translation = camera.matrix("R", 9), camera.matrix("t", 3)
+    return inverted(of_rotation(camera.document, turn, translation, camera.said("R")))
 
 
 PROGRAM = ProgramFiles(

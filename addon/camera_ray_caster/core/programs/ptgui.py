@@ -60,7 +60,7 @@ def _lens(group: Fields, lenses: list[Fields], number: int) -> Lens:
             f"individual{name}" if group.has(f"individual{name}") else name
         )
         moved = params.part("params")
-        if any(moved.number(one) for one in moved):
+        if any(moved.number(name) for name in moved):
             raise document.refusal(f"{label} has a {name}, which is not read")
     model = PROJECTIONS[lens.word("projection", PROJECTIONS)]
     if model == FISHEYE and lens.number("fisheyefactor", 0.0):

@@ -39,7 +39,9 @@ COEFFICIENTS = ("k1", "k2", "k3", "k4", "t1", "t2")
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
     if document.text.lstrip()[:1] == "<":
-        return any(one.has("FocalLength35mm") or one.has("Rotation", "Position") for one in _of_xmp(document))
+        return any(
+            entries.has("FocalLength35mm") or entries.has("Rotation", "Position") for entries in _of_xmp(document)
+        )
     return _head(document) is not None
 
 
@@ -55,17 +57,17 @@ def _words(line: str) -> list[str]:
 
 def _of_xmp(document: Document) -> list[Fields]:
     """Return the entries of each description in an .xmp: those of attributes and elements with their prefix."""
-    found = []
-    for one in document.xml.all(DESCRIPTION):
-        texts = dict(one.attributes) | _texts(one.children)
+    descriptions = []
+    for description in document.xml.all(DESCRIPTION):
+        texts = dict(description.attributes) | _texts(description.children)
         names = {name.removeprefix(PREFIX): text for name, text in texts.items() if name.startswith(PREFIX)}
         values = {name: text.split() if name in SPLIT else text for name, text in names.items()}
-        found += [Fields(document, values)] if values else []
-    return found
+        descriptions += [Fields(document, values)] if values else []
+    return descriptions
 
 
 def _texts(elements: Iterable[Element]) -> dict[str, str]:
-    return {one.name: one.text for one in elements}
+    return {element.name: element.text for element in elements}
 
 
 def _pictures(document: Document) -> list[Fields]:
@@ -117,7 +119,7 @@ def read(document: Document) -> list[Lens]:
 
 def poses(document: Document) -> list[Placed]:
     """See ProgramFiles: none of an .xmp that has only a lens."""
-    pictures = [one for one in _pictures(document) if one.has("f") or one.has("Rotation", "Position")]
+    pictures = [picture for picture in _pictures(document) if picture.has("f") or picture.has("Rotation", "Position")]
     lenses = once_each(_lens(document, picture) for picture in pictures)
     return [Placed(lens.name, picture.label, None, _pose(picture))
             for picture, lens in zip(pictures, lenses, strict=True)]  # fmt: skip

@@ -42,11 +42,13 @@ def read(document: Document) -> list[Lens]:
     lenses: list[Lens] = []
     for camera in entries.parts("cameras"):
         name, common = camera.text("name"), camera.part("all_frames")
-        own = [(frame, one_of_several(name, _lens, common.labeled(name), frame)) for frame in camera.parts("frames")]
-        if len({repr(lens[1:]) for _, lens in own}) > 1:
-            lenses += [lens._replace(name=f"{name} {frame.number('frame'):g}") for frame, lens in own]
+        by_frame = [
+            (frame, one_of_several(name, _lens, common.labeled(name), frame)) for frame in camera.parts("frames")
+        ]
+        if len({repr(lens[1:]) for _, lens in by_frame}) > 1:
+            lenses += [lens._replace(name=f"{name} {frame.number('frame'):g}") for frame, lens in by_frame]
         else:
-            lenses += [lens for _, lens in own[:1]]
+            lenses += [lens for _, lens in by_frame[:1]]
     return lenses
 
 
@@ -70,24 +72,24 @@ def poses(document: Document) -> list[Placed]:
 def _lens(*parts: Fields) -> Lens:
     """Return the lens of a record, of which each part holds some entries."""
     record, settings, name = Fields(parts[0].document, {}), Fields(parts[0].document, {}), parts[0].label
-    for part in (part.part(RECORD) for part in parts):
-        record, settings = record.merged(part), settings.merged(part.part("settings"))
-    own = settings.text("panorama_type") if record.text("type") == "PANO" else record.text("type")
-    kind = record.text("model") or own or None
+    for fields in (fields.part(RECORD) for fields in parts):
+        record, settings = record.merged(fields), settings.merged(fields.part("settings"))
+    blender_type = settings.text("panorama_type") if record.text("type") == "PANO" else record.text("type")
+    kind = record.text("model") or blender_type or None
     models = {model.key: model for model in MODELS}
     model = models[record.document.one_of(kind, f"model of {name or 'the camera'}", models)]
     values = record.merged(settings).values
     names = [setting.name for setting in model.SETTINGS if setting not in FROM_FILE]
-    if missing := [one for one in names if one not in values]:
+    if missing := [name for name in names if name not in values]:
         raise record.document.refusal(f"it has no {missing[0]}: export it again")
-    return Lens(name, model.key, {one: _restored(values[one]) for one in names})
+    return Lens(name, model.key, {name: _restored(values[name]) for name in names})
 
 
 def _restored(value: Any) -> Any:
     """Return a value as it was before it became one of JSON, which has no infinite numbers."""
     if isinstance(value, dict) and list(value) == ["float"]:
         return float(value["float"])
-    return [_restored(one) for one in value] if isinstance(value, list) else value
+    return [_restored(item) for item in value] if isinstance(value, list) else value
 
 
 PROGRAM = ProgramFiles(

@@ -31,8 +31,8 @@ def looks(document: Document) -> bool:
 
 def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
     """See FileWriter. One file per camera, or one file per frame if the camera's lens changes."""
-    for stem, text, some in by_lens(records, _text):
-        yield f"{stem}.yaml", text.replace(NAME, json.dumps(some[0].name, ensure_ascii=False))
+    for stem, text, records_of_lens in by_lens(records, _text):
+        yield f"{stem}.yaml", text.replace(NAME, json.dumps(records_of_lens[0].name, ensure_ascii=False))
 
 
 NAME = "%NAME%"

@@ -60,9 +60,9 @@ def _rational(document: Document) -> Rational:
         return Rational(_by_name(ENTRY.findall(document.text)))
     top = document.xml
     is_dimap = top.name == "Dimap_Document"
-    parts = [one for name in (DIMAP if is_dimap else MAXAR) for one in top.all(name)]
-    texts = _by_name((one.name, one.text) for part in parts for group in (part, *part.children)
-                     for one in group.children)  # fmt: skip
+    parts = [element for name in (DIMAP if is_dimap else MAXAR) for element in top.all(name)]
+    texts = _by_name((leaf.name, leaf.text) for element in parts for group in (element, *element.children)
+                     for leaf in group.children)  # fmt: skip
     rows, columns = SIDES[is_dimap]
     return Rational(texts, (texts.get(columns), texts.get(rows)), float(is_dimap))
 

@@ -25,16 +25,16 @@ MODELS = {
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
     cameras = _cameras(document)
-    return bool(cameras) and all(one.has("id", "forward", "right", "up", "focal") for one in cameras)
+    return bool(cameras) and all(camera.has("id", "forward", "right", "up", "focal") for camera in cameras)
 
 
 def _cameras(document: Document) -> list[Fields]:
-    return [one.labeled(one.text("id")) for one in document.entries.parts("cameras")]
+    return [camera.labeled(camera.text("id")) for camera in document.entries.parts("cameras")]
 
 
 def read(document: Document) -> list[Lens]:
     """See ProgramFiles."""
-    return [one_of_several(one.label, _lens, one) for one in _cameras(document)]
+    return [one_of_several(camera.label, _lens, camera) for camera in _cameras(document)]
 
 
 def _lens(camera: Fields) -> Lens:
@@ -57,9 +57,9 @@ def poses(document: Document) -> list[Placed]:
 
 def _pose(camera: Fields) -> np.ndarray:
     camera.document.check()
-    right, up, ahead, place = (np.array(camera.numbers(name, 3)) for name in ("right", "up", "forward", "origin"))
+    right, up, ahead, origin = (np.array(camera.numbers(name, 3)) for name in ("right", "up", "forward", "origin"))
     pose = np.eye(4)
-    pose[:3] = np.stack((right, -up, ahead, place), axis=1)
+    pose[:3] = np.stack((right, -up, ahead, origin), axis=1)
     return checked(camera.document, pose, f"right, up and forward of {camera.label}")
 
 

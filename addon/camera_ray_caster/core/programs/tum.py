@@ -32,8 +32,8 @@ def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
 
 
 def _line(record: CameraRecord) -> str:
-    w, *rest = quaternion(record.pose[:3, :3]).tolist()
-    return " ".join(map(repr, (record.seconds, *record.pose[:3, 3].tolist(), *rest, w))) + "\n"
+    w, *vector = quaternion(record.pose[:3, :3]).tolist()
+    return " ".join(map(repr, (record.seconds, *record.pose[:3, 3].tolist(), *vector, w))) + "\n"
 
 
 PROGRAM = ProgramFiles(

@@ -37,7 +37,7 @@ def read(document: Document) -> list[Lens]:
     """See ProgramFiles."""
     entries = document.entries
     numbered = [(laser.number("laser_id"), laser) for laser in entries.parts("lasers")]
-    numbered.sort(key=lambda one: one[0])
+    numbered.sort(key=lambda pair: pair[0])
     count = len(numbered)
     if [number for number, _ in numbered] != list(range(count)):
         raise document.refusal(f"the laser_id of its {count} lasers are not 0 to {count - 1}, each once")

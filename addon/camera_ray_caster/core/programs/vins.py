@@ -46,11 +46,11 @@ def read(document: Document) -> list[Lens]:
     if kind == SCARAMUZZA:
         return [_ocam(entries)]
     model, focal, terms = MODELS[kind]
-    given = entries.part(PARTS[0])
-    for part in PARTS[1:]:
-        given = given.merged(entries.part(part))
-    settings = {own: given.number(name) for name, own in terms.items()}
-    return [Lens("", model, _size(entries) | matrix(*(given.number(name) for name in focal)) | settings)]
+    parameters = entries.part(PARTS[0])
+    for name in PARTS[1:]:
+        parameters = parameters.merged(entries.part(name))
+    settings = {setting: parameters.number(name) for name, setting in terms.items()}
+    return [Lens("", model, _size(entries) | matrix(*(parameters.number(name) for name in focal)) | settings)]
 
 
 def _size(entries: Fields) -> dict:
@@ -60,14 +60,18 @@ def _size(entries: Fields) -> dict:
 
 
 def _ocam(entries: Fields) -> Lens:
-    document, affine, given = entries.document, entries.part("affine_parameters"), entries.part("poly_parameters")
+    document, affine, coefficients = (
+        entries.document,
+        entries.part("affine_parameters"),
+        entries.part("poly_parameters"),
+    )
     c, d, e, x, y = (affine.number(name) for name in ("ac", "ad", "ae", "cx", "cy"))
     if not c > 0:
         raise document.refusal(f"ac is {c:g}: it must be above 0")
-    powers = sorted(int(name[1:]) for name in given if re.fullmatch(r"p\d{1,2}", name))
+    powers = sorted(int(name[1:]) for name in coefficients if re.fullmatch(r"p\d{1,2}", name))
     if powers != list(range(len(powers))) or not powers:
         raise document.refusal("its poly_parameters must be p0, p1, ... without a gap")
-    polynomial = [given.number(f"p{power}") * c ** (1 - power) for power in powers]
+    polynomial = [coefficients.number(f"p{power}") * c ** (1 - power) for power in powers]
     return Lens("", "OCAM", _size(entries) | {
         "cx": x, "cy": y, "ocam_polynomial": " ".join(map(repr, polynomial)),
         "ocam_c": 1 / c, "ocam_d": e / c, "ocam_e": d / c,

@@ -21,13 +21,13 @@ def looks(document: Document) -> bool:
 
 def read(document: Document) -> list[Lens]:
     """See ProgramFiles."""
-    given = document.entries.part("intrinsic")
-    given.word("model", ("radial_poly",))
-    width, height, across, down = (given.number(name) for name in ("width", "height", "cx_offset", "cy_offset"))
-    aspect = given.number("aspect_ratio", 1.0)
+    intrinsics = document.entries.part("intrinsic")
+    intrinsics.word("model", ("radial_poly",))
+    width, height, across, down = (intrinsics.number(name) for name in ("width", "height", "cx_offset", "cy_offset"))
+    aspect = intrinsics.number("aspect_ratio", 1.0)
     if aspect <= 0:
         raise document.refusal(f"its aspect_ratio is {aspect:g}: it must be above 0")
-    terms = [given.number(term) * aspect for term in TERMS]
+    terms = [intrinsics.number(term) * aspect for term in TERMS]
     return [Lens("", "FTHETA", document.size(width, height) | {
         "cx": (width - 1) / 2 + across, "cy": (height - 1) / 2 + down, "ftheta_reference": "ANGLE_TO_RADIUS",
         "ftheta_angle_to_radius": " ".join(map(repr, (0.0, *terms))), "ftheta_c": 1 / aspect,

@@ -46,7 +46,7 @@ def bend_of(entries: Fields, kind: str, entry: str) -> str:
     word = entries.text(entry, "none")
     bend = spelled(word) or "none"
     if bend != "none" and (kind, bend) not in DISTORTIONS:
-        known = ", ".join(["none", *(one for of, one in DISTORTIONS if of == kind)])
+        known = ", ".join(["none", *(name for of, name in DISTORTIONS if of == kind)])
         of = f"{entry} of {entries.label}, {kind}," if entries.label else f"{entry} of a {kind}"
         raise entries.document.refusal(f"{of} is {word!r}: it must be one of {known}")
     return bend
@@ -67,8 +67,8 @@ def lens_of(camera: Fields, name: str) -> Lens:
     first = camera.numbers("intrinsics", len(shape) + 4)
     if (kind, bend) == ("pinhole", "radtan") and len(numbers_of(camera.values.get(entry))) == 5:
         terms = (*terms, "k3")
-    rest = camera.numbers(entry, len(terms)) if terms else []
-    settings = dict(zip((*shape, *terms), (*first[: len(shape)], *rest), strict=True))
+    coefficients = camera.numbers(entry, len(terms)) if terms else []
+    settings = dict(zip((*shape, *terms), (*first[: len(shape)], *coefficients), strict=True))
     size = camera.size("resolution")
     document.check_sides(list(size.values()), first[-2:])
     return Lens(name, model, size | matrix(*first[len(shape) :]) | settings)

@@ -85,11 +85,11 @@ class Document(FileSource):
 
     def part(self, entries: dict) -> Document:
         """Return a document of these entries alone, with the path of this one."""
-        part = copy(self)
-        part.__dict__.pop("_xml", None)
-        part._text, part.data = "", b""
-        part._entries = Fields(part, entries)
-        return part
+        document = copy(self)
+        document.__dict__.pop("_xml", None)
+        document._text, document.data = "", b""
+        document._entries = Fields(document, entries)
+        return document
 
     def lines(self) -> list[str]:
         """Return the lines of a text that are neither empty nor comments (#), without the spaces around them."""

@@ -102,20 +102,20 @@ class Fields:
     def parts(self, name: str) -> list[Fields]:
         """Return a list of mappings; an empty one if it is missing."""
         value = [] if self.values.get(name) in EMPTY else self.values[name]
-        if not isinstance(value, list) or not all(isinstance(one, dict) for one in value):
+        if not isinstance(value, list) or not all(isinstance(item, dict) for item in value):
             raise self.refusal(name, "a list of mappings")
-        return [Fields(self.document, one, self.label) for one in value]
+        return [Fields(self.document, item, self.label) for item in value]
 
     def each(self, name: str) -> list[Fields]:
         """Return a list of anything, each in fields with one entry of this name."""
         value = [] if self.values.get(name) in EMPTY else self.values[name]
         if not isinstance(value, list):
             raise self.refusal(name, "a list")
-        return [Fields(self.document, {name: one}, self.label) for one in value]
+        return [Fields(self.document, {name: item}, self.label) for item in value]
 
     def some(self, names: Collection[str]) -> Fields:
         """Return the entries of some names."""
-        return Fields(self.document, {name: one for name, one in self.values.items() if name in names}, self.label)
+        return Fields(self.document, {name: entry for name, entry in self.values.items() if name in names}, self.label)
 
     def merged(self, other: Fields) -> Fields:
         """Return these entries and those of another mapping, which count before them."""
@@ -127,8 +127,8 @@ class Fields:
 
     def named(self) -> dict[str, Fields]:
         """Return the entries that are mappings, by name, labeled by it."""
-        found = {name: one for name, one in self.values.items() if isinstance(one, dict)}
-        return {name: Fields(self.document, one, name) for name, one in found.items()}
+        mappings = {name: entry for name, entry in self.values.items() if isinstance(entry, dict)}
+        return {name: Fields(self.document, entry, name) for name, entry in mappings.items()}
 
     def sides(self, width: str, height: str) -> dict[str, Any]:
         """Return the settings of a picture's size by the names of its sides; that of the frame if none is there."""

@@ -56,13 +56,13 @@ def beyond(lens: Lens, terms: Collection[str]) -> list[str]:
     return [name for name, value in lens.settings.items() if value and name not in stored]
 
 
-def one_of_several(name: str, read: Callable[..., Lens], *given) -> Lens:
+def one_of_several(name: str, read: Callable[..., Lens], *arguments) -> Lens:
     """Return the lens that ``read`` returns for what is given, or a lens with the reason why it cannot be read: the
     other lenses of its file may be chosen. The first thing given is the document, or entries of it.
     """
-    getattr(given[0], "document", given[0]).check()
+    getattr(arguments[0], "document", arguments[0]).check()
     try:
-        return read(*given)
+        return read(*arguments)
     except InputError as refusal:
         return Lens(name, "", {}, refusal.with_traceback(None))
 
@@ -75,8 +75,8 @@ def once_each(lenses: Iterable[Lens]) -> list[Lens]:
 
 def different(lenses: Iterable[Lens]) -> list[Lens]:
     """Return the lenses of pictures without repetition; an only one has no name."""
-    found = list({lens.name: lens for lens in once_each(lenses)}.values())
-    return [found[0]._replace(name="")] if len(found) == 1 else found
+    distinct = list({lens.name: lens for lens in once_each(lenses)}.values())
+    return [distinct[0]._replace(name="")] if len(distinct) == 1 else distinct
 
 
 def numbers_of(value) -> list[float]:

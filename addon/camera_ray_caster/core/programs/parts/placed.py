@@ -66,7 +66,7 @@ def pose_of(document: FileSource, value, name: str) -> np.ndarray:
         raise document.refusal(f"{name} has {len(numbers)} numbers: a pose has 3 or 4 rows of 4 finite numbers")
     document.numbers(numbers, name)
     if numbers[12:] not in ([], [0.0, 0.0, 0.0, 1.0]):
-        last = " ".join(f"{one:g}" for one in numbers[12:])
+        last = " ".join(f"{number:g}" for number in numbers[12:])
         raise document.refusal(f"the last row of {name} is {last}: it must be 0 0 0 1, of a matrix by rows")
     pose = np.eye(4)
     pose[:3] = np.reshape(numbers, (-1, 4))[:3]

@@ -111,26 +111,26 @@ def _cameras(document: Document) -> list[tuple[str, Spelled]]:
     """Return the cameras of a document with their names."""
     cameras = []
     for prefix, entries in spelled.cameras_of(document.entries):
-        found = Spelled(entries)
-        sides = found.sides()
+        camera = Spelled(entries)
+        sides = camera.sides()
         for end in sides if len(sides) > 1 else [""]:
-            cameras.append((f"{prefix}{end}", found.side(end or "".join(sides)) if sides else found))
+            cameras.append((f"{prefix}{end}", camera.side(end or "".join(sides)) if sides else camera))
     return cameras
 
 
-def _lens(document: Document, name: str, found: Spelled, key: str) -> Lens:
-    if found.has(spelled.MATRIX):
-        fx, skew, cx, fy, cy = _matrix(document, found.numbers(spelled.MATRIX))
+def _lens(document: Document, name: str, camera: Spelled, key: str) -> Lens:
+    if camera.has(spelled.MATRIX):
+        fx, skew, cx, fy, cy = _matrix(document, camera.numbers(spelled.MATRIX))
         for names, entry in zip((spelled.FX, spelled.FY, spelled.CX, spelled.CY), (fx, fy, cx, cy), strict=True):
-            if found.has(names) and abs(found.number(names) - entry) > APART * max(1, abs(entry)):
-                said = f"its {names[0]} is {found.number(names):g}, and {entry:g} in the camera matrix"
-                raise document.refusal(f"{said}: leave one out")
+            if camera.has(names) and abs(camera.number(names) - entry) > APART * max(1, abs(entry)):
+                problem = f"its {names[0]} is {camera.number(names):g}, and {entry:g} in the camera matrix"
+                raise document.refusal(f"{problem}: leave one out")
     else:
-        (fx, fy), (cx, cy), skew = _focal(found), _center(found), 0.0
-    listed = found.numbers(spelled.DISTORTION, empty=NO_DISTORTION, default=())
-    named = {} if any(listed) else _named(document, found)
+        (fx, fy), (cx, cy), skew = _focal(camera), _center(camera), 0.0
+    listed = camera.numbers(spelled.DISTORTION, empty=NO_DISTORTION, default=())
+    named = {} if any(listed) else _named(document, camera)
     listed = [] if any(named.values()) else listed
-    model = _model(document, found, listed or list(named.values()), "p1" in named or "p2" in named, key)
+    model = _model(document, camera, listed or list(named.values()), "p1" in named or "p2" in named, key)
     terms = TERMS[model]
     if model == "UCM" and len(listed) == 5 and listed[-1] == 0:  # the fifth is of OpenCV's pinhole alone
         listed = listed[:-1]
@@ -143,10 +143,10 @@ def _lens(document: Document, name: str, found: Spelled, key: str) -> Lens:
         raise document.refusal(f"{beyond[0]} is not 0, but {model} has no such coefficient")
     settings = dict(zip(terms, listed, strict=False)) | {name: named[name] for name in terms if name in named}
     if model == "UCM":
-        settings["unified_xi"] = found.number(("xi",))
-    if not found.has(spelled.WIDTH, spelled.HEIGHT) and found.has(spelled.SIZE):
-        document.check_sides(found.size(), (cx, cy))
-    x, y, size = _region(document, found)
+        settings["unified_xi"] = camera.number(("xi",))
+    if not camera.has(spelled.WIDTH, spelled.HEIGHT) and camera.has(spelled.SIZE):
+        document.check_sides(camera.size(), (cx, cy))
+    x, y, size = _region(document, camera)
     width, height = (size[f"calibration_{side}"] for side in ("width", "height"))
     if 0 < cx <= 1 and 0 < cy <= 1 and max(fx, fy) < LEAST and min(width or LEAST, height or LEAST) >= LEAST:
         raise document.refusal(
@@ -158,7 +158,7 @@ def _lens(document: Document, name: str, found: Spelled, key: str) -> Lens:
 
 def _matrix(document: Document, values: list[float]) -> list[float]:
     """Return fx, skew, cx, fy and cy of a camera matrix: (3, 3) by rows or by columns, (4, 4), or fx, fy, cx, cy."""
-    given, path = values, document.path
+    entry, path = values, document.path
     if len(values) == 16:
         values = [values[i] for i in (0, 1, 2, 4, 5, 6, 8, 9, 10)]
     if len(values) == 4:
@@ -166,58 +166,58 @@ def _matrix(document: Document, values: list[float]) -> list[float]:
     if len(values) == 9 and [values[i] for i in (1, 2, 5, 8)] == [0, 0, 0, 1] and any(values[6:8]):
         values = [values[i] for i in (0, 3, 6, 1, 4, 7, 2, 5, 8)]
     is_plain = len(values) == 9 and [values[3], *values[6:]] == [0, 0, 0, 1]
-    said = f"the camera matrix in {path!r} is {shortened(given)}"
+    problem = f"the camera matrix in {path!r} is {shortened(entry)}"
     if not is_plain or min(values[0], values[4]) < 1 / LARGEST:
-        raise InputError(f"{said}: it must be fx skew cx, 0 fy cy, 0 0 1, with fx and fy above 0")
+        raise InputError(f"{problem}: it must be fx skew cx, 0 fy cy, 0 0 1, with fx and fy above 0")
     if max(map(abs, (values[2], values[5]))) > FARTHEST_PIXELS:
-        raise InputError(f"{said}: cx and cy must be up to {FARTHEST_PIXELS:.0f}")
+        raise InputError(f"{problem}: cx and cy must be up to {FARTHEST_PIXELS:.0f}")
     return [values[0], values[1], values[2], values[4], values[5]]
 
 
-def _focal(found: Spelled) -> tuple[float, float]:
-    if found.has(spelled.FX):
-        fx = found.number(spelled.FX)
-        return fx, found.number(spelled.FY, fx)
-    focal = found.numbers(spelled.FOCAL)
+def _focal(camera: Spelled) -> tuple[float, float]:
+    if camera.has(spelled.FX):
+        fx = camera.number(spelled.FX)
+        return fx, camera.number(spelled.FY, fx)
+    focal = camera.numbers(spelled.FOCAL)
     return focal[0], focal[-1]
 
 
-def _center(found: Spelled) -> tuple[float, float]:
-    if found.has(spelled.CX, spelled.CY):
-        return found.number(spelled.CX), found.number(spelled.CY)
-    x, y, *_ = (*found.numbers(spelled.CENTER), 0.0)
+def _center(camera: Spelled) -> tuple[float, float]:
+    if camera.has(spelled.CX, spelled.CY):
+        return camera.number(spelled.CX), camera.number(spelled.CY)
+    x, y, *_ = (*camera.numbers(spelled.CENTER), 0.0)
     return x, y
 
 
-def _named(document: Document, found: Spelled) -> dict[str, float]:
+def _named(document: Document, camera: Spelled) -> dict[str, float]:
     """Return the coefficients that have entries of their own, in the order of OpenCV's vector. Raises InputError for
     entries that may be others.
     """
     terms, named = TERMS[PINHOLE], {}
-    if f"{BY_NUMBER}0" in found.found:
-        named = {term: f"{BY_NUMBER}{i}" for i, term in enumerate(terms) if f"{BY_NUMBER}{i}" in found.found}
+    if f"{BY_NUMBER}0" in camera.by_name:
+        named = {term: f"{BY_NUMBER}{i}" for i, term in enumerate(terms) if f"{BY_NUMBER}{i}" in camera.by_name}
     for name in terms:
         spellings = [f"{before}{plain_name(name)}" for before in BEFORE_TERMS]
-        if there := [one for one in spellings if one in found.found]:
+        if there := [spelling for spelling in spellings if spelling in camera.by_name]:
             named[name] = there[0]
-    lists = {name: found.numbers((name,)) for name in LISTS if found.found.get(name, ("", []))[1] != []}
-    values = {name: found.number((own,)) for name, own in named.items()}
+    lists = {name: camera.numbers((name,)) for name in LISTS if camera.by_name.get(name, ("", []))[1] != []}
+    values = {name: camera.number((entry,)) for name, entry in named.items()}
     for name, numbers in lists.items():
         if len(numbers) > len(LISTS[name]) and any(numbers[len(LISTS[name]) :]):
-            raise document.refusal(f"{found.found[name][0]} has {len(numbers)} numbers: {len(LISTS[name])} are read")
+            raise document.refusal(f"{camera.by_name[name][0]} has {len(numbers)} numbers: {len(LISTS[name])} are read")
         values |= dict(zip(LISTS[name], numbers, strict=False))
-    unread = found.unread({*named.values(), *LISTS, *spelled.DISTORTION, *spelled.MATRIX})
+    unread = camera.unread({*named.values(), *LISTS, *spelled.DISTORTION, *spelled.MATRIX})
     if unread:
         raise document.refusal(f"{unread[0]} may be its distortion: name it distortion_coefficients, or leave it out")
     return {name: values[name] for name in terms if name in values}
 
 
-def _region(document: Document, found: Spelled) -> tuple[float, float, dict]:
+def _region(document: Document, camera: Spelled) -> tuple[float, float, dict]:
     """Return x and y of the picture in the calibrated one, and the settings of its size: all of it, unless a roi
     tells a part.
     """
-    width, height = found.size()
-    name, value = found.found.get("roi", ("roi", {}))
+    width, height = camera.size()
+    name, value = camera.by_name.get("roi", ("roi", {}))
     region = Fields(document, value if isinstance(value, dict) else {}, name)
     x, y, *size = (region.number(side, 0.0) for side in ("x_offset", "y_offset", "width", "height"))
     whole = document.size(width, height)
@@ -231,35 +231,35 @@ def _region(document: Document, found: Spelled) -> tuple[float, float, dict]:
     return x, y, document.size(*size)
 
 
-def _model(document: Document, found: Spelled, coefficients: list[float], tangential: bool, key: str) -> str:
+def _model(document: Document, camera: Spelled, coefficients: list[float], tangential: bool, key: str) -> str:
     """Return the model that a file names, or that its coefficients have by their names; else the chosen model."""
-    if "xi" in found.found:
+    if "xi" in camera.by_name:
         return "UCM"
-    told: dict[str, bool] = {}
-    flags = [name for name in FISHEYE_NAMES if name in found.found]
+    is_fisheye_by_name: dict[str, bool] = {}
+    flags = [name for name in FISHEYE_NAMES if name in camera.by_name]
     for name in flags:
-        told[name] = found.number((name,)) != 0
+        is_fisheye_by_name[name] = camera.number((name,)) != 0
     for name in MODEL_NAMES:
-        own, value = found.found.get(name, ("", None))
+        entry, value = camera.by_name.get(name, ("", None))
         word = plain_name(str(value)).removeprefix("distortion")
         if value is None or (word in INVERSE and not any(coefficients)):
             continue
         if word not in KNOWN_MODELS:
-            if told.keys() - flags:
+            if is_fisheye_by_name.keys() - flags:
                 continue  # it may be of something else
             known = ", ".join((*PINHOLE_MODELS, *FISHEYE_MODELS))
-            raise InputError(f"{own} in {document.path!r} is {shortened(value)}: it must be one of {known}")
+            raise InputError(f"{entry} in {document.path!r} is {shortened(value)}: it must be one of {known}")
         if word == "none" and name == "distortionmodel" and any(coefficients):
             raise document.refusal("it has distortion coefficients and distortion_model none: say which it is")
         if word not in ("", "none"):
-            told[name] = KNOWN_MODELS[word] == FISHEYE
-    if told:
-        bent = next((name for name, is_fisheye in told.items() if is_fisheye), None)
-        plain = [name for name in (*flags, *DISTORTION_NAMES) if told.get(name) is False]
+            is_fisheye_by_name[name] = KNOWN_MODELS[word] == FISHEYE
+    if is_fisheye_by_name:
+        bent = next((name for name, is_fisheye in is_fisheye_by_name.items() if is_fisheye), None)
+        plain = [name for name in (*flags, *DISTORTION_NAMES) if is_fisheye_by_name.get(name) is False]
         if bent and plain:  # a pinhole's camera_model may have a fisheye's distortion_model
-            (one, first), (other, second) = (found.found[name] for name in (bent, plain[0]))
+            (first, text), (second, other_text) = (camera.by_name[name] for name in (bent, plain[0]))
             raise document.refusal(
-                f"{one} is {shortened(first)} and {other} is {shortened(second)}: they contradict each other"
+                f"{first} is {shortened(text)} and {second} is {shortened(other_text)}: they contradict each other"
             )
         return FISHEYE if bent else PINHOLE
     four = len(coefficients) == 4 and any(coefficients) and not tangential

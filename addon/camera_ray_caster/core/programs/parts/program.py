@@ -166,11 +166,11 @@ def by_lens(
     The name is the camera's, or if the lens changes from frame to frame the name of each record.
     """
     for name in dict.fromkeys(record.name for record in records):
-        own = [(record, text(record.lens)) for record in records if record.name == name]
-        if len({lens for _, lens in own}) == 1:
-            yield name, own[0][1], [record for record, _ in own]
+        with_texts = [(record, text(record.lens)) for record in records if record.name == name]
+        if len({lens for _, lens in with_texts}) == 1:
+            yield name, with_texts[0][1], [record for record, _ in with_texts]
         else:
-            yield from ((record.stem, lens, [record]) for record, lens in own)
+            yield from ((record.stem, lens, [record]) for record, lens in with_texts)
 
 
 def in_words(names: Iterable[str]) -> str:

@@ -123,13 +123,13 @@ def _arrays(document: Document) -> Mapping[str, np.ndarray]:
     """Return the arrays of a file by name as float64. Raises one of DAMAGED, and InputError for what is too large."""
     data = BytesIO(document.data)
     if document.data.startswith(NPY):
-        both = numbers(np.load(data, allow_pickle=False), "the array")
-        if both.ndim == 3 and both.shape[2] == 6:
-            return {"origins": both[..., :3], "directions": both[..., 3:]}
-        return {"directions": both}
+        array = numbers(np.load(data, allow_pickle=False), "the array")
+        if array.ndim == 3 and array.shape[2] == 6:
+            return {"origins": array[..., :3], "directions": array[..., 3:]}
+        return {"directions": array}
     with zipfile.ZipFile(data) as archive:
         size = sum(entry.file_size for entry in archive.infolist())
     memory.require(4 * size, f"the arrays of calibration file {document.path!r}", "give a coarser table")
-    with np.load(data, allow_pickle=False) as found:
-        wanted = [name for name in ("directions", "origins", "valid", "pose", "area", "time") if name in found.files]
-        return {name: numbers(found[name], name) for name in wanted}
+    with np.load(data, allow_pickle=False) as archive:
+        wanted = [name for name in ("directions", "origins", "valid", "pose", "area", "time") if name in archive.files]
+        return {name: numbers(archive[name], name) for name in wanted}

@@ -80,8 +80,8 @@ def _vectors(channels: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
         before, _, last = name.lower().rpartition(".")
         parts.setdefault(before, {})[last] = values
     return {
-        name: np.stack([own[axis] for axis in axes], axis=2).astype(np.float64)[::-1].copy()
-        for name, own in parts.items()
+        name: np.stack([components[axis] for axis in axes], axis=2).astype(np.float64)[::-1].copy()
+        for name, components in parts.items()
         for axes in AXES
-        if set(axes) <= set(own)
+        if set(axes) <= set(components)
     }

@@ -60,29 +60,29 @@ def _of_columns(document: Document, names: list[str], places: tuple[str, str]):
         if words and not words[0].startswith("#"):
             rows.append(_numbers(document, words, len(names), f"line {number}"))
     columns = dict(zip(names, np.array(rows).reshape(-1, len(names)).T, strict=True))
-    place, directions = (np.stack([columns[name] for name in part], axis=1) for part in (places, DIRECTION))
+    positions, directions = (np.stack([columns[name] for name in group], axis=1) for group in (places, DIRECTION))
     if places == PLACES[1]:
-        place[:, 1] = 1 - place[:, 1]
+        positions[:, 1] = 1 - positions[:, 1]
     origins = np.stack([columns[name] for name in ORIGIN], axis=1) if set(ORIGIN) <= set(names) else None
-    return place, directions, origins
+    return positions, directions, origins
 
 
 def _of_mesh(document: Document):
     """Return the places, directions and origins of the corners of an .obj's faces, each place once."""
-    found: dict[str, list] = {"v": [], "vt": [], "vn": []}
+    vectors: dict[str, list] = {"v": [], "vt": [], "vn": []}
     corners = set()
     for number, line in enumerate(document.text.splitlines(), 1):
         document.check()
         kind, *words = line.split() or [""]
-        if kind in found:
+        if kind in vectors:
             count = 2 if kind == "vt" else 3
-            found[kind].append(_numbers(document, words[:count], count, f"line {number}"))
+            vectors[kind].append(_numbers(document, words[:count], count, f"line {number}"))
         elif kind == "f":
             corners |= {tuple(word.split("/")) for word in words}
     try:
-        picked = [[int(part) for part in corner] for corner in corners]
+        picked = [[int(word) for word in corner] for corner in corners]
         index = np.array([[k - 1 if k > 0 else k for k in corner] for corner in picked]).reshape(-1, 3)
-        each = [np.array(found[kind])[index[:, column]] for column, kind in enumerate(("v", "vt", "vn"))]
+        each = [np.array(vectors[kind])[index[:, column]] for column, kind in enumerate(("v", "vt", "vn"))]
     except (ValueError, IndexError) as error:
         raise document.refusal("each corner of a face must be v/vt/vn: vertex, place in the picture, normal") from error
     origins, places, directions = each
@@ -115,7 +115,7 @@ def _lattice(document: Document, places: np.ndarray, directions: np.ndarray, ori
             "give one ray for each, nan where there is none"
         )
     order = np.lexsort((columns[1], rows[1]))
-    grids = [part[order].reshape(high, wide, 3) for part in (directions, origins) if part is not None]
+    grids = [vectors[order].reshape(high, wide, 3) for vectors in (directions, origins) if vectors is not None]
     area = [(first - step / 2, first + (count - 0.5) * step)
             for (first, step), count in ((columns[0], wide), (rows[0], high))]  # fmt: skip
     (left, right), (bottom, top) = area

@@ -30,7 +30,8 @@ class FileSource:
         if values is None:
             raise self.refusal(f"it has no {name}")
         numbers = numbers_of(values)
-        if not numbers or (count or len(numbers)) != len(numbers) or not all(abs(one) <= LARGEST for one in numbers):
+        is_count = 0 < len(numbers) == (count or len(numbers))
+        if not is_count or not all(abs(number) <= LARGEST for number in numbers):
             wanted = f"{count or 'a list of'} finite number{'' if count == 1 else 's'}, up to {LARGEST:g}"
             raise self.refusal(f"{name} is {shown(values)}: it must be {wanted}")
         return numbers

@@ -79,9 +79,9 @@ def _may_bend(name: str, value: Any) -> bool:
     """Whether an entry may be a distortion that is not 0, by its name, or by the names of its entries."""
     if isinstance(value, dict) and "data" not in value:
         if BEND.search(name):
-            return any(_may_bend("coefficient", one) for one in value.values())
-        return any(COEFFICIENT.fullmatch(plain_name(own)) and _may_bend("coefficient", one)
-                   for own, one in value.items())  # fmt: skip
+            return any(_may_bend("coefficient", coefficient) for coefficient in value.values())
+        return any(COEFFICIENT.fullmatch(plain_name(inner)) and _may_bend("coefficient", coefficient)
+                   for inner, coefficient in value.items())  # fmt: skip
     numbers = numbers_of(flat(value, name, ""))
     if name.startswith(INSIDE):
         return any(numbers)
@@ -94,30 +94,30 @@ class Spelled:
 
     def __init__(self, entries: Fields):
         self.document = entries.document
-        self.found = self._merged(entries.values)
-        name, value = self.found.get(PHOTON_VISION, ("", None))
+        self.by_name = self._merged(entries.values)
+        name, value = self.by_name.get(PHOTON_VISION, ("", None))
         if isinstance(value, dict) and 1 in [*numbers_of(value.get("rows")), *numbers_of(value.get("cols"))]:
-            self.found[DISTORTION[0]] = name, self.found.pop(PHOTON_VISION)[1]
+            self.by_name[DISTORTION[0]] = name, self.by_name.pop(PHOTON_VISION)[1]
 
     def _merged(self, entries: Mapping[str, Any], depth: int = 3) -> dict[str, tuple[str, Any]]:
-        found: dict[str, tuple[str, Any]] = {}
+        merged: dict[str, tuple[str, Any]] = {}
         for name, value in entries.items():
             plain = plain_name(name)
             holds = depth and isinstance(value, dict) and "data" not in value and plain in CONTAINERS
-            own = self._merged(value, depth - 1) if holds else {plain: (name, value)}
+            inner_entries = self._merged(value, depth - 1) if holds else {plain: (name, value)}
             if plain in DISTORTION:
-                own = {_in_distortion(inner): one for inner, one in own.items()}
-            for inner, (theirs, one) in own.items():
-                before = found.setdefault(inner, (theirs, one))
+                inner_entries = {_in_distortion(inner): inner_value for inner, inner_value in inner_entries.items()}
+            for inner, (theirs, inner_value) in inner_entries.items():
+                before = merged.setdefault(inner, (theirs, inner_value))
                 if before[0] != theirs:
                     raise self.document.refusal(f"it has {before[0]} and {theirs}: leave one out")
-                if before[1] is not one:
+                if before[1] is not inner_value:
                     raise self.document.refusal(f"it has {theirs} twice, once in {name}: leave one out")
-        return found
+        return merged
 
     def has(self, *quantities: Sequence[str]) -> bool:
         """Whether there is an entry under one of the names of these quantities."""
-        return any(name in self.found for names in quantities for name in names)
+        return any(name in self.by_name for names in quantities for name in names)
 
     def sides(self) -> list[str]:
         """Return the ends of the names of a pair's cameras; [] for one camera."""
@@ -129,14 +129,16 @@ class Spelled:
 
     def side(self, end: str) -> Spelled:
         """Return the entries of one camera of a pair, under the names of a single one."""
-        own, stems = Spelled(Fields(self.document, {})), {*MATRIX, *DISTORTION}
+        side_entries, stems = Spelled(Fields(self.document, {})), {*MATRIX, *DISTORTION}
         others = {stem + side for pair in SIDES if end in pair for side in pair for stem in stems}
-        own.found = {name: one for name, one in self.found.items() if name not in others or not self._is_list(name)}
-        own.found |= {stem: self.found[stem + end] for stem in stems if self._is_list(stem + end)}
-        return own
+        side_entries.by_name = {
+            name: entry for name, entry in self.by_name.items() if name not in others or not self._is_list(name)
+        }
+        side_entries.by_name |= {stem: self.by_name[stem + end] for stem in stems if self._is_list(stem + end)}
+        return side_entries
 
     def _is_list(self, name: str) -> bool:
-        value = self.found[name][1] if name in self.found else None
+        value = self.by_name[name][1] if name in self.by_name else None
         return isinstance(value, list) or (isinstance(value, dict) and "data" in value)
 
     def numbers(
@@ -145,32 +147,34 @@ class Spelled:
         """Return the numbers of the entry with one of these names; ``empty`` if it is an empty list, and ``default`` if
         there is none. Raises InputError if it is missing, not of numbers, or there twice with different values.
         """
-        path, given = self.document.path, [self.found[name] for name in names if name in self.found]
-        for name, value in given:
-            if repr(flat(value, name, path)) != repr(flat(given[0][1], given[0][0], path)):
-                raise InputError(f"calibration file {path!r}: {given[0][0]} and {name} differ: leave one out")
-        if not given and default is not None:
+        path, entries = self.document.path, [self.by_name[name] for name in names if name in self.by_name]
+        for name, value in entries:
+            if repr(flat(value, name, path)) != repr(flat(entries[0][1], entries[0][0], path)):
+                raise InputError(f"calibration file {path!r}: {entries[0][0]} and {name} differ: leave one out")
+        if not entries and default is not None:
             return list(default)
-        if not given:
+        if not entries:
             raise InputError(f"{path!r} has no {names[0]} (known names, in any case: {', '.join(names)})")
-        name, value = given[0]
+        name, value = entries[0]
         value = flat(value, name, path)
         numbers = list(empty) if empty and value == [] else numbers_of(value)
-        if not numbers or not all(abs(one) <= LARGEST for one in numbers):
+        if not numbers or not all(abs(number) <= LARGEST for number in numbers):
             limits = f"finite numbers, up to {LARGEST:g}"
-            raise InputError(f"{name} in {path!r} is {shortened(given[0][1])}: it must be of {limits}")
+            raise InputError(f"{name} in {path!r} is {shortened(entries[0][1])}: it must be of {limits}")
         return numbers
 
     def number(self, names: Sequence[str], default: float | None = None) -> float:
         """Return the one number of an entry; see ``numbers``."""
-        found = self.numbers(names, default=None if default is None else [default])
-        if len(found) != 1:
-            raise self.document.refusal(f"{self.found[next(filter(self.found.get, names))][0]} is not one number")
-        return found[0]
+        values = self.numbers(names, default=None if default is None else [default])
+        if len(values) != 1:
+            raise self.document.refusal(f"{self.by_name[next(filter(self.by_name.get, names))][0]} is not one number")
+        return values[0]
 
     def unread(self, known: Collection[str]) -> list[str]:
         """Return the names of entries that may be a distortion, are not known, and are not 0."""
-        return [own for name, (own, value) in self.found.items() if name not in known and _may_bend(name, value)]
+        return [
+            spelling for name, (spelling, value) in self.by_name.items() if name not in known and _may_bend(name, value)
+        ]
 
     def size(self) -> tuple[float, float] | tuple[None, None]:
         """Return width and height of the picture; None and None if no entry tells them."""
@@ -178,13 +182,13 @@ class Spelled:
             return self.number(WIDTH), self.number(HEIGHT)
         if not self.has(SIZE):
             return None, None
-        sides = next(self.found[name][1] for name in SIZE if name in self.found)
+        sides = next(self.by_name[name][1] for name in SIZE if name in self.by_name)
         if isinstance(sides, dict) and "data" not in sides:
             return Spelled(Fields(self.document, sides)).size()
-        found = self.numbers(SIZE)
-        if len(found) != 2:
-            raise self.document.refusal(f"its image size has {len(found)} numbers: it must be width and height")
-        return found[0], found[1]
+        sides_given = self.numbers(SIZE)
+        if len(sides_given) != 2:
+            raise self.document.refusal(f"its image size has {len(sides_given)} numbers: it must be width and height")
+        return sides_given[0], sides_given[1]
 
 
 def unread_beside(entries: Fields, inner: str) -> str | None:
@@ -205,17 +209,17 @@ def cameras_of(entries: Fields) -> Iterator[tuple[str, Fields]]:
     without it; the prefix "" and all entries if there is none. Entries that have no prefix, or one without its number,
     belong to every camera: those of Camera.type to Camera1.fx.
     """
-    prefixes = list(dict.fromkeys(found[1] for name in entries if (found := PREFIX.fullmatch(name))))
+    prefixes = list(dict.fromkeys(match[1] for name in entries if (match := PREFIX.fullmatch(name))))
     if not prefixes or any(plain_name(name) in FX for name in entries):
         yield "", entries
         return
     for prefix in prefixes:
         stem = prefix.rstrip("0123456789")
-        own: dict[str, Any] = {}
+        own_entries: dict[str, Any] = {}
         for name, value in entries.values.items():
-            before = next((one for one in (prefix, stem) if re.match(re.escape(one) + r"[._\s-]", name)), None)
+            before = next((start for start in (prefix, stem) if re.match(re.escape(start) + r"[._\s-]", name)), None)
             if before is not None:
-                own[name[len(before) + 1 :]] = value
+                own_entries[name[len(before) + 1 :]] = value
             elif not any(name.startswith(other) for other in prefixes):
-                own.setdefault(name, value)
-        yield prefix, Fields(entries.document, own)
+                own_entries.setdefault(name, value)
+        yield prefix, Fields(entries.document, own_entries)

@@ -48,7 +48,7 @@ class Columns(NamedTuple):
 
     time: tuple[tuple[int, float | None], ...]
     """Columns whose sum is the time, with the seconds of their units; None of one that is not told."""
-    place: tuple[int, ...]
+    position: tuple[int, ...]
     turn: tuple[int, ...]
     """w, x, y, z of the quaternion, or the three numbers of axis times angle."""
     head: str = ""
@@ -108,16 +108,16 @@ def placed_in_lines(document: Document) -> list[Placed]:
     for number, row in enumerate(rows, 1):
         document.check()
         name = f"pose {number}"
-        used = [index for index, _ in columns.time] + [*columns.place, *columns.turn]
+        used = [index for index, _ in columns.time] + [*columns.position, *columns.turn]
         if len(row) <= max(used) or (columns is not IN_NANOSECONDS and len(row) != len(rows[0])):
             document.numbers(row, name, len(rows[0]) if columns is not IN_NANOSECONDS else 8)  # raises
         values = dict(zip(used, document.numbers([row[index] for index in used], name, len(used)), strict=True))
-        place, turn = [values[i] for i in columns.place], [values[i] for i in columns.turn]
+        position, turn = [values[i] for i in columns.position], [values[i] for i in columns.turn]
         if len(turn) == 4:
-            pose = of_quaternion(document, turn, place, name)
+            pose = of_quaternion(document, turn, position, name)
         else:
             pose = np.eye(4)
-            pose[:3, :3], pose[:3, 3] = rotation(np.array([turn]))[0], place
+            pose[:3, :3], pose[:3, 3] = rotation(np.array([turn]))[0], position
         if columns.time:
             time = sum(_seconds(values[i], unit) for i, unit in columns.time)
             placed.append(Placed("", "", None, pose, time))
@@ -132,7 +132,7 @@ def _check(document: Document, columns: Columns, rows: list[list[str]]) -> None:
     odd = next((number for number, line in enumerate(lines, 1) if ("," in line) != ("," in lines[0])), None)
     if odd is not None:
         raise document.refusal(f"pose {odd} is {shown(lines[odd - 1])}: all lines must have commas, or none")
-    if columns.head and not (len(columns.place) == 3 and len(columns.turn) in (3, 4)):
+    if columns.head and not (len(columns.position) == 3 and len(columns.turn) in (3, 4)):
         raise document.refusal(
             f"its columns are {shown(columns.head)}: they must be a time, x, y, z, and qx, qy, qz, qw or rx, ry, rz"
         )
@@ -156,7 +156,7 @@ def _check(document: Document, columns: Columns, rows: list[list[str]]) -> None:
 
 def _is_unit(rows: Iterable[list[str]], four: slice) -> bool:
     """Whether four numbers are of length 1 in all lines."""
-    return all(abs(sum(one * one for one in numbers_of(row[four])) - 1) < UNIT_LENGTH for row in rows)
+    return all(abs(sum(number * number for number in numbers_of(row[four])) - 1) < UNIT_LENGTH for row in rows)
 
 
 def _seconds(value: float, unit: float | None) -> float:

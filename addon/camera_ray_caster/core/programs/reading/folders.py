@@ -39,7 +39,7 @@ def beside(path: str) -> tuple[str, ...]:
 def pair_of(path: str) -> tuple[str, str] | None:
     """Return the file of lenses and that of poses that belong to a path; None of a folder of pictures."""
     file = Path(path)
-    pair = next((found for program in PROGRAMS if (found := program.pair(file)) is not None), None)
+    pair = next((files for program in PROGRAMS if (files := program.pair(file)) is not None), None)
     if pair is None:
         return None if file.is_dir() else (str(file), str(file))
     return str(pair[0]), str(pair[1])

@@ -63,11 +63,11 @@ def _inside(document: Document, depth: int, path: str) -> Iterator[tuple[str, Le
         document.check()
         items = [(name, value)] if isinstance(value, dict) else []
         if isinstance(value, list):
-            items = [(f"{name}.{i}", one) for i, one in enumerate(value) if isinstance(one, dict)]
-        for own, entries in items:
-            part = document.part(entries)
+            items = [(f"{name}.{i}", item) for i, item in enumerate(value) if isinstance(item, dict)]
+        for name_of_item, entries in items:
+            inner = document.part(entries)
             try:
-                lenses = _known(part) if entries else None
+                lenses = _known(inner) if entries else None
             except InputError as refusal:
                 lenses = [Lens("", "", {}, refusal)]
             if lenses is not None:
@@ -75,9 +75,9 @@ def _inside(document: Document, depth: int, path: str) -> Iterator[tuple[str, Le
                 if beside is not None and len(lenses) == 1 and not lenses[0].name:
                     reason = f"{beside} beside {name} may be its distortion: move it there"
                     lenses = [Lens("", "", {}, document.refusal(reason))]
-                yield from ((f"{path}{own}", lens) for lens in lenses)
+                yield from ((f"{path}{name_of_item}", lens) for lens in lenses)
             elif depth > 1:
-                yield from _inside(part, depth - 1, f"{path}{own}.")
+                yield from _inside(inner, depth - 1, f"{path}{name_of_item}.")
 
 
 def _named(inside: list[tuple[str, Lens]]) -> list[Lens]:
@@ -90,8 +90,8 @@ def _named(inside: list[tuple[str, Lens]]) -> list[Lens]:
     for entry, lens in inside:
         different.setdefault(lens.name, {}).setdefault(repr(lens[1:]), (entry, lens))
     lenses = []
-    for name, own in different.items():
-        for entry, lens in own.values():
-            lenses.append(lens if len(own) == 1 and (name or len(different) == 1) else
+    for name, by_entry in different.items():
+        for entry, lens in by_entry.values():
+            lenses.append(lens if len(by_entry) == 1 and (name or len(different) == 1) else
                           lens._replace(name=f"{entry} {name}".strip()))  # fmt: skip
     return lenses

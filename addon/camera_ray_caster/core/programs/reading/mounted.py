@@ -76,23 +76,23 @@ def mounted(path: str, key: str, frame: tuple[int, int] | None, rate: float, met
         raise document.refusal(f"it has {len(placed):,} poses: {MOST_POSES:,} are read")
     if placed[0].moves or placed[0].time is not None:
         placed, note = _once_each(placed)
-        frames, poses = _frames(document, placed, rate), [one.pose for one in placed]
+        frames, poses = _frames(document, placed, rate), [pose.pose for pose in placed]
         return [Mounted(Path(path).stem, lens_file, True, [], frames, poses, note and f"{path}: {note}")]
     lenses = {lens.name: lens for lens in lenses_of(lens_file, key, frame)}
-    found: list[tuple[Placed, str, float | None, Lens]] = []
-    for one, name, number in _named(placed, {name: lens.model for name, lens in lenses.items()}):
-        lens = _lens(document, lenses, one, number)
+    named_poses: list[tuple[Placed, str, float | None, Lens]] = []
+    for pose, name, number in _named(placed, {name: lens.model for name, lens in lenses.items()}):
+        lens = _lens(document, lenses, pose, number)
         if lens.refusal is not None:
             raise lens.refusal
-        found.append((one, name, number, lens))
+        named_poses.append((pose, name, number, lens))
     cameras: dict[str, Mounted] = {}
-    for one, name, number, lens in _told_apart(found):
+    for pose, name, number, lens in _told_apart(named_poses):
         camera = cameras.setdefault(name, Mounted(name, lens_file, len(lenses) == 1))
         camera.lenses.append(lens)
         camera.frames.append(number)
-        one = one.changed(lambda pose: pose @ FROM_BLENDER)
-        camera.poses.append(one.pose)
-        camera.rolling.append(one.rolling)
+        pose = pose.changed(lambda matrix: matrix @ FROM_BLENDER)
+        camera.poses.append(pose.pose)
+        camera.rolling.append(pose.rolling)
     program = program_of(document)
     note = program.note(document) if program is not None else ""
     for camera in cameras.values():
@@ -105,17 +105,17 @@ def mounted(path: str, key: str, frame: tuple[int, int] | None, rate: float, met
 
 def _once_each(placed: list[Placed]) -> tuple[list[Placed], str]:
     """Return the poses of a trajectory, of several at one time the last, and a note on those that are left out."""
-    last = {one.frame if one.time is None else one.time: one for one in placed}
+    last = {pose.frame if pose.time is None else pose.time: pose for pose in placed}
     count = len(placed) - len(last)
-    said = f"of poses at one time the last is read; {count} {'is' if count == 1 else 'are'} left out" if count else ""
-    return list(last.values()), said
+    note = f"of poses at one time the last is read; {count} {'is' if count == 1 else 'are'} left out" if count else ""
+    return list(last.values()), note
 
 
 def _frames(document: Document, placed: list[Placed], rate: float) -> list[float | None]:
     """Return the frames of a trajectory, or of its times. Raises InputError beyond Blender's last frame."""
     if placed[0].moves:
-        return [one.frame for one in placed]
-    times = [one.time or 0.0 for one in placed]
+        return [pose.frame for pose in placed]
+    times = [pose.time or 0.0 for pose in placed]
     frames: list[float | None] = [1 + (time - times[0]) * rate for time in times]
     if max(abs(time - times[0]) for time in times) * rate >= LAST_FRAME:
         raise document.refusal(
@@ -129,54 +129,55 @@ def _of_folder(path: str, key: str, frame: tuple[int, int] | None, rate: float, 
     """Return the cameras of a folder with a file for each picture; equal lenses are one."""
     pictures = pictures_in(Path(path))
     moves = [] if pictures.trajectory is None else placed_in(Document(str(pictures.trajectory), frame), meters)
-    times = np.array([one.time or 0.0 for one in moves])
+    times = np.array([pose.time or 0.0 for pose in moves])
     cameras: dict[str, Mounted] = {}
     lenses: dict[str, Lens] = {}
     for order, file in enumerate(pictures.files, 1):
         move = nearest(times, number_of(file)) if moves else None
         if moves and move is None:
             continue
-        for one in mounted(str(file), key, frame, rate, meters):
-            if one.lens is None:
+        for camera_of_file in mounted(str(file), key, frame, rate, meters):
+            if camera_of_file.lens is None:
                 raise InputError(f"file {str(file)!r} of a folder of pictures has no lens: take it out")
-            camera = cameras.setdefault(one.name, Mounted(one.name, one.file, one.alone))
-            camera.lenses.append(lenses.setdefault(repr(one.lens), one.lens))
+            name = camera_of_file.name
+            camera = cameras.setdefault(name, Mounted(name, camera_of_file.file, camera_of_file.alone))
+            camera.lenses.append(lenses.setdefault(repr(camera_of_file.lens), camera_of_file.lens))
             camera.frames.append(number_of(file) if pictures.of.numbered else float(order))
-            camera.poses.append(one.poses[0] if move is None else moves[move].pose @ one.poses[0])
+            camera.poses.append(camera_of_file.poses[0] if move is None else moves[move].pose @ camera_of_file.poses[0])
     if not cameras:
         raise InputError(f"folder {path!r} has no picture at a time of its trajectory: give both of one recording")
     return list(cameras.values())
 
 
-def _told_apart(found: list[tuple[Placed, str, float | None, Lens]]) -> list[tuple[Placed, str, float | None, Lens]]:
+def _told_apart(poses: list[tuple[Placed, str, float | None, Lens]]) -> list[tuple[Placed, str, float | None, Lens]]:
     """Return poses with names that are of one camera each; see ``mounted``."""
     numbers: dict[str, dict[str, int]] = {}
     models: dict[str, str] = {}
     frames, several = set(), set()
-    for _, name, frame, lens in found:
-        own = numbers.setdefault(name, {})
-        own.setdefault(lens.name, len(own) + 1)
+    for _, name, frame, lens in poses:
+        lens_numbers = numbers.setdefault(name, {})
+        lens_numbers.setdefault(lens.name, len(lens_numbers) + 1)
         if (name, frame) in frames or lens.model != models.setdefault(name, lens.model):
             several.add(name)
         frames.add((name, frame))
-    several -= {name for name, own in numbers.items() if len(own) == 1}
+    several -= {name for name, lens_numbers in numbers.items() if len(lens_numbers) == 1}
     return [
-        (one, f"{name}-{numbers[name][lens.name]}" if name in several else name, frame, lens)
-        for one, name, frame, lens in found
+        (pose, f"{name}-{numbers[name][lens.name]}" if name in several else name, frame, lens)
+        for pose, name, frame, lens in poses
     ]
 
 
-def _lens(document: Document, lenses: dict[str, Lens], one: Placed, number: float | None) -> Lens:
+def _lens(document: Document, lenses: dict[str, Lens], pose: Placed, number: float | None) -> Lens:
     """Return the lens of a pose: that of its camera, or of its camera in this frame, or the only one, if it or the
     camera has no name of its own.
     """
     only = next(iter(lenses), "")
-    if len(lenses) == 1 and (only in UNNAMED or one.camera in UNNAMED):
+    if len(lenses) == 1 and (only in UNNAMED or pose.camera in UNNAMED):
         return lenses[only]
-    for name in (one.camera, f"{one.camera} {number:g}" if number is not None else one.camera):
+    for name in (pose.camera, f"{pose.camera} {number:g}" if number is not None else pose.camera):
         if name in lenses:
             return lenses[name]
-    raise document.refusal(f"it has a pose of camera {one.camera!r}, and no lens of it: give a file with both")
+    raise document.refusal(f"it has a pose of camera {pose.camera!r}, and no lens of it: give a file with both")
 
 
 def _named(placed: list[Placed], models: dict[str, str]) -> list[tuple[Placed, str, float | None]]:
@@ -184,24 +185,26 @@ def _named(placed: list[Placed], models: dict[str, str]) -> list[tuple[Placed, s
     has a lens of its own, of several models; one camera if these are of one model; else one for each lens. Frames that
     are not told are in the order of the file. ``models``: key of each lens's model.
     """
-    told = [(one, *object_and_frame(one.image)) for one in placed]
-    if any(one.frame is not None for one in placed):
-        return [(one, one.image or "Camera", one.frame) for one in placed]
-    if all(number is not None for _, _, number in told):
-        return told
-    if not any(one.image for one in placed):
-        return [(one, one.camera or "Camera", None) for one in placed]
-    names = {name for _, name, _ in told}
-    if len({one.camera for one in placed}) == len(names) == len(placed) > 1:
-        several = len({models.get(one.camera) for one in placed}) > 1
-        return [(one, name if several else "Camera", float(frame)) for frame, (one, name, _) in enumerate(told, 1)]
+    by_names = [(pose, *object_and_frame(pose.image)) for pose in placed]
+    if any(pose.frame is not None for pose in placed):
+        return [(pose, pose.image or "Camera", pose.frame) for pose in placed]
+    if all(number is not None for _, _, number in by_names):
+        return by_names
+    if not any(pose.image for pose in placed):
+        return [(pose, pose.camera or "Camera", None) for pose in placed]
+    names = {name for _, name, _ in by_names}
+    if len({pose.camera for pose in placed}) == len(names) == len(placed) > 1:
+        several = len({models.get(pose.camera) for pose in placed}) > 1
+        return [
+            (pose, name if several else "Camera", float(frame)) for frame, (pose, name, _) in enumerate(by_names, 1)
+        ]
     counts: dict[str, int] = {}
-    found: list[tuple[Placed, str, float | None]] = []
-    for one in placed:
-        counts[one.camera] = counts.get(one.camera, 0) + 1
-        name = f"Camera {one.camera}" if one.camera.isdecimal() else "Camera"
-        found.append((one, name, float(counts[one.camera])))
-    if len(counts) > 1 and len({name for _, name, _ in found}) < len(counts):  # lenses named by their first pictures
+    in_order: list[tuple[Placed, str, float | None]] = []
+    for pose in placed:
+        counts[pose.camera] = counts.get(pose.camera, 0) + 1
+        name = f"Camera {pose.camera}" if pose.camera.isdecimal() else "Camera"
+        in_order.append((pose, name, float(counts[pose.camera])))
+    if len(counts) > 1 and len({name for _, name, _ in in_order}) < len(counts):  # lenses named by their first pictures
         numbers = {camera: i for i, camera in enumerate(counts, 1)}
-        return [(one, f"Camera {numbers[one.camera]}", number) for one, _, number in found]
-    return found
+        return [(pose, f"Camera {numbers[pose.camera]}", number) for pose, _, number in in_order]
+    return in_order

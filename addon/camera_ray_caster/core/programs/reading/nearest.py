@@ -24,7 +24,7 @@ def unknown(document: Document) -> InputError:
     if not document.is_text:
         return document.refusal(_by_name(document) or "it is not a text file, and of no binary format that is read")
     there = {word.lower() for word in WORDS.findall(document.text[:READ_UP_TO])}
-    marks = {one.name: one.marks.lower().split() for one in PROGRAMS if one.marks}
+    marks = {program.name: program.marks.lower().split() for program in PROGRAMS if program.marks}
     lost = {name: [word for word in words if word not in there] for name, words in marks.items()}
     nearest = min(lost, key=lambda name: (len(lost[name]) / len(marks[name]), -len(marks[name])))
     is_near = 2 * len(lost[nearest]) <= len(marks[nearest])

@@ -38,7 +38,7 @@ def placed_in(document: Document, meters: float) -> list[Placed]:
         raise document.refusal(f"it has no poses that are read: give a file of {PLACED}")
     size = np.ones((4, 4))
     size[:3, 3] = factor(program.unit, meters)
-    return [one.changed(lambda pose: pose / size) for one in placed]
+    return [pose.changed(lambda matrix: matrix / size) for pose in placed]
 
 
 def object_and_frame(image: str) -> tuple[str, float | None]:
@@ -47,5 +47,5 @@ def object_and_frame(image: str) -> tuple[str, float | None]:
     """
     stem = PurePath(image.replace("\\", "/")).name
     stem = stem.rsplit(".", 1)[0] if re.search(r"\.[A-Za-z]+\d?$", stem) else stem
-    found = None if DATE.fullmatch(stem) else ENDING.fullmatch(stem)
-    return (found[1], float(found[2])) if found and abs(float(found[2])) <= LAST_FRAME else (stem, None)
+    match = None if DATE.fullmatch(stem) else ENDING.fullmatch(stem)
+    return (match[1], float(match[2])) if match and abs(float(match[2])) <= LAST_FRAME else (stem, None)
