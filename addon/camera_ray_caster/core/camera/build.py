@@ -89,6 +89,8 @@ def _check_apart(raw: BlenderCamera, model: Model, pose: Pose) -> None:
     """Raise InputError if the pixels around the middle of the frame have the same direction in the world and the same
     point at the clip start. The message names the number that is farthest from 1. A middle without rays is accepted.
     """
+    if not model.differentiable:  # a pixel may be a single ray
+        return
     half = np.array((-0.25, 0.25))
     x, y = model.frame[0] / 2 + half[None, :], model.frame[1] / 2 + half[:, None]
     with np.errstate(all="ignore"):

@@ -4,6 +4,8 @@ Assumption: rays change smoothly from entry to entry. The entries are the center
 that fill the frame; a frame of another size has the same rays, as a picture that is scaled. Between the entries unit
 directions, and origins if there are any, are interpolated component by component, by a cubic spline or by straight
 lines; half an entry beyond the outermost ones they are continued. Entries with NaN are squares without rays.
+Without interpolation each square has the ray of its entry, and neighbors may look anywhere, as behind microlenses; a
+point is seen by the entry whose ray passes nearest, if it is nearer than half the way to an entry beside it.
 A table may also have the control points of a cubic B-spline, as the generic cameras of T. Schöps et al.
 The inverse is numerical. ``facts`` has the errors of the interpolation, estimated from every second row and column.
 Singular: places where the table's rays do not change from entry to entry, such as the poles of a panorama.
@@ -28,8 +30,8 @@ from ..maths.vector import is_grid, norm
 from ..records import BlenderCamera, InputError, Raster
 from .model import Model, Step
 from .parts.calibration import FROM_FILE
-from .parts.ray_grid import AROUND, CUBIC, LINEAR, SPLINE, RayGrid, weights_of
-from .parts.ray_search import places_of
+from .parts.ray_grid import AROUND, CUBIC, LINEAR, NONE, SPLINE, RayGrid, weights_of
+from .parts.ray_search import entries_of, places_of
 from .parts.settings import FROM_A_FILE, Choice, Flag, Item, Numbers
 from .parts.silhouette import MARGIN
 from .parts.vectors import Vectors
@@ -63,6 +65,7 @@ INTERPOLATION = Choice(
         Item(CUBIC, "Cubic", "A cubic spline through the entries, smooth", 0),
         Item(LINEAR, "Linear", "Straight lines between the entries", 1),
         Item(SPLINE, "Control Points", "The entries are the control points of a cubic B-spline", 2),
+        Item(NONE, "None", "The ray of the nearest entry: rays may jump from pixel to pixel, as behind microlenses", 3),
     ),
 )  # fmt: skip
 SLIDE = Flag(
@@ -109,6 +112,7 @@ class RayTable(Model):
         Step("Direction: the sum m of the entries around it with both weights, over its length n", "r = m / n"),
     )
     LINES = Step("Weights of the two columns around it, and of rows by t", "w0 = 1 - s, w1 = s")
+    ENTRY = Step("Direction: that of the nearest entry, m, over its length n", "r = m / n")
     ORIGIN = Step("Origin, the sum q of the origins with the same weights", "o = q")
 
     @property
@@ -116,7 +120,13 @@ class RayTable(Model):
         """See Model: a table with straight lines has other weights, and one with origins a sum of them."""
         position, entry, weights, direction = self.FORMULA
         weights = self.LINES if self.grid.kind == LINEAR else weights
-        return position, entry, weights, direction, *([] if self.central else [self.ORIGIN])
+        steps = (position, self.ENTRY) if self.is_by_entry else (position, entry, weights, direction)
+        return *steps, *([] if self.central else [self.ORIGIN])
+
+    @property
+    def is_by_entry(self) -> bool:
+        """Whether each pixel has the ray of an entry, without interpolation."""
+        return self.grid.kind == NONE
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> RayTable:
@@ -148,8 +158,18 @@ class RayTable(Model):
 
     @property
     def smooth(self) -> bool:  # type: ignore[override]
-        """See Model: straight lines have kinks."""
-        return self.grid.kind != LINEAR
+        """See Model: straight lines have kinks, and without interpolation rays jump."""
+        return self.grid.kind not in (LINEAR, NONE)
+
+    @property
+    def differentiable(self) -> bool:  # type: ignore[override]
+        """See Model: without interpolation pixels are single rays."""
+        return not self.is_by_entry
+
+    @property
+    def guarded(self) -> bool:  # type: ignore[override]
+        """See Model: an entry sees what is nearer to its ray than to those of others."""
+        return not self.is_by_entry
 
     def rays(self, x, y):
         """Return origin and unit direction; see Model."""
@@ -171,10 +191,12 @@ class RayTable(Model):
         if grid.has_holes:
             near_u, near_v = (np.clip(np.floor(at + 0.5), 0, n - 1) for at, n in ((u, columns), (v, rows)))
             inside = inside & (look_up(grid.has_ray, _whole(near_v * columns + near_u)) > 0)
+        if self.is_by_entry:
+            u, v = u + 0.5, v + 0.5
         column, row = np.clip(np.floor(u), -1, columns - 1), np.clip(np.floor(v), -1, rows - 1)
         across, up = weights_of(u - column, grid.kind), weights_of(v - row, grid.kind)
         column, spread = _shared(column, row)
-        first, wide = AROUND - (grid.kind != LINEAR), columns + 2 * AROUND
+        first, wide = AROUND - (len(across) == 4), columns + 2 * AROUND
         corner, taps = _whole((row + first) * wide + (column + first)), range(len(across))
         index = corner + (AROUND - first) * (wide + 1)
         total = []
@@ -187,8 +209,9 @@ class RayTable(Model):
     def project(self, points):
         """See Model: the numerical inverse, from the entry whose ray passes nearest to the point."""
         points = np.asarray(points, np.float64)
+        find = entries_of if self.is_by_entry else places_of
         with np.errstate(all="ignore"):  # NaN and inf are valid results: no ray
-            places = places_of(self.grid, points.reshape(-1, 3))
+            places = find(self.grid, points.reshape(-1, 3))
             pixels = (places - self.shift) / self.scale
             pixels[np.isnan(self.rays(*pixels.T)[1][0])] = np.nan
         return pixels.reshape(*points.shape[:-1], 2)

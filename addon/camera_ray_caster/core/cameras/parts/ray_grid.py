@@ -18,9 +18,9 @@ from ...records import InputError
 from .extended import WIDE, control_points, extended
 from .seen_parts import PARTS, SeenParts
 
-CUBIC, LINEAR, SPLINE = "CUBIC", "LINEAR", "SPLINE"
-"""Kinds of interpolation: a cubic spline through the entries, straight lines between them, and a cubic B-spline whose
-control points the entries are.
+CUBIC, LINEAR, SPLINE, NONE = "CUBIC", "LINEAR", "SPLINE", "NONE"
+"""Kinds of interpolation: a cubic spline through the entries, straight lines between them, a cubic B-spline whose
+control points the entries are, and none: the ray of the nearest entry, whatever its neighbors are.
 """
 
 AROUND = 2
@@ -43,7 +43,7 @@ class RayGrid:
         length 0 or infinite numbers, neighbors more than 90 degrees apart, and a table that folds.
         """
         self.kind, self.shape = kind, directions.shape[:2]
-        least = 4 if kind == SPLINE else 2
+        least = {SPLINE: 4, NONE: 1}.get(kind, 2)
         if directions.ndim != 3 or directions.shape[2] != 3 or min(self.shape) < least:
             raise InputError(f"directions are of shape {directions.shape}: they must be (rows, columns, 3), {least} or "
                              "more rows and columns")  # fmt: skip
@@ -67,7 +67,8 @@ class RayGrid:
             raise InputError("it has no ray: each entry has NaN")
         self.directions = np.where(self.known[..., None], scaled / length, np.nan)
         self.origins = None if origins is None or not np.nan_to_num(origins).any() else origins
-        _check_neighbors(self.directions, self.origins)
+        if kind != NONE:
+            _check_neighbors(self.directions, self.origins)
 
     def slid(self) -> RayGrid:
         """Return the table with each origin moved along its ray to the foot of the perpendicular from the mean origin.
@@ -121,6 +122,8 @@ class RayGrid:
     @lazy
     def shortest(self) -> float:
         """A length that interpolated directions have at least: 0.9 of the least in the middle of a cell."""
+        if self.kind == NONE:
+            return 1.0
         row, column = (np.arange(side - 1) + 0.5 for side in self.shape)
         whole = self.known[1:, 1:] & self.known[1:, :-1] & self.known[:-1, 1:] & self.known[:-1, :-1]
         middle = between(self.nodes[..., :3], row[:, None], column, self.kind)[whole]
@@ -129,12 +132,12 @@ class RayGrid:
     @lazy
     def errors(self) -> tuple[float, float]:
         """Estimated largest errors of interpolated rays between the entries and half an entry beyond: the angle of
-        directions in radians, and the distance of origins. 0 for SPLINE, whose curve is the table's own.
+        directions in radians, and the distance of origins. 0 for SPLINE, whose curve is the table's own, and NONE.
 
         The table of every second row and column is interpolated where it has no entries. Its error there, over 2**4 for
         cubics, and over 2**2 for lines, is that of the whole table.
         """
-        if self.kind == SPLINE:
+        if self.kind in (SPLINE, NONE):
             return 0.0, 0.0
         worst = [(0.0, 0.0)]
         for first in (0, 1):
@@ -165,8 +168,10 @@ class RayGrid:
         """Parts of cells, or blocks of cells, in entries, by their rays.
 
         Interpolated vectors are means, with positive weights, of the nodes that the interpolation reads: parts of cells
-        have nodes of their own.
+        have nodes of their own. Without interpolation they are entries, or blocks of entries.
         """
+        if self.kind == NONE:
+            return self._seen_entries()
         nodes, known = self.nodes, np.pad(self.known, 1)
         if self.kind == LINEAR:
             nodes = nodes[1:-1, 1:-1]
@@ -184,9 +189,19 @@ class RayGrid:
                 for ends, scale in zip(places, scales, strict=True))  # fmt: skip
         return SeenParts(low, high, np.concatenate(np.broadcast_arrays(u[None], v[:, None]), axis=2))
 
+    def _seen_entries(self) -> SeenParts:
+        places = [np.unique(np.linspace(0, side, min(side, 2 * PARTS) + 1).astype(int)) for side in self.shape]
+        low = high = self.values
+        for axis, place in enumerate(places):
+            low, high = (end.reduceat(each, place[:-1], axis=axis) for end, each in ((np.fmin, low), (np.fmax, high)))
+        v, u = (np.stack((place[:-1], place[1:]), axis=1) - 0.5 for place in places)
+        return SeenParts(low, high, np.concatenate(np.broadcast_arrays(u[None], v[:, None]), axis=2))
+
 
 def nodes_of(values: np.ndarray, known: np.ndarray, kind: str) -> np.ndarray:
     """Return what the interpolation of a table (rows, columns, k) sums with weights: (rows + 4, columns + 4, k)."""
+    if kind == NONE:
+        return np.pad(np.nan_to_num(values), ((AROUND, AROUND), (AROUND, AROUND), (0, 0)), mode="edge")
     wide = extended(values, known, 1 if kind == LINEAR else 3)
     kept = slice(WIDE - AROUND, AROUND - WIDE)
     return (control_points(wide) if kind == CUBIC else wide)[kept, kept]
@@ -217,7 +232,10 @@ def _blocks(end: np.ufunc, nodes: np.ndarray, known: np.ndarray, places: list[np
 
 
 def weights_of(t, kind: str) -> tuple:
-    """Return the weights of the entries -1, 0, 1, 2 around a place t from 0 to 1, or for LINEAR of 0 and 1."""
+    """Return the weights of the entries -1, 0, 1, 2 around a place t from 0 to 1, for LINEAR of 0 and 1, for NONE of 0.
+    """
+    if kind == NONE:
+        return (1.0,)
     s = 1 - t
     if kind == LINEAR:
         return s, t

@@ -32,6 +32,12 @@ SLACK = 64
 of the ray's origin from the eye, over the distance between the two.
 """
 
+HALF = 0.7072
+"""Half of the diagonal of a square of entries, with a margin: no point between four rays is lost."""
+
+PRODUCTS = 1 << 20
+"""Number of points times entries that are held against each other at once."""
+
 AT_ONCE = 2048
 """Number of points sought at once: their working arrays take some megabytes."""
 
@@ -53,6 +59,45 @@ def places_of(grid: RayGrid, points: np.ndarray) -> np.ndarray:
                 break
             block_places[lost] = _search(grid, block[lost], start[lost])
     return places
+
+
+def entries_of(grid: RayGrid, points: np.ndarray) -> np.ndarray:
+    """Return the places u, v (n, 2) of the entries of a table without interpolation that see points (n, 3): those whose
+    rays pass nearest, of several the first; NaN where the point is farther from this ray than HALF of the way to the
+    nearest of the entries beside it. Each point is held against each entry.
+    """
+    row, column = np.nonzero(grid.known)
+    ahead = grid.directions[row, column]
+    eyes = np.zeros(3) if grid.origins is None else grid.origins[row, column]
+    places, step = np.full((len(points), 2), np.nan), max(1, PRODUCTS // len(row))
+    for first in range(0, len(points), step):
+        block = points[first : first + step]
+        away = block[:, None] - eyes
+        t = np.einsum("nmk,mk->nm", away, ahead)
+        away = away - t[..., None] * ahead
+        missed = np.where(t > 0, np.einsum("nmk,nmk->nm", away, away), np.inf)
+        best = missed.argmin(axis=1)
+        some = np.arange(len(best))
+        reach = HALF * _beside(grid, row[best], column[best], t[some, best])
+        rounding = SLACK * EPS * (np.sqrt(_dot(block, block)) + grid.farthest)
+        sees = np.flatnonzero(missed[some, best] <= np.maximum(reach, rounding) ** 2)
+        places[first + sees] = np.stack((column[best], row[best]), axis=1)[sees]
+    return places
+
+
+def _beside(grid: RayGrid, row: np.ndarray, column: np.ndarray, t: np.ndarray) -> np.ndarray:
+    """Return the distances, (n,), at t of the rays of entries from the nearest other ray of the four entries beside; 0
+    if there is none.
+    """
+    wide = np.pad(grid.values, ((1, 1), (1, 1), (0, 0)), constant_values=np.nan)
+    least = np.full(len(row), np.inf)
+    for down, right in ((0, 1), (2, 1), (1, 0), (1, 2)):
+        change = wide[row + down, column + right] - wide[row + 1, column + 1]
+        change[:, :3] *= t[:, None]
+        apart = change[:, :3] + (0.0 if grid.origins is None else change[:, 3:])
+        distance = np.sqrt(_dot(apart, apart))
+        least = np.fmin(least, np.where(distance > 0, distance, np.inf))
+    return np.where(least < np.inf, least, 0.0)
 
 
 def _search(grid: RayGrid, points: np.ndarray, places: np.ndarray) -> np.ndarray:
