@@ -49,7 +49,7 @@ def by_hand(user, scenes):
     yield from user.wait(0.5)
     assert is_colored(user, plain, user.picture("animated_driven"), "tilt", region)
     lesson, numbers = addon("view3d.lesson"), []
-    lesson.pixels[:] = [(9, 9)]
+    lesson.clicked.choose([(9, 9)])
     for frame in FRAMES:
         yield from to_frame(user, frame)
         assert abs(own.tilt - frame / 4) < 1e-6

@@ -24,12 +24,12 @@ def step_through(user, scenes):
     assert space.region_3d.view_perspective == "CAMERA"
     camera = addon("read.scene_cache").cached_scene(bpy.context).camera
     yield from user.click(*place_of(user, 400, 200))
-    (first,) = lesson.pixels
+    (first,) = lesson.clicked.pixels
     assert np.abs(np.subtract(first, (400, 200))).max() <= 3
     user.send("keydown", "shift")
     yield from user.click(*place_of(user, 150, 120))
     user.send("keyup", "shift")
-    assert len(lesson.pixels) == 2
+    assert len(lesson.clicked.pixels) == 2
     yield from user.key("Escape")
     user.picture("step_through")
     one = lesson.lessons(bpy.context)[first]
@@ -46,7 +46,7 @@ def step_through(user, scenes):
     bpy.ops.camera_ray_caster.clear_steps()
     yield from user.wait(0.7)
     off = user.cut(user.picture("step_through_cleared"), user.region("WINDOW"))
-    assert not lesson.pixels
+    assert not lesson.clicked.pixels
     assert np.count_nonzero(np.abs(on - off).max(axis=2) > 0.1) > 500
 
 
@@ -57,14 +57,14 @@ def lens_in_view(user, scenes):
     yield from user.press(f"{BUTTON}step_through(")
     yield from user.wait(0.5)
     yield from user.click(*place_of(user, 200, 110))
-    assert len(lesson.pixels) == 1
+    assert len(lesson.clicked.pixels) == 1
     yield from user.key("Escape")
     yield from user.point(user.region().x + 60, user.region().y + 60)
     yield from user.scroll(40)
     yield from user.wait(0.5)
     user.picture("lens_section")
     camera = addon("read.scene_cache").cached_scene(bpy.context).camera
-    assert addon("view3d.lens_icon").icon(camera, lesson.pixels[0])
+    assert addon("view3d.lens_icon").icon(camera, lesson.clicked.pixels[0])
     space.region_3d.view_perspective = "ORTHO"
     space.region_3d.view_location = camera.pose.eye
     space.region_3d.view_rotation = Euler((np.pi / 2, 0, np.pi / 2)).to_quaternion()
@@ -104,7 +104,7 @@ def step_through_image(user, scenes):
     yield from user.open_tab("Ray Caster", editor)
     yield from user.press(f"{BUTTON}step_through(", sidebar)
     yield from lesson_frames(user, editor)
-    lesson.pixels.clear()
+    lesson.clicked.choose([])
     with bpy.context.temp_override(**in_view):
         bpy.ops.image.view_zoom_ratio(ratio=16)
     yield from user.wait(0.5)
@@ -112,11 +112,11 @@ def step_through_image(user, scenes):
     middle = image.size[0] // 2 - 8, image.size[1] // 2
     pixels = [middle, (middle[0] + 5, middle[1] - 6)]
     yield from user.click(*place_in(view, image, *np.add(pixels[0], 0.5)))
-    assert lesson.pixels == pixels[:1]
+    assert lesson.clicked.pixels == pixels[:1]
     user.send("keydown", "shift")
     yield from user.click(*place_in(view, image, *np.add(pixels[1], (0.9, 0.1))))
     user.send("keyup", "shift")
-    assert lesson.pixels == pixels
+    assert lesson.clicked.pixels == pixels
     yield from user.key("Escape")
     yield from user.wait(0.5)
     marked = user.picture("step_through_image")
@@ -149,7 +149,7 @@ def lesson_frames(user, editor):
             user.send(*(["keydown", "shift"] if i > 1 else ["keyup", "shift"]))
             yield from user.click(*place_in(view, image, *clicks[i]))
             user.send("keyup", "shift")
-            assert len(lesson.pixels) == i, lesson.pixels
+            assert len(lesson.clicked.pixels) == i, lesson.clicked.pixels
         yield from user.wait(0.3)
         user.picture(f"lesson_{i:02}", (editor, area))
     with bpy.context.temp_override(**in_view):
@@ -213,7 +213,7 @@ def lecture(user, scenes):
     lesson, place = addon("view3d.lesson"), bpy.context.window_manager.camera_ray_caster_place
     view, panel = user.area().spaces.active.region_3d, user.region()
     view.view_perspective = "CAMERA"
-    lesson.pixels[:] = [(150, 120)]
+    lesson.clicked.choose([(150, 120)])
     yield from user.wait(0.7)
     off = user.cut(user.picture("lecture_off"), user.region("WINDOW"))
     yield from look_from(user, "ABOVE")
@@ -224,7 +224,7 @@ def lecture(user, scenes):
     for side in ("BACK", "OUTSIDE", "SIDE", "ABOVE", "BACK"):
         yield from look_from(user, side)
         user.picture(f"lecture_{side.lower()}")
-        assert lesson.pixels == [(150, 120)]
+        assert lesson.clicked.pixels == [(150, 120)]
     on = user.cut(user.picture("lecture_formula"), user.region("WINDOW"))
     assert np.count_nonzero(np.abs(on - off).max(axis=2) > 0.1) > 5000
     yield from user.point(*place_of(user, 300, 200))

@@ -121,7 +121,7 @@ def ray_of_a_pixel(user, scenes):
     yield from user.key("Escape")
     yield from user.wait(0.5)
     user.picture("stranger_ray")
-    (pixel,) = lesson.pixels
+    (pixel,) = lesson.clicked.pixels
     hit = lesson.lessons(bpy.context)[pixel].point
     yield from user.press(f"{BUTTON}copy_steps(")
     assert f"({pixel[0]}, {pixel[1]}) of" in bpy.context.window_manager.clipboard
@@ -134,7 +134,7 @@ def ray_of_a_pixel(user, scenes):
     yield from user.press(f"{BUTTON}pixel_of_point(")
     yield from user.wait(0.5)
     user.picture("stranger_point")
-    assert lesson.pixels == [pixel]
+    assert lesson.clicked.pixels == [pixel]
 
 
 def export_colmap(user, scenes):

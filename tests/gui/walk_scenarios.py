@@ -77,7 +77,7 @@ def drag_x_before_a_class(user, scenes):
     yield from user.point(*start)
     user.send("mousedown", 1)
     yield from user.wait(0.3)
-    (first,) = lesson.pixels
+    (first,) = lesson.clicked.pixels
     before = lesson.lessons(context)[first].steps
     for part in range(1, 11):
         x = round(start[0] + (end[0] - start[0]) * part / 10)
@@ -86,7 +86,7 @@ def drag_x_before_a_class(user, scenes):
     user.send("mouseup", 1)
     yield from user.wait(0.7)
     user.picture("walk_dragged")
-    (last,) = lesson.pixels
+    (last,) = lesson.clicked.pixels
     assert last[0] > first[0] + raster.width / 5
     assert lesson.lessons(context)[last].steps != before
     yield from user.key("Escape")
@@ -94,9 +94,9 @@ def drag_x_before_a_class(user, scenes):
     place.x = -0.5
     yield from user.wait(0.7)
     user.picture("walk_slider")
-    assert lesson.pixels[0][0] == round(raster.width / 4)
+    assert lesson.clicked.pixels[0][0] == round(raster.width / 4)
     yield from user.press(f"{BUTTON}copy_steps(")
-    assert f"({lesson.pixels[0][0]}, " in context.window_manager.clipboard
+    assert f"({lesson.clicked.pixels[0][0]}, " in context.window_manager.clipboard
     bpy.ops.camera_ray_caster.clear_steps()
 
 

@@ -116,10 +116,10 @@ def marks(user, scenes):
     yield from user.press(f"{BUTTON}step_through(")
     yield from user.click(*place_of(user, *pixel))
     yield from user.key("Escape")
-    yield from user.until(lambda: lesson.pixels, "a pixel is clicked")
+    yield from user.until(lambda: lesson.clicked.pixels, "a pixel is clicked")
     yield from user.wait(2)
     shown = user.picture("marks_clicked")
-    x, y = map(round, place_of(user, *lesson.pixels[0]))
+    x, y = map(round, place_of(user, *lesson.clicked.pixels[0]))
     assert near(shown, x, y, lesson.SEEN) <= 3
     assert 3 <= near(shown, x, y, lesson.RAY) <= 8, "the frame around the pixel"
     bpy.ops.camera_ray_caster.clear_steps()
@@ -230,38 +230,38 @@ def drag_a_ray(user, scenes):
     yield from user.press(f"{BUTTON}step_through(")
     yield from user.wait(1)
     marks = lesson.draw_in_picture
-    lesson.draw_in_picture = lambda *given: (drawn.append((time.monotonic(), *lesson.pixels)), marks(*given))
+    lesson.draw_in_picture = lambda *given: (drawn.append((time.monotonic(), *lesson.clicked.pixels)), marks(*given))
     start = place_of(user, 300, 270)
     yield from user.click(*start)
-    yield from user.until(lambda: lesson.pixels, "a pixel is clicked")
-    first = lesson.pixels[0]
+    yield from user.until(lambda: lesson.clicked.pixels, "a pixel is clicked")
+    first = lesson.clicked.pixels[0]
     yield from user.point(*start)
     user.send("mousedown", 1)
     yield from user.wait(0.2)
     drawn.clear()
     began = time.process_time()
     yield from user.drag(start, np.add(start, (120, 30)), 60, 0.05)
-    yield from user.until(lambda: lesson.pixels[0][0] > first[0] + 60, "the mark has followed")
+    yield from user.until(lambda: lesson.clicked.pixels[0][0] > first[0] + 60, "the mark has followed")
     moved = len({pixel for _, pixel in drawn})
     spent = 1e3 * (time.process_time() - began) / moved
     rate = moved / (drawn[-1][0] - drawn[0][0])
     print(f"dragged: {moved} updates, {rate:.1f} a second, {spent:.0f} ms of processor time each")
     assert moved > 3, drawn
     yield from user.wait(0.5)
-    assert lesson.held, "the view is not drawn while its mark moves"
-    places = [place_of(user, *pixel) for pixel in (lesson.pixels[0], first)]
+    assert lesson.clicked.held, "the view is not drawn while its mark moves"
+    places = [place_of(user, *pixel) for pixel in (lesson.clicked.pixels[0], first)]
     shown = user.picture("dragging")
     assert [near(shown, *map(round, place), lesson.RAY) <= 8 for place in places] == [True, False]
     user.send("mouseup", 1)
     yield from user.wait(0.5)
-    assert not lesson.held
+    assert not lesson.clicked.held
     shown = user.picture("dragged")
     assert [near(shown, *map(round, place), lesson.RAY) <= 8 for place in places] == [True, False]
-    assert len(lesson.pixels) == 1
-    held = lesson.pixels[0]
+    assert len(lesson.clicked.pixels) == 1
+    held = lesson.clicked.pixels[0]
     yield from user.point(*place_of(user, 600, 400))
     yield from user.wait(0.3)
-    assert lesson.pixels == [held], "the mark stays where it was dropped"
+    assert lesson.clicked.pixels == [held], "the mark stays where it was dropped"
     yield from user.key("Escape")
     place = bpy.context.window_manager.camera_ray_caster_place
     place.x = 0.5

@@ -86,7 +86,7 @@ def test_a_driver_that_gives_no_item_is_told_and_one_that_is_muted_drives_nothin
     curve.mute = False
     scene.frame_set(3)
     assert getattr(own, name) != before
-    lesson.pixels[:] = [(3, 3)]
+    lesson.clicked.choose([(3, 3)])
     try:
         for panel in PANELS:
             drawn(blender, panel)

@@ -20,7 +20,7 @@ def place(blender):
 def test_a_lecture_writes_one_step_large_and_keys_stay_within_the_steps(blender, scene, place, monkeypatch):
     written = []
     step = blender.ops.camera_ray_caster.lecture_step
-    lesson.pixels[:] = [(12, 8)]
+    lesson.clicked.choose([(12, 8)])
     assert not step.poll()
     place.lecture = True
     (explained,) = lesson.lessons(blender.context).values()
@@ -48,7 +48,7 @@ def test_a_lecture_without_a_pixel_begins_in_the_middle_with_four_digits_until_m
 ):
     place.lecture = True
     width, height = scene.render.resolution_x, scene.render.resolution_y
-    assert lesson.pixels == [(width // 2, height // 2)]
+    assert lesson.clicked.pixels == [(width // 2, height // 2)]
     (few,) = lesson.lessons(blender.context).values()
     place.all_digits = True
     (all_digits,) = lesson.lessons(blender.context).values()
@@ -62,7 +62,7 @@ def test_a_lecture_without_a_pixel_begins_in_the_middle_with_four_digits_until_m
 def test_a_view_of_the_ray_shows_eye_and_hit_below_the_text_and_beside_the_sidebar(
     blender, scene, place, monkeypatch, side
 ):
-    lesson.pixels[:] = [(12, 8)]
+    lesson.clicked.choose([(12, 8)])
     (explained,) = lesson.lessons(blender.context).values()
     view, region = SimpleNamespace(view_perspective="CAMERA"), SimpleNamespace(width=900, height=600)
     space = SimpleNamespace(overlay=SimpleNamespace(show_overlays=False), lens=40.0)

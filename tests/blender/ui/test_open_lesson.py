@@ -23,7 +23,7 @@ def asked(blender, monkeypatch):
     """The addresses that a browser is asked for; two pixels are clicked."""
     opened = []
     monkeypatch.setattr(webbrowser, "open", lambda address, *more: opened.append(address) or True)
-    lesson.pixels[:] = [(1, 1), PIXEL]
+    lesson.clicked.choose([(1, 1), PIXEL])
     yield opened
     lesson.forget()
 

@@ -127,7 +127,7 @@ def test_sentences_of_a_lesson_begin_with_a_capital_and_formulas_as_they_are(ble
     from camera_ray_caster.blender.ui.lesson_panels import SidebarLesson
     from camera_ray_caster.blender.view3d import lesson
 
-    lesson.pixels[:] = [(12, 8)]
+    lesson.clicked.choose([(12, 8)])
     said = drawn(blender, SidebarLesson)
     assert "Unit normal" in said
     assert "u = (1, 0, 0)" in said
@@ -139,7 +139,7 @@ def test_step_through_names_the_objects_that_a_render_shows_otherwise(blender, s
     from camera_ray_caster.blender.ui.lesson_panels import SidebarLesson
     from camera_ray_caster.blender.view3d import lesson
 
-    lesson.pixels[:] = [(12, 8)]
+    lesson.clicked.choose([(12, 8)])
     assert "as in the viewport" not in drawn(blender, SidebarLesson)
     for name in "ABCD":
         blender.ops.mesh.primitive_cube_add(location=(50, 0, 0))

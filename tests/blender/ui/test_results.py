@@ -108,7 +108,7 @@ def test_the_steps_of_pixels_are_copied_and_forgotten(blender, scene):
     from camera_ray_caster.blender.view3d import lesson
 
     assert not blender.ops.camera_ray_caster.copy_steps.poll()
-    lesson.pixels[:] = [(12, 8), (0, 0), (24, 0)]  # the last one is outside of the frame
+    lesson.clicked.choose([(12, 8), (0, 0), (24, 0)])  # the last one is outside of the frame
     found = lesson.lessons(blender.context)
     assert list(found) == [(12, 8), (0, 0)]
     assert found[12, 8].seen.name == "Sphere"
@@ -122,7 +122,7 @@ def test_the_steps_of_pixels_are_copied_and_forgotten(blender, scene):
 
 
 def test_the_color_of_a_clicked_pixel_follows_the_settings_of_the_picture(blender, scene):
-    lesson.pixels[:] = [(12, 8)]
+    lesson.clicked.choose([(12, 8)])
     settings = scene.camera_ray_caster
     for settings.shading, settings.samples in (("MATERIAL", 1), ("GRID", 1), ("GRID", 4)):
         blender.ops.camera_ray_caster.cast()
@@ -216,15 +216,15 @@ def test_step_through_gives_every_window_its_cursor_back(blender, scene, monkeyp
 
 def test_the_sliders_move_the_latest_pixel_and_its_ray(blender, scene):
     place = blender.context.window_manager.camera_ray_caster_place
-    lesson.pixels[:] = [(1, 1), (12, 8)]
+    lesson.clicked.choose([(1, 1), (12, 8)])
     assert (place.column, place.row) == (12, 8)
     assert (place.x, place.y) == pytest.approx((2 * 12.5 / WIDTH - 1, 2 * 8.5 / HEIGHT - 1))
     before = lesson.lessons(blender.context)[12, 8].seen
     place.x = -0.99
-    assert lesson.pixels == [(1, 1), (0, 8)]
+    assert lesson.clicked.pixels == [(1, 1), (0, 8)]
     place.column = 900
     place.y = 1.0
-    assert lesson.pixels == [(1, 1), (WIDTH - 1, HEIGHT - 1)]
+    assert lesson.clicked.pixels == [(1, 1), (WIDTH - 1, HEIGHT - 1)]
     after = lesson.lessons(blender.context)[WIDTH - 1, HEIGHT - 1].seen
     assert after.view == pytest.approx((place.x, place.y))
     assert after.direction[0] > before.direction[0]

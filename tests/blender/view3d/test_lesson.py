@@ -19,7 +19,7 @@ def test_rays_and_marks_are_drawn_for_pixels_where_overlays_are_shown(function, 
     context = SimpleNamespace(space_data=space, region_data=None, region=region, scene=scene, preferences=preferences)
     monkeypatch.setattr(lesson, "bpy", SimpleNamespace(context=context))
     monkeypatch.setattr(lesson, "gpu", MagicMock())
-    monkeypatch.setattr(lesson, "pixels", pixels)
+    monkeypatch.setattr(lesson.clicked, "pixels", pixels)
     monkeypatch.setattr(lesson, "lessons", lambda context: asked.append(context) or {})
     getattr(lesson, function)()
     assert len(asked) == (overlays and len(pixels) > 0)

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...core.cast import moment
 from ...core.lesson.lesson import lesson, pixel_at
 from ..engine.reading import read_as_rendered
 from ..process import signals
@@ -45,7 +44,7 @@ def run(arguments: Sequence[str], prog: str) -> int:
         about["layer"] = job.layer
     if camera.pixel_time is not None:
         frame = float(np.asarray(camera.pixel_time.frame_at(column + 0.5, row + 0.5)))
-        camera, shapes = moment(camera, shapes, frame)
+        camera, shapes = camera.at(frame), shapes.at(frame)
         about["frame"] = frame
     steps = lesson(
         camera, shapes, column, row, shading=job.shading, samples=job.samples,

@@ -8,6 +8,7 @@ from mathutils import Matrix
 from ...core.lesson.diagram import pixel_outline
 from ..read.scene_cache import cached_scene
 from ..view3d import lesson, text
+from ..view3d.clicked import clicked
 from .lesson_operators import OfLesson
 
 SIDES = {
@@ -65,7 +66,7 @@ class RayView(OfLesson, bpy.types.Operator):
     def execute(self, context):
         """Turn the 3D View, the first one if the operator runs elsewhere, and frame the ray."""
         views = [area for area in context.screen.areas if area.type == "VIEW_3D"]
-        latest = lesson.lessons(context).get(lesson.pixels[-1])
+        latest = lesson.lessons(context).get(clicked.pixels[-1])
         if not views or latest is None:
             self.report({"ERROR"}, "There is no 3D View: open one" if latest else "The pixel is outside the frame")
             return {"CANCELLED"}

@@ -8,6 +8,7 @@ from bpy.props import BoolProperty, FloatProperty, IntProperty, PointerProperty
 from ..read.scene_cache import cached_scene
 from ..view3d import lesson
 from ..view3d.camera_frame import frame_in
+from ..view3d.clicked import clicked
 from ..view3d.shown import is_other
 from .needs import OfScene
 
@@ -68,10 +69,10 @@ class StepThrough(OfScene, bpy.types.Operator):
             return {"RUNNING_MODAL"} if self.is_dragging else {"PASS_THROUGH"}
         if is_pressed:
             self.is_dragging = True
-            known = lesson.pixels if event.shift else []
+            known = clicked.pixels if event.shift else []
         else:
-            known = lesson.pixels[:-1]
-        lesson.pixels[:] = [*(one for one in known if one != pixel), pixel]
+            known = clicked.pixels[:-1]
+        clicked.choose([*(one for one in known if one != pixel), pixel])
         redraw(context)
         return {"RUNNING_MODAL"}
 
@@ -120,10 +121,10 @@ def hold(context, region) -> None:
     is_view = region is not None and any(region == own for area in context.screen.areas if area.type == "VIEW_3D"
                                          for own in area.regions)  # fmt: skip
     held = [region.as_pointer()] if is_view else []
-    if held != lesson.held:
-        lesson.held.clear()
+    if held != clicked.held:
+        clicked.hold([])
         redraw(context)
-        lesson.held[:] = held
+        clicked.hold(held)
 
 
 def redraw(context) -> None:
@@ -138,7 +139,7 @@ def redraw(context) -> None:
                 continue
             is_open = any(region.type == "UI" and region.width > 1 for region in area.regions)
             for region in area.regions:
-                if region.type in {"WINDOW", "UI" if is_open else "HEADER"} and region.as_pointer() not in lesson.held:
+                if region.type in {"WINDOW", "UI" if is_open else "HEADER"} and region.as_pointer() not in clicked.held:
                     region.tag_redraw()
 
 
@@ -151,7 +152,7 @@ def _get(axis: int, is_view: bool):
     """Return the function that reads a coordinate of the latest pixel, in pixels or in [-1, 1]."""
 
     def get(self) -> float:
-        at = lesson.pixels[-1][axis] if lesson.pixels else 0
+        at = clicked.pixels[-1][axis] if clicked.pixels else 0
         return 2 * (at + 0.5) / _sides(bpy.context)[axis] - 1 if is_view else at
 
     return get
@@ -161,10 +162,10 @@ def _set(axis: int, is_view: bool):
     """Return the function that moves the latest pixel, within the frame."""
 
     def put(self, value: float) -> None:
-        side, pixel = _sides(bpy.context)[axis], list(lesson.pixels[-1]) if lesson.pixels else [0, 0]
+        side, pixel = _sides(bpy.context)[axis], list(clicked.pixels[-1]) if clicked.pixels else [0, 0]
         at = floor((value + 1) / 2 * side) if is_view else int(value)
         pixel[axis] = min(max(at, 0), side - 1)
-        lesson.pixels[-1:] = [tuple(pixel)]
+        clicked.choose([*clicked.pixels[:-1], (pixel[0], pixel[1])])
         redraw(bpy.context)
 
     return put
@@ -200,8 +201,8 @@ class Place(bpy.types.PropertyGroup):
 def begin_lecture(context) -> None:
     """Begin with the pixel in the middle if none is chosen, or end."""
     width, height = _sides(context)
-    if not lesson.pixels:
-        lesson.pixels[:] = [(width // 2, height // 2)]
+    if not clicked.pixels:
+        clicked.choose([(width // 2, height // 2)])
     redraw(context)
 
 
@@ -214,7 +215,7 @@ class OfLesson:
     def poll(cls, context):
         """Gray out the operator if no pixel was clicked."""
         cls.poll_message_set("First click a pixel with Step Through")
-        return bool(lesson.pixels)
+        return bool(clicked.pixels)
 
 
 class CopySteps(OfLesson, bpy.types.Operator):

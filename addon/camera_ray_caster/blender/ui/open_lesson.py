@@ -10,7 +10,7 @@ from ...core.names import file_name
 from ...core.records import InputError
 from ...core.web.page import lesson_page
 from ..read.scene_cache import cached_scene
-from ..view3d import lesson
+from ..view3d.clicked import clicked
 from .needs import OfScene, reporting
 
 
@@ -29,7 +29,7 @@ class OpenLesson(OfScene, bpy.types.Operator):
         camera = scene.camera
         if camera is None:
             raise InputError("the camera cannot be cast: see the reason in the sidebar")
-        path = write_lesson(camera, lesson.pixels[-1] if lesson.pixels else None, scene.shapes)
+        path = write_lesson(camera, clicked.pixels[-1] if clicked.pixels else None, scene.shapes)
         bpy.ops.wm.url_open(url=path.as_uri())
         self.report({"INFO"}, f"Wrote {path}")
         return {"FINISHED"}

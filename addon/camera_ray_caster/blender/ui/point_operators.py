@@ -6,6 +6,7 @@ from mathutils import Matrix, Vector
 
 from ..read.scene_cache import cached_scene
 from ..view3d import lesson
+from ..view3d.clicked import clicked
 from .lesson_operators import OfLesson, redraw
 from .needs import OfScene, select_alone
 
@@ -28,11 +29,11 @@ class PixelOfPoint(OfScene, bpy.types.Operator):
         size = camera.raster.width, camera.raster.height
         inside = np.isfinite(places).all(axis=1) & ((places >= 0) & (places < size)).all(axis=1)
         if not inside.any():
-            lesson.pixels.clear()
+            clicked.choose([])
             redraw(context)
             self.report({"WARNING"}, f"{what}: no pixel of the camera sees this point")
             return {"CANCELLED"}
-        lesson.pixels[:] = dict.fromkeys((int(x), int(y)) for x, y in places[inside])
+        clicked.choose(dict.fromkeys((int(x), int(y)) for x, y in places[inside]))
         x, y = places[inside][-1]
         where = f"{what}: x = {x:.3f}, y = {y:.3f}, from the bottom left"
         self.report({"INFO"}, where + hidden_by(context, points[inside][-1]))

@@ -22,6 +22,7 @@ from ...core.lesson.lesson import Lesson, lesson
 from ..properties.declared import SHADING
 from ..read.scene_cache import CachedScene, cached_scene
 from .camera_frame import frame_in, in_pixels
+from .clicked import clicked
 from .glass import draw_lens, forget_lens, parts_of_paths
 from .lecture import write_step
 from .overlay import batch_of, draw_batch
@@ -37,10 +38,6 @@ WIDTH, POINT, MARK, TEXT = 2.5, 8.0, 5.0, 12.0
 MOST_SAMPLES = 256
 """Largest number of samples that are cast for a pixel while a sidebar is drawn: they take 0.2 s in a small scene."""
 
-pixels: list[tuple[int, int]] = []
-"""Clicked pixels (column, row), the latest last."""
-held: list[int] = []
-"""Pointer of the region of the 3D View in which the latest pixel is dragged."""
 _read: list[tuple[CachedScene, dict[str, Any], dict[tuple[int, int], Lesson]]] = []
 
 
@@ -56,7 +53,7 @@ def lessons(context) -> dict[tuple[int, int], Lesson]:
     if scene.camera is None:
         return {}
     raster = scene.camera.raster
-    shown = [(x, y) for x, y in pixels if x < raster.width and y < raster.height]
+    shown = [(x, y) for x, y in clicked.pixels if x < raster.width and y < raster.height]
     with at_most(most_digits):
         for pixel in shown:
             if pixel not in known:
@@ -67,7 +64,7 @@ def lessons(context) -> dict[tuple[int, int], Lesson]:
 def draw() -> None:
     """Draw the rays, the outlines of the pixels and the points on the rays in space; called for each 3D View."""
     context = bpy.context
-    if not (pixels and context.space_data.overlay.show_overlays) or picture_frame(context) is not None:
+    if not (clicked.pixels and context.space_data.overlay.show_overlays) or picture_frame(context) is not None:
         return
     found, scale = lessons(context), context.preferences.system.ui_scale
     size = context.scene.camera.data.display_size if found else 0.0
@@ -83,7 +80,7 @@ def draw() -> None:
 
 def draw_glass() -> None:
     """Draw a real lens while steps or the overlay are shown; called by Blender for each 3D View."""
-    draw_lens(bpy.context, bool(pixels))
+    draw_lens(bpy.context, bool(clicked.pixels))
 
 
 def _parts(camera, one: Lesson, size: float):
@@ -120,26 +117,28 @@ def draw_in_picture(context, frame, found) -> None:
 def draw_marks() -> None:
     """Draw the marks of the pixels, except a dragged one; called by Blender for each Image Editor and each 3D View."""
     context = bpy.context
-    _draw_marks(context, pixels[:-1] if context.region.as_pointer() in held else pixels)
+    _draw_marks(context, clicked.pixels[:-1] if context.region.as_pointer() in clicked.held else clicked.pixels)
 
 
 def draw_held(*_) -> None:
     """Draw the marks of a dragged pixel; called by Blender with the mouse cursor, in pixels of the window."""
     context = bpy.context
-    if context.region is not None and context.region.as_pointer() in held:
+    if context.region is not None and context.region.as_pointer() in clicked.held:
         with gpu.matrix.push_pop():
             gpu.matrix.translate((context.region.x, context.region.y))
-            _draw_marks(context, pixels[-1:])
+            _draw_marks(context, clicked.pixels[-1:])
 
 
 def _draw_marks(context, shown) -> None:
     """Draw a frame around each of some pixels in the picture of the context's region."""
     every = lessons(context) if shown and context.space_data.overlay.show_overlays else {}
     found = {pixel: one for pixel, one in every.items() if pixel in shown}
-    frame = frame_in(context, cached_scene(context).camera.raster) if found else None
+    if not found:
+        return
+    frame = frame_in(context, cached_scene(context).camera.raster)
     place = context.window_manager.camera_ray_caster_place
-    if place.lecture and pixels[-1] in found and (frame is not None or context.area.type == "VIEW_3D"):
-        write_step(context, found[pixels[-1]], place.step)
+    if place.lecture and clicked.pixels[-1] in found and (frame is not None or context.area.type == "VIEW_3D"):
+        write_step(context, found[clicked.pixels[-1]], place.step)
     if frame is None:
         return
     raster, scale = cached_scene(context).camera.raster, context.preferences.system.ui_scale
@@ -165,8 +164,8 @@ def _draw_marks(context, shown) -> None:
 @persistent
 def forget(*_):
     """Forget the pixels: another file is loaded."""
-    pixels.clear()
-    held.clear()
+    clicked.choose([])
+    clicked.hold([])
     forget_lens()
     _read.clear()
 

@@ -10,7 +10,7 @@ from ..camera.camera import Camera
 from ..camera.pixel_time import MODE, READOUT, ROLLING_SHUTTER
 from ..camera.times import LinearTime
 from ..programs.parts.lens import Lens, Models, beyond, word_of
-from ..programs.parts.placed import Rolling
+from ..programs.parts.placed import FROM_BLENDER, Rolling
 from ..programs.parts.program import CameraRecord, ProgramFiles
 from .format import OWN_TIMES, Format, Shot
 from .lenses import calibrations
@@ -95,5 +95,5 @@ def record_of(shot: Shot, lens: Lens) -> CameraRecord:
 
 def _pose(camera: Camera) -> np.ndarray:
     pose = np.eye(4)
-    pose[:3, :3], pose[:3, 3] = camera.pose.basis * (1, -1, -1), camera.pose.eye
+    pose[:3, :3], pose[:3, 3] = camera.pose.basis * FROM_BLENDER.diagonal()[:3], camera.pose.eye
     return pose
