@@ -167,6 +167,7 @@ UNSEEN = {
 """Points in the camera's frame that have no pixel."""
 
 REFUSED = {
+    **lens_examples.REFUSED,
     **central_examples.REFUSED,
     **multiperspective_examples.REFUSED,
     **table_examples.REFUSED,

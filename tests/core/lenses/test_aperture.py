@@ -116,10 +116,14 @@ def test_rays_of_the_aperture_meet_at_the_plane_of_focus_and_pass_the_stop():
 
 
 @pytest.mark.parametrize("focus", [0.5, 10.0])
-@pytest.mark.parametrize("name", ["double_gauss_50mm", "fisheye_170_5mm", "petzval_50mm", "retrofocus_22mm"])
-def test_a_ball_is_sought_wherever_the_blur_shows_it(name, focus):
+@pytest.mark.parametrize(
+    ("name", "tilt"),
+    [("double_gauss_50mm", 0.0), ("fisheye_170_5mm", 0.0), ("petzval_50mm", 0.0), ("retrofocus_22mm", 0.0),
+     ("double_gauss_50mm", 0.3), ("retrofocus_22mm", -0.4)],
+)  # fmt: skip
+def test_a_ball_is_sought_wherever_the_blur_shows_it(name, tilt, focus):
     """Balls of any size at any distance, and at the plane of focus, with a point of a ray of the aperture."""
-    settings = {"use_dof": True, "aperture_fstop": 0.5, "focus_distance": focus, "sensor_width": 30.0}
+    settings = {"use_dof": True, "aperture_fstop": 0.5, "focus_distance": focus, "sensor_width": 30.0, "tau_y": tilt}
     size = 3840, 2560
     camera = crc.camera("REAL_LENS", size, lens_file=name, **settings)
     rng = np.random.default_rng(2)

@@ -20,15 +20,17 @@ def lens(name="double_gauss_50mm", **settings):
     return crc.camera("REAL_LENS", SIZE, lens_file=name, focus_distance=3.0, **settings)
 
 
+@pytest.mark.parametrize("tilt", [0.0, 0.4])
 @pytest.mark.parametrize("name", ["double_gauss_50mm", "retrofocus_22mm", "tessar_100mm", "singlet_100mm"])
-def test_the_chief_path_ends_as_the_camera_s_ray(name):
+def test_the_chief_path_ends_as_the_camera_s_ray(name, tilt):
     """From the film backwards, it leaves the front surface where the polynomials of the chief rays say."""
-    model = lens(name).model
+    model = lens(name, tau_x=tilt).model
     for x, y in (PIXEL, (48.0, 32.0), (70.25, 10.0)):
         path, (origin, direction) = chief_path(model, x, y), model.rays(x, y)
         np.testing.assert_allclose(path.points[-1], origin, rtol=0, atol=1e-11 * model.unit)
         np.testing.assert_allclose(path.direction, direction, rtol=0, atol=1e-11)
-        assert path.points[0][2] == pytest.approx((model.film - model.pupil) * model.unit)
+        beside = model.window.plane_from_pixels(x, y)[1] * np.sin(tilt)
+        assert path.points[0][2] == pytest.approx((model.film - beside - model.pupil) * model.unit, rel=1e-9)
         stop = path.points[len(model.optics.surfaces) - model.optics.stop]
         assert np.hypot(*stop[:2]) < 1e-11 * model.unit  # through the middle of the stop
 

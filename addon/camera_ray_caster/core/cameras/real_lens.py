@@ -4,7 +4,8 @@ Assumptions: geometric optics, centered surfaces that refract: spheres, conics, 
 between them, no diffraction. Chief rays pass the center of the stop, and are polynomials of the radius on the film
 (``core.lenses.chief``); rays of the aperture are traced surface by surface (``parts.pupil``). The eye is the center of
 the paraxial entrance pupil, so that framing and focus distance are those of a thin lens of the same focal length.
-Blender's Focal Length scales the whole lens. The film stands where the plane at the focus distance is sharpest.
+Blender's Focal Length scales the whole lens. The film stands where the plane at the focus distance is sharpest. A
+tilted film tilts the plane of focus (``parts.tilted_film``).
 Formula: with (a, b) the pixel on the film, upright, and h, z and q = tan(theta / 2) / r as functions of its length r,
 o = (a h, b h, z), r = (2 q a, 2 q b, q^2 r^2 - 1) / (1 + q^2 r^2). There is no ray where a rim is in the way.
 References: C. Kolb, D. Mitchell, P. Hanrahan, A Realistic Camera Model for Computer Graphics (1995);
@@ -31,16 +32,18 @@ from ..maths.vector import components
 from ..records import BlenderCamera, InputError, Pose, Raster
 from .model import IN_RAYS, Step, WindowModel
 from .parts.aperture import F_STOP, FOCUS_DISTANCE, Aperture, focus_of, thin_lens
+from .parts.calibration import TAU_X, TAU_Y
 from .parts.chief_search import ChiefSearch
 from .parts.differences import varied_by
 from .parts.film import FILM, LENS, Film, Window
+from .parts.lens_facts import MILLIMETER, TILTED, UPRIGHT, facts_of
 from .parts.lens_settings import COLOR, COLORS, FALLOFF, FOCUS, LENS_FILE, PARAXIAL, STATE, VIGNETTING, WAVELENGTH
 from .parts.pose import pose_from
 from .parts.pupil import Pupil, color_of, from_film, light_of, measured, of_color
 from .parts.silhouette import pixel_bounds, radial_intervals
+from .parts.tilt import Tilt
+from .parts.tilted_film import UPRIGHT_FILM, TiltedFilm
 
-MILLIMETER = 1e-3
-"""In Blender units, as for a thin lens."""
 RIM_SLACK = 2.0**-30
 """Share of the rim's radius beyond it within which a point counts as on the rim; see ``parts.radial``."""
 
@@ -48,13 +51,16 @@ RIM_SLACK = 2.0**-30
 ROUNDED = 0.034
 """A tenth of a stop, as a share of the f-number: a lens that is called f/2 may open to 2.03."""
 
+SAMPLES = 9
+"""Places of a tilted film across and up, at which its blur is measured."""
+
 TRACED = LENS, FOCUS_DISTANCE, F_STOP, STATE, WAVELENGTH
 """Numbers that have a new family of chief rays; their derivatives are those of differences."""
 
 
 @dataclass(frozen=True)
 class RealLens(WindowModel):
-    """The window gives the place on the film, upright, in mm of the lens file."""
+    """The window gives the place on the film, upright, in mm of the lens file, in the film's own plane."""
 
     chief: ChiefRays
     optics: Optics
@@ -70,6 +76,7 @@ class RealLens(WindowModel):
     """Depth of the plane of focus, Blender units."""
     vignetting: bool = True
     falls_off: bool = True
+    tilted: TiltedFilm = UPRIGHT_FILM
     prescription: Prescription | None = None
 
     key = "REAL_LENS"
@@ -80,26 +87,23 @@ class RealLens(WindowModel):
     central = False
     polynomials = IN_RAYS  # 0.1 of the time of a whole picture's rays
     SETTINGS = (
-        LENS_FILE, LENS, FOCUS, FOCUS_DISTANCE, F_STOP, STATE, WAVELENGTH, VIGNETTING, FALLOFF, COLOR, *FILM,
+        LENS_FILE, LENS, FOCUS, FOCUS_DISTANCE, F_STOP, STATE, WAVELENGTH, VIGNETTING, FALLOFF, COLOR, TAU_X, TAU_Y,
+        *FILM,
     )  # fmt: skip
-    FORMULA = (
-        Step(
-            "Point on the upright film, mm of the file (V: pixels along the fitted side; p: pixel height / width)",
-            "a = (x - W/2 + shift_x V) pitch, b = ((y - H/2) p + shift_y V) pitch",
-        ),
-        Step("Chief ray of the radius, by its polynomials", "rho = sqrt(a² + b²), h, z, q"),
-        Step("Angle from the axis", "theta = 2 atan(q rho)"),
-        Step("Origin, where it leaves the front surface", "o = (a h unit, b h unit, z unit)"),
-        Step("Direction", "r = (2 q a, 2 q b, q² rho² - 1)"),
-    )
+    FORMULA = UPRIGHT
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """See Model."""
+        return (*TILTED, *self.FORMULA[1:]) if self.tilted else self.FORMULA
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> RealLens:
-        """Build the lens of a file, focused. Raises InputError for a file that cannot be read, and for a focus distance
-        nearer than the lens allows.
+        """Build the lens of a file, focused. Raises InputError for a file that cannot be read, for a focus distance
+        nearer than the lens allows, and for a film that is tilted into the lens.
         """
         prescription = read_lens(LENS_FILE.read(raw))
-        if is_recorded(*(setting.read(raw) for setting in TRACED)):
+        if is_recorded(*(setting.read(raw) for setting in (*TRACED, TAU_X, TAU_Y))):
             raise NotRecordable("a lens is traced anew for these settings")
         try:
             optics = optics_of(prescription, STATE.read(raw), WAVELENGTH.read(raw))
@@ -109,7 +113,7 @@ class RealLens(WindowModel):
                 given, nearest = (f"{float(part * unit):.6g}" for part in (distance, optics.nearest_focus))
                 raise FOCUS_DISTANCE.refusal(raw, given, f"above {nearest}, since nothing nearer has an image")
             sharpest = FOCUS.read(raw) != PARAXIAL
-            film, radius, eye, *numbers = varied_by(
+            film, radius, eye, exit_pupil, *numbers = varied_by(
                 lambda *settings: focused(prescription, sharpest, *settings),
                 STATE.read(raw), WAVELENGTH.read(raw), distance, F_STOP.read(raw),
             )  # fmt: skip
@@ -118,8 +122,12 @@ class RealLens(WindowModel):
         size = Film.from_blender(raw, raster).size * MILLIMETER / unit
         window = Window.from_blender(raw, raster, size)
         chief = chief_of(numbers, chief_rays(optics, float(film)))
+        tilted = TiltedFilm(Tilt(TAU_X.read(raw), TAU_Y.read(raw)), film - exit_pupil)
+        tilted.check(raw, chief, float(film) - optics.rear.z, window, raster.size)
         flags = VIGNETTING.read(raw), FALLOFF.read(raw)
-        return cls(raster.size, window, chief, optics, film, eye, unit, radius, distance * unit, *flags, prescription)
+        return cls(
+            raster.size, window, chief, optics, film, eye, unit, radius, distance * unit, *flags, tilted, prescription
+        )
 
     @classmethod
     def following(cls, given: Mapping[str, Any]) -> dict[str, Any]:
@@ -128,7 +136,7 @@ class RealLens(WindowModel):
 
     def rays(self, x, y):
         """See Model. The errors are those of the polynomials, beside rounding; see ``formula_rounding``."""
-        a, b = self.window.plane_from_pixels(x, y)
+        _, (a, b) = self.on_film(x, y)
         squared = a * a + b * b
         rim = self.chief.rim * (1 + RIM_SLACK)
         passes, squared = squared <= rim * rim, np.minimum(squared, rim * rim)
@@ -136,6 +144,13 @@ class RealLens(WindowModel):
         share = 2 / (1 + tangent * tangent * squared)
         across, out = np.where(passes, tangent * share, np.nan), height * self.unit
         return (a * out, b * out, self._depth(place)), (a * across, b * across, 1 - share)
+
+    def on_film(self, x, y):
+        """Return a pixel's point on the film, x and y upright and z in the lens frame, mm of the file, and the point of
+        the upright film that has the same chief ray.
+        """
+        a, b = self.window.plane_from_pixels(x, y)
+        return self.tilted.places(a, b, self.film), self.tilted.upright(self.chief, a, b)
 
     def _depth(self, place):
         """Return z in the camera's frame of a place on the lens's axis."""
@@ -153,7 +168,8 @@ class RealLens(WindowModel):
         with np.errstate(all="ignore"):
             r = self.search.radius_of(across / self.unit, z / self.unit + self.pupil)
             scale = np.where(across > 0, r / np.where(across > 0, across, 1.0), np.where(r == 0, 0.0, np.nan))
-            pixels = np.stack(self.window.pixels_from_plane(x * scale, y * scale), axis=-1)
+            place = self.tilted.onto(self.chief, x * scale, y * scale)
+            pixels = np.stack(self.window.pixels_from_plane(*place), axis=-1)
         return pixels.reshape(*shape, 2)
 
     @lazy
@@ -167,10 +183,9 @@ class RealLens(WindowModel):
 
     @lazy
     def _corner(self) -> float:
-        """Radius of the frame's farthest corner on the film, with a pixel around the frame."""
-        left, right, low, high = self.window.extent(self.frame)
+        """Radius of the frame's farthest corner on the upright film, with a pixel around the frame."""
         pixel = abs(self.window.pitch_x) + abs(self.window.pitch_y)
-        return float(np.hypot(max(abs(left), abs(right)), max(abs(low), abs(high))) + pixel)
+        return self.tilted.farthest(self.chief, self.window.corners(self.frame)) + pixel
 
     @lazy
     def search(self) -> ChiefSearch:
@@ -186,7 +201,7 @@ class RealLens(WindowModel):
         grown = radii + np.where(away > 2 * reach, self._wander, reach)
         radii, angles, _, _ = self._family
         intervals = radial_intervals(centers, grown, lambda theta: np.interp(theta, angles, radii), angles[-1])
-        return pixel_bounds(self.window, *intervals)
+        return pixel_bounds(self.window, *self.tilted.intervals(self.chief, radii, *intervals))
 
     def aperture(self, raw: BlenderCamera, pose: Pose) -> Aperture | None:
         """Return the entrance pupil, with what of the lens passes; None without depth of field."""
@@ -195,8 +210,10 @@ class RealLens(WindowModel):
             return None
         wide = float(self.radius * abs(self.optics.entrance_pupil[1]) * self.unit)
         pupil = Pupil(wide, thin.focus, thin.blades, thin.rotation, thin.ratio)
-        numbers = float(self.radius), float(self.unit), self._corner
-        pupil = measured(self.optics, float(self.film), self.chief, pupil, *numbers)
+        numbers = float(self.radius), float(self.unit), self._corner, float(self.film)
+        grid = np.meshgrid(*(np.linspace(0.0, side, SAMPLES) for side in self.frame))
+        places = self.on_film(*map(np.ravel, grid)) if self.tilted else None
+        pupil = measured(self.optics, self.chief, pupil, *numbers, places)
         return replace(pupil, colors=self._colors) if COLOR.read(raw) else pupil
 
     @property
@@ -211,17 +228,17 @@ class RealLens(WindowModel):
 
     def through(self, aperture: Any, chief, x, y, point):
         """See Model: through a point of the disc in the exit pupil. No light passes where the direction's x is NaN."""
-        a, b = self.window.plane_from_pixels(x, y)
         place = tuple(part / aperture.radius for part in point)
         color = color_of(x, y) if aperture.colors else None
-        (ox, oy, oz), direction = from_film(self.optics, self.film, self.chief, aperture, a, b, place, color)
+        film, upright = self.on_film(x, y)
+        (ox, oy, oz), direction = from_film(self.optics, self.chief, aperture, film, upright, place, color)
         return (ox * self.unit, oy * self.unit, self._depth(oz)), direction
 
     def light(self, aperture: Any, x, y, point):
         """See Model."""
-        a, b = self.window.plane_from_pixels(x, y)
         place = tuple(part / aperture.radius for part in point)
-        value = light_of(self.film, self.chief, aperture, (a, b), place, self.falls_off, self.vignetting)
+        normal, (film, upright) = self.tilted.rows[2], self.on_film(x, y)
+        value = light_of(self.chief, aperture, film, upright, place, normal, self.falls_off, self.vignetting)
         if not aperture.colors:
             return value
         return tuple(of_color(color_of(x, y), np.eye(3)[k]) * (3 * value) for k in range(3))
@@ -241,38 +258,21 @@ class RealLens(WindowModel):
     @property
     def K(self) -> np.ndarray:
         """The camera matrix of the paraxial lens; see Model."""
-        tangent = float(self.chief.at(np.float64(0.0))[2])
-        width, height = self.window.pitch_x, self.window.pitch_y
-        center = self.window.center_x - 0.5, self.frame[1] - self.window.center_y - 0.5
-        focal = 1 / (2 * tangent)
-        return np.array([[focal / width, 0.0, center[0]], [0.0, focal / height, center[1]], [0.0, 0.0, 1.0]])
+        matrix = self.window.matrix(self.frame[1])
+        matrix[:2, :2] /= 2 * float(self.chief.at(np.float64(0.0))[2])
+        return matrix
 
     def facts(self) -> dict[str, object]:
-        """Return the lens's numbers, in mm but for f_number, and what its file states of them."""
-        scale = float(self.unit) / MILLIMETER
-        lens, optics = self.prescription, self.optics
-        known: dict[str, object] = {"lens": lens.name, "source": lens.source} if lens else {}
-        known |= {
-            "focal_length": optics.focal_length * scale,
-            "f_number": optics.focal_length / (2 * float(self.radius) * abs(optics.entrance_pupil[1])),
-            "widest_f_number": optics.widest_f_number,
-            "back_focus": optics.back_focus * scale,
-            "film_distance": (float(self.film) - optics.rear.z) * scale,
-            "stop": 2 * float(self.radius) * scale,
-            "image_circle": 2 * self.chief.rim * scale,
-            "field_of_view": [float(np.degrees(2 * self.chief.widest))],
-            "nearest_focus": optics.nearest_focus * scale,
-        }
-        claims = lens.claims.items() if lens else ()
-        return known | {f"{name}, as the file states": value for name, value in claims}
+        """See ``parts.lens_facts``."""
+        return facts_of(self.prescription, self.optics, self.chief, *map(float, (self.unit, self.radius, self.film)))
 
     def formula_values(self, x, y):
         """See Model."""
-        a, b = self.window.plane_from_pixels(x, y)
+        _, (a, b) = self.on_film(x, y)
         rim = self.chief.rim * (1 + RIM_SLACK)
         height, place, tangent = self.chief.at(np.minimum(a * a + b * b, rim * rim))
-        pitch = self.window.pitch_x
-        return {"h": height, "z": place - self.pupil, "q": tangent, "unit": self.unit, "pitch": pitch}
+        known = {"h": height, "z": place - self.pupil, "q": tangent, "unit": self.unit, "pitch": self.window.pitch_x}
+        return known | self.tilted.values(self.chief, *self.window.plane_from_pixels(x, y))
 
     @lazy
     def _wander(self) -> float:
@@ -292,5 +292,10 @@ class RealLens(WindowModel):
         height, place, tangent = (
             gamma(4) * float((np.abs(part) * steps).sum()) for part in (chief.height, chief.place, chief.tangent)
         )
-        origin = chief.errors[0] + height * chief.rim + place
-        return float(origin * self.unit), chief.errors[1] + 2 * tangent * chief.rim
+        origin, turned = chief.errors[0] + height * chief.rim + place, chief.errors[1] + 2 * tangent * chief.rim
+        if self.tilted:
+            off = self.tilted.rounding(chief, self.window.corners(self.frame))
+            radii, angles, *origins = self.search.table
+            origin += off * float(np.hypot(*(np.gradient(part, radii) for part in origins)).max())
+            turned += off * float(np.gradient(angles, radii).max())
+        return float(origin * self.unit), turned

@@ -36,6 +36,11 @@ ENDS = 3.0, 2.0, 1.6, 1.3, 1.15, 1.05, 1.01
 functions are steep. Beyond R rays of the aperture are bounded, and spread, as if the chief ray were that of R.
 """
 
+WIDEST = 2.0
+"""Largest radius over the focal length: without rims rays exist up to kilometers, which no polynomial describes. The
+widest lenses that are not fisheyes have 1.8.
+"""
+
 GOOD = 1e-12
 """Error in mm and radians up to which the first of ENDS is taken; if none is as good, the best."""
 
@@ -62,6 +67,8 @@ class ChiefRays:
     """Largest difference from the trace: of origins in mm, and of directions in radians."""
     widest: float
     """Angle from the axis of the chief ray at ``rim``."""
+    crossing_error: float
+    """Largest difference of e from the trace, in mm, up to ``rim``."""
 
     def at(self, squared):
         """Return h / r, z and tan(theta / 2) / r at r^2; NaN beyond ``end``. It can be recorded."""
@@ -70,6 +77,13 @@ class ChiefRays:
     def crossing(self, squared):
         """Return e / r at r^2, as ``at`` does; beyond ``end`` that of ``end``."""
         return self._values(np.minimum(squared, self.end * self.end), self.pupil)[0]
+
+    def crossing_with_slope(self, squared):
+        """Return e / r at r^2 and its derivative by r^2; beyond ``end`` those close to it."""
+        size = self.end * self.end
+        root = np.sqrt(1 - np.minimum(squared, size * (1 - 1e-6)) / size)
+        value, slope = clenshaw_with_slope(2 * root - 1, self.pupil)
+        return value, -slope / (size * root)
 
     def _values(self, squared, *series):
         t = 2 * np.sqrt(1 - squared / (self.end * self.end)) - 1
@@ -86,6 +100,15 @@ def clenshaw(t, series):
     return series[0] + t * now - before
 
 
+def clenshaw_with_slope(t, series):
+    """Return the value of a Chebyshev series and its derivative at t."""
+    before, now, slope_before, slope = 0.0, series[-1], 0.0, 0.0
+    for coefficient in series[-2:0:-1]:
+        slope_before, slope = slope, now + now + (t + t) * slope - slope_before
+        before, now = now, coefficient + (t + t) * now - before
+    return series[0] + t * now - before, now + t * slope - slope_before
+
+
 @lru_cache(maxsize=16)
 def chief_rays(optics: Optics, film: float) -> ChiefRays:
     """Return the chief rays of a film at z = film. Raises InputError if no ray passes the lens near its axis, and if
@@ -94,6 +117,7 @@ def chief_rays(optics: Optics, film: float) -> ChiefRays:
     family = _family(optics, film)
     radius, _, _, angle_end, rim_angle = family
     last, rim = (float(radius(np.array([angle]))[0]) for angle in (angle_end, min(rim_angle, BEFORE_END * angle_end)))
+    rim = min(rim, WIDEST * optics.focal_length)
     tried = []
     for end in dict.fromkeys(min(last, factor * rim) for factor in ENDS):
         tried.append(_polynomials(optics, film, family, end, rim))
@@ -118,14 +142,16 @@ def _polynomials(optics: Optics, film: float, family, end: float, rim: float) ->
     weights = 2 / (DEGREE + 1) * chebvander(nodes, DEGREE)
     weights[:, 0] /= 2
     height, place, tangent, pupil = (tuple((weights.T @ values).tolist()) for values in functions)
-    found = ChiefRays(height, place, tangent, pupil, end, rim, (0.0, 0.0), 0.0)
+    found = ChiefRays(height, place, tangent, pupil, end, rim, (0.0, 0.0), 0.0, 0.0)
     # up to the rim: beyond it nothing is asked but where the pupil is
     radii = np.linspace(rim / CHECKS, rim, CHECKS)
-    h, z, half, _ = _functions(optics, film, _angles(radius, radii, angle_end), front, rear)
+    h, z, half, e = _functions(optics, film, _angles(radius, radii, angle_end), front, rear)
     near_h, near_z, near_half = found.at(radii * radii)
     origin = np.hypot((near_h - h) * radii, near_z - z).max()
     turned = 2 * np.abs(np.arctan(near_half * radii) - np.arctan(half * radii)).max()
-    return replace(found, errors=(float(origin), float(turned)), widest=float(2 * np.arctan(half[-1] * rim)))
+    crossing = float(np.abs((found.crossing(radii * radii) - e) * radii).max())
+    errors, widest = (float(origin), float(turned)), float(2 * np.arctan(half[-1] * rim))
+    return replace(found, errors=errors, widest=widest, crossing_error=crossing)
 
 
 def _radii(nodes, end: float):

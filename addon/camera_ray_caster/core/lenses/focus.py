@@ -24,7 +24,7 @@ def own_focal_length(prescription: Prescription) -> float:
 def focused(
     prescription: Prescription, sharpest: bool, state: float, wavelength: float, distance: float, f_number: float
 ) -> tuple[float, ...]:
-    """Return z of the film, the radius of the stop, z of the entrance pupil, and the numbers of the chief rays.
+    """Return z of the film, the radius of the stop, z of the entrance and exit pupils, and the chief rays' numbers.
 
     distance: of the plane of focus before the entrance pupil, mm. A flat tuple, of which differences can be taken.
     """
@@ -33,7 +33,7 @@ def focused(
     film = optics.sharpest_film(distance, radius) if sharpest else optics.paraxial_film(distance)
     chief = chief_rays(optics, film)
     series = *chief.height, *chief.place, *chief.tangent, *chief.pupil
-    return film, radius, optics.entrance_pupil[0], *series, chief.end, chief.rim
+    return film, radius, optics.entrance_pupil[0], optics.exit_pupil[0], *series, chief.end, chief.rim
 
 
 def chief_of(numbers: Sequence[float], plain: ChiefRays) -> ChiefRays:
@@ -41,4 +41,4 @@ def chief_of(numbers: Sequence[float], plain: ChiefRays) -> ChiefRays:
     count = DEGREE + 1
     height, place, tangent, pupil = (tuple(numbers[k * count : (k + 1) * count]) for k in range(4))
     end, rim = numbers[4 * count :]
-    return ChiefRays(height, place, tangent, pupil, end, rim, plain.errors, plain.widest)
+    return ChiefRays(height, place, tangent, pupil, end, rim, plain.errors, plain.widest, plain.crossing_error)

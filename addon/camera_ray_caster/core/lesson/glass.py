@@ -63,9 +63,8 @@ def lens_drawing(model: RealLens) -> LensDrawing:
     glass += [_circle(model, surface.z + surface.sag(rim * rim)[0], rim) for surface, rim in _rims(model)]
     stop, radius = model.optics.surfaces[model.optics.stop], float(model.radius)
     pupils = [_circle(model, z, abs(size) * radius) for z, size in _pupils(model)]
-    left, right, low, high = model.window.extent(model.frame)
-    corners = np.array([(left, low), (right, low), (right, high), (left, high), (left, low)])
-    frame = np.column_stack((-corners, np.full(5, float(model.film))))
+    corners = model.window.corners(model.frame)
+    frame = np.array([_film_point(model, a, b) for a, b in (*corners, corners[0])])
     return LensDrawing(
         glass=np.concatenate([_segments(line) for line in glass]),
         stop=np.concatenate([_segments(_circle(model, stop.z, size)) for size in (radius, _reach(model))]),
@@ -104,15 +103,16 @@ def _path(model: RealLens, x: float, y: float, share: float) -> GlassPath:
     """Return the path of a pixel's ray through a point of the exit pupil, in radii from the chief ray, away from the
     axis.
     """
-    a, b = (float(coordinate) for coordinate in model.window.plane_from_pixels(x, y))
-    optics, film, radius = model.optics, float(model.film), np.hypot(a, b)
+    (across, upward, film), (a, b) = model.on_film(x, y)
+    optics, film, radius = model.optics, float(film), np.hypot(a, b)
     plane, size = optics.exit_pupil
     crossing = float(model.chief.crossing(np.float64(radius * radius)))
     aside = share * abs(size) * float(model.radius)
     ways = (a / radius, b / radius) if radius else (0.0, 1.0)
     up = [-coordinate * crossing + aside * way for coordinate, way in zip((a, b), ways, strict=True)]
     sign = 1.0 if film > plane else -1.0
-    point, direction = (-a, -b, film), unit((sign * (up[0] + a), sign * (up[1] + b), sign * (plane - film)))
+    point = -float(across), -float(upward), film
+    direction = unit((sign * (up[0] - point[0]), sign * (up[1] - point[1]), sign * (plane - film)))
     points, refractions = [point], list[Refraction]()
     for index in range(len(optics.surfaces) - 1, -1, -1):
         surface = optics.surfaces[index]
@@ -146,12 +146,23 @@ def stop_lines(model: RealLens) -> list[np.ndarray]:
     return [_placed(model, np.array([(0.0, side * radius, z), (0.0, side * outer, z)])) for side in (-1.0, 1.0)]
 
 
-def film_line(model: RealLens, radius: float) -> np.ndarray:
-    """Return the line of the film in the plane x = 0, (2, 3): of the frame in the image circle, and to a radius."""
-    left, right, low, high = model.window.extent(model.frame)
-    corner = float(np.hypot(max(abs(left), abs(right)), max(abs(low), abs(high))))
+def film_line(model: RealLens, up: np.ndarray, radius: float) -> np.ndarray:
+    """Return the line of the film in the plane of the axis and of an upright direction, (2, 3), turned to x = 0: of the
+    frame in the image circle, and to a radius on the upright film.
+    """
+    corner = float(np.hypot(*model.window.corners(model.frame).T).max())
     reach = max(radius, min(float(model.chief.rim), corner))
-    return _placed(model, np.array([(0.0, -reach, float(model.film)), (0.0, reach, float(model.film))]))
+    line = []
+    for side in (reach, -reach):
+        x, y, z = model.tilted.places(*model.tilted.onto(model.chief, *(side * up)), float(model.film))
+        line.append((0.0, -float(np.dot((x, y), up)), float(z)))
+    return _placed(model, np.array(line))
+
+
+def _film_point(model: RealLens, a: float, b: float) -> tuple[float, float, float]:
+    """Return the point of the film, which is upside down there, of a point of the model's window."""
+    x, y, z = model.tilted.places(a, b, model.film)
+    return -float(x), -float(y), float(z)
 
 
 def _pupils(model: RealLens) -> tuple[tuple[float, float], tuple[float, float]]:

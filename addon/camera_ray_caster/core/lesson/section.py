@@ -23,10 +23,10 @@ def section(model: RealLens, x: float, y: float) -> np.ndarray:
 
     Upwards is the direction from the axis in which the pixel shows the scene.
     """
-    a, b = (float(coordinate) for coordinate in model.window.plane_from_pixels(x, y))
+    a, b = map(float, model.on_film(x, y)[1])
     radius = np.hypot(a, b)
     up = np.array((a, b)) / radius if radius else np.array((0.0, 1.0))
-    glass, stop, film = list(sections(model, 0.0)), stop_lines(model), film_line(model, float(radius))
+    glass, stop, film = list(sections(model, 0.0)), stop_lines(model), film_line(model, up, float(radius))
     all_glass = np.concatenate([*glass, *stop, film])
     length = np.ptp(all_glass[:, 2])
     front = all_glass[:, 2].min() - BEFORE * length

@@ -56,7 +56,7 @@ HELD = {
     "RAY_TABLE": ("ray_axes", "ray_interpolation", "ray_slide"),
     "REAL_LENS": (
         "lens_focus", "focus_distance", "aperture_fstop", "lens_state", "lens_wavelength", "lens_vignetting",
-        "lens_falloff", "lens_color",
+        "lens_falloff", "lens_color", "tau_x", "tau_y",
     ),
 }  # fmt: skip
 """Settings that are no knobs: each of their variants holds the table, or the traced lens, again."""

@@ -260,6 +260,11 @@ class Window:
         x, y = self.plane_from_pixels(*(np.array([0.0, side]) for side in frame))
         return least(*x), largest(*x), least(*y), largest(*y)
 
+    def corners(self, frame: tuple[int, int]) -> np.ndarray:
+        """Return the corners of a frame on the image plane, (4, 2), around it."""
+        left, right, low, high = self.extent(frame)
+        return np.array([(left, low), (right, low), (right, high), (left, high)], np.float64)
+
     def matrix(self, height: int) -> np.ndarray:
         """Return K, (3, 3), from image-plane coordinates, y down, to pixels of a frame of this height in OpenCV's
         convention (y down, the origin in the center of the top left pixel).

@@ -38,9 +38,6 @@ MARGIN = 1.25
 NARROWED = 8
 """Largest number of times that the picture's end is moved to where light ends, if that is less than half of it."""
 
-LEVEL = 0.1
-"""Smallest cosine by which the depth of focus is divided to have the distance along a chief ray."""
-
 FEWEST = 1 / 64
 """Smallest share of passing rays by which light is divided, where vignetting is switched off."""
 
@@ -51,6 +48,8 @@ class Pupil(Aperture):
 
     plane: float = 0.0
     """z of the paraxial exit pupil in the lens frame, mm of the lens."""
+    away: float = 1.0
+    """Distance from there to the film on the axis, mm of the lens."""
     disc: float = 0.0
     """Radius of the disc there, mm of the lens."""
     stop_radius: float = np.inf
@@ -58,21 +57,20 @@ class Pupil(Aperture):
     passing: tuple[float, ...] = ()
     """Share of the disc that passes, by the radius on the film in even steps from 0 to ``corner``."""
     cosine: float = 1.0
-    """Mean of cos^4 of the angle at the film, of the rays that pass on the axis."""
+    """Mean of the falloff of the rays that pass on the axis; see ``_falloff``."""
     corner: float = np.inf
     """Radius on the film to which ``passing`` goes, mm of the lens."""
     colors: tuple[tuple[float, ...], ...] = ()
     """Indices of red, green and blue light before the lens and behind each surface; empty if they are not traced apart.
     """
-    apart: float = np.inf
-    """Largest distance of a ray's line from the origin of the pixel's chief ray, Blender units."""
+    apart: tuple[float, ...] = ()
+    """Largest distance of a ray's line from the origin of its chief ray, Blender units, for some chief rays."""
+    sharp: tuple[float, ...] = ()
+    """One over the distance along them at which their rays come together, or 0 or less if they spread."""
     spread: tuple[float, ...] = ()
-    """Largest distance of a ray from the chief ray where that one is sharp, over the way there, of chief rays at most
-    ``angles`` from the axis, in radians.
-    """
+    """Largest distance of a ray from the chief ray there, over that distance."""
     angles: tuple[float, ...] = ()
-    sharp: tuple[float, float] = (1.0, np.inf)
-    """Least and largest distance along chief rays at which ``spread`` was found, Blender units."""
+    """Angles of these chief rays from the axis, in radians, ascending; empty if they do not tell them apart."""
     reach: float = 0.0
     """Largest distance from the eye at which rays begin, Blender units."""
 
@@ -81,12 +79,20 @@ class Pupil(Aperture):
         apart |1 - s / D| + spread s away: it is a line.
         """
         distance = np.sqrt((centers * centers).sum(axis=1))
-        near, far = np.maximum(distance - radii - self.reach, 0.0), distance + radii + self.reach
-        blur = self.apart * np.maximum(1 - near / self.sharp[1], far / self.sharp[0] - 1)
-        around = (radii + blur + far * self.spread[-1] + self.reach) / distance
-        farthest = np.arccos(-centers[:, 2] / distance) + np.arcsin(np.minimum(around, 1.0))
-        place = np.searchsorted(self.angles, np.where(around < 1, farthest, np.inf), "right")
-        return blur + far * np.array(self.spread)[np.minimum(place, RADII - 1)]
+        near, far = np.maximum(distance - radii - self.reach, 0.0)[:, None], (distance + radii + self.reach)[:, None]
+        apart, sharp, spread = (np.array(each) for each in (self.apart, self.sharp, self.spread))
+        blur = apart * np.maximum(1 - np.where(sharp > 0, near, far) * sharp, far * sharp - 1) + far * spread
+        worst = blur.max(axis=1)
+        if not self.angles:
+            return worst
+        around = (radii + worst + self.reach) / distance
+        angle = np.arccos(-centers[:, 2] / distance)
+        half = np.where(around < 1, np.arcsin(np.minimum(around, 1)), np.pi)
+        first = np.searchsorted(self.angles, angle - half) - 1
+        last = np.maximum(np.searchsorted(self.angles, angle + half, "right"), first)
+        place = np.arange(len(apart))
+        last, first = np.minimum(last, place[-1])[:, None], np.minimum(first, place[-1])[:, None]
+        return np.where((first <= place) & (place <= last), blur, 0.0).max(axis=1)
 
 
 def color_of(x, y):
@@ -103,19 +109,26 @@ def of_color(color, values):
     return red if red == green == blue else np.where(color < 1, red, np.where(color < 2, green, blue))
 
 
-def from_film(optics: Optics, film: float, chief: ChiefRays, pupil: Pupil, a, b, point, color=None):
+def from_film(optics: Optics, chief: ChiefRays, pupil: Pupil, place, upright, point, color=None):
     """Return origin and direction of rays before the lens, in the lens frame.
 
-    a, b: the picture's place on the film, upright, mm of the lens. point: of the unit disc. color: as of ``color_of``;
-    None for the wavelength of ``optics``. NaN in the direction's x of rays that do not pass.
+    place: of the picture on the film, x and y upright and z in the lens frame, mm of the lens. upright: where its chief
+    ray meets the upright film. point: of the unit disc. color: as of ``color_of``; None for the wavelength of
+    ``optics``. NaN in the direction's x of rays that do not pass.
     """
-    plane, crossing = pupil.plane, chief.crossing(a * a + b * b)
-    across, up = (-place * crossing + pupil.disc * part for place, part in zip((a, b), point, strict=True))
-    side = 1.0 if film > plane else -1.0
-    direction = side * (across + a), side * (up + b), side * (plane - film)
+    (x, y, z), plane = place, pupil.plane
+    across, up = _in_pupil(chief, pupil, upright, point)
+    side = 1.0 if pupil.away > 0 else -1.0
+    direction = side * (across + x), side * (up + y), side * (plane - z)
     length = np.sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2])
     dx, dy, dz = (part / length for part in direction)
-    return trace(_surfaces(optics, pupil, color)[::-1], (-a, -b, film), (dx, dy, dz), to_film=False)
+    return trace(_surfaces(optics, pupil, color)[::-1], (-x, -y, z), (dx, dy, dz), to_film=False)
+
+
+def _in_pupil(chief: ChiefRays, pupil: Pupil, upright, point):
+    """Return the place in the plane of the exit pupil of points of the unit disc."""
+    crossing = chief.crossing(upright[0] * upright[0] + upright[1] * upright[1])
+    return tuple(-part * crossing + pupil.disc * aside for part, aside in zip(upright, point, strict=True))
 
 
 def _surfaces(optics: Optics, pupil: Pupil, color) -> list[LensSurface]:
@@ -131,14 +144,16 @@ def _surfaces(optics: Optics, pupil: Pupil, color) -> list[LensSurface]:
 
 
 def measured(
-    optics: Optics, film: float, chief: ChiefRays, pupil: Pupil, radius: float, unit: float, corner: float
+    optics: Optics, chief: ChiefRays, pupil: Pupil, radius: float, unit: float, corner: float, film: float, places
 ) -> Pupil:
-    """Return a pupil with its disc, the shares that pass and the spread, by tracing a grid at RADII radii.
+    """Return a pupil with its disc, the shares that pass and the spread, by tracing a grid at RADII radii, and at some
+    places of a tilted film.
 
     radius: of the stop, and corner: the largest radius on the film, mm of the lens. unit: Blender units per mm. Beyond
-    the radius at which all rays are stopped there is nothing to measure, and ``corner`` is that radius.
+    the radius at which all rays are stopped there is nothing to measure, and ``corner`` is that radius. film: its z on
+    the axis. places: None, or points of a tilted film as ``from_film`` takes them, (n,) each.
     """
-    paraxial, depth = abs(optics.exit_pupil[1]) * radius, pupil.focus / unit
+    paraxial = abs(optics.exit_pupil[1]) * radius
     is_round = pupil.blades < 3 and pupil.ratio == 1
     if is_round:
         side = np.linspace(-TRIED, TRIED, GRID)
@@ -148,69 +163,98 @@ def measured(
         point = tuple(part / pupil.radius for part in pupil.points(side[None, :], side[:, None]))
     squared = point[0] ** 2 + point[1] ** 2
     plane = optics.exit_pupil[0]
-    pupil = replace(pupil, plane=plane, disc=paraxial, stop_radius=radius if is_round else np.inf)
+    stop = radius if is_round else np.inf
+    pupil = replace(pupil, plane=plane, away=film - plane, disc=paraxial, stop_radius=stop)
     with np.errstate(all="ignore"):
         for _ in range(NARROWED):
             r = np.linspace(0.0, corner, RADII)[:, None, None]
-            origin, direction = from_film(optics, film, chief, pupil, r, 0.0 * r, point)
+            upright = r, 0.0 * r
+            origin, direction = from_film(optics, chief, pupil, (*upright, film), upright, point)
             passes = np.isfinite(direction[0]) & np.isfinite(origin[0])
             dark = int(np.flatnonzero(passes.any(axis=(1, 2))).max(initial=0)) + 1
             if dark > RADII // 2:
                 break
             corner = float(r[dark, 0, 0])
-        disc = float(np.sqrt(np.where(passes, squared, 0.0).max(initial=0.0))) + SLACK if is_round else 1.0
+        share, middle = passes, passes[0]
+        if places is not None:
+            place, at = ([part[:, None, None] for part in each] for each in places)
+            upright = at[0], at[1]
+            origin, direction = from_film(optics, chief, pupil, place, upright, point)
+            passes = np.isfinite(direction[0]) & np.isfinite(origin[0])
+        widest = max(float(np.where(each, squared, 0.0).max(initial=0.0)) for each in (share, passes))
+        disc = float(np.sqrt(widest)) + SLACK if is_round else 1.0
         within = squared <= disc * disc if is_round else np.full(squared.shape, True)
-        share = (passes & within).sum(axis=(1, 2)) / within.sum()
+        share = (share & within).sum(axis=(1, 2)) / within.sum()
         wide = (paraxial / (film - plane)) ** 2
         if is_round:  # on the axis what passes is a disc, and its share is known to rounding
-            marginal = _marginal(optics, film, chief, pupil) ** 2
+            marginal = _marginal(optics, chief, pupil, film) ** 2
             share[0], cosine = min(marginal / disc**2, 1.0), 1 / (1 + wide * marginal)
         else:
-            cosine = float((passes[0] / (1 + wide * squared) ** 2).sum() / max(passes[0].sum(), 1))
-        r = np.minimum(r, chief.end * (1 - 1e-9))
-        height, place, tangent = chief.at(r * r)
-        turn = 2 / (1 + tangent * tangent * r * r)
-        ahead = r * tangent * turn, 0.0, 1 - turn
-        off = tuple(o - c for o, c in zip(origin, (r * height, 0.0, place), strict=True))
-        way = sum(o * d for o, d in zip(off, direction, strict=True))
-        off = tuple(o - way * d for o, d in zip(off, direction, strict=True))
-        sharp = np.maximum(depth + place - optics.entrance_pupil[0], LEVEL * depth) / np.maximum(turn - 1, LEVEL)
-        there = tuple(o / sharp + d - u for o, d, u in zip(off, direction, ahead, strict=True))
-        lines, spread = (MARGIN * np.where(passes & within, norm(part), 0.0).max(axis=(1, 2)) for part in (off, there))
-        apart, spread = float(lines.max()), np.maximum.accumulate(spread)
-        angles = np.arccos(np.clip(turn - 1, -1.0, 1.0)).ravel()
-        reach = float(np.hypot(r * height, place - optics.entrance_pupil[0]).max()) + apart
+            cosine = float((middle / (1 + wide * squared) ** 2).sum() / max(middle.sum(), 1))
+        apart, sharp, spread, angles, reach = _lines(chief, optics, origin, direction, upright, passes & within)
     return replace(
         pupil, disc=disc * paraxial, passing=tuple(share.tolist()), cosine=float(cosine), corner=corner,
-        apart=apart * unit, spread=tuple(spread.tolist()), angles=tuple(angles.tolist()),
-        sharp=(float(sharp.min()) * unit, float(sharp.max()) * unit), reach=reach * unit,
+        apart=tuple((apart * unit).tolist()), sharp=tuple((sharp / unit).tolist()), spread=tuple(spread.tolist()),
+        angles=() if places else tuple(angles.tolist()), reach=reach * unit,
     )  # fmt: skip
 
 
-def _marginal(optics: Optics, film: float, chief: ChiefRays, pupil: Pupil) -> float:
+def _lines(chief: ChiefRays, optics: Optics, origin, direction, upright, passes):
+    """Return what bounds the blur of rays that pass, (n, ...), of points of the upright film, and the angles of their
+    chief rays, (n,), and how far from the eye rays begin, in mm: see ``Pupil``.
+    """
+    r = np.sqrt(upright[0] ** 2 + upright[1] ** 2)
+    kept = np.minimum(r, chief.end * (1 - 1e-9)) / np.where(r > 0, r, 1.0)
+    a, b = (part * kept for part in upright)
+    squared = a * a + b * b
+    height, place, tangent = chief.at(squared)
+    turn = 2 / (1 + tangent * tangent * squared)
+    ahead = a * tangent * turn, b * tangent * turn, 1 - turn
+    off = tuple(o - c for o, c in zip(origin, (a * height, b * height, place), strict=True))
+    way = sum(o * d for o, d in zip(off, direction, strict=True))
+    lines = np.where(passes, [o - way * d for o, d in zip(off, direction, strict=True)], 0.0)
+    turned = np.where(passes, [d - u for d, u in zip(direction, ahead, strict=True)], 0.0)
+    total = (lines * lines).sum(axis=(0, 2, 3))
+    sharp = -(lines * turned).sum(axis=(0, 2, 3)) / np.where(total > 0, total, 1.0)
+    apart, spread = (MARGIN * norm(part).max(axis=(1, 2)) for part in (lines, turned + lines * sharp[:, None, None]))
+    angles = np.arccos(np.clip(turn - 1, -1.0, 1.0)).ravel()
+    reach = float(np.hypot(np.sqrt(squared) * height, place - optics.entrance_pupil[0]).max() + apart.max())
+    return apart, sharp, spread, angles, reach
+
+
+def _marginal(optics: Optics, chief: ChiefRays, pupil: Pupil, film: float) -> float:
     """Return the largest radius in the exit pupil, over the disc's, of rays that pass from the film's center."""
     low, high, zero = 0.0, TRIED, np.zeros(1)
+    middle_of = (zero, zero, film), (zero, zero)
     for _ in range(BISECTIONS):
         middle = (low + high) / 2
-        passes = np.isfinite(from_film(optics, film, chief, pupil, zero, zero, (zero + middle, zero))[1][0])[0]
+        passes = np.isfinite(from_film(optics, chief, pupil, *middle_of, (zero + middle, zero))[1][0])[0]
         low, high = (middle, high) if passes else (low, middle)
     return low
 
 
-def light_of(film: float, chief: ChiefRays, pupil: Pupil, place, point, falls_off: bool, vignetting: bool):
-    """Return the light of rays that pass, relative to the mean of the middle of the picture; arguments as in
-    ``from_film``. Without ``vignetting`` the rays that pass make up for those that do not.
+def _falloff(pupil: Pupil, place, target, normal):
+    """Return the light of rays from the film to the exit pupil over that of one on the axis: cos^3 of their angle to
+    the axis, times the cosine to the film's normal over that of the axis; on an upright film cos^4.
     """
-    distance = film - pupil.plane
-    squared, value = place[0] * place[0] + place[1] * place[1], 1.0
+    x, y, z = place[0] + target[0], place[1] + target[1], place[2] - pupil.plane  # the film is upside down
+    squared, before = z * z + x * x + y * y, pupil.away * pupil.away
+    along = z + (x * normal[0] + y * normal[1]) / normal[2] if normal[0] or normal[1] else z
+    return before * (z * along) / (squared * squared)
+
+
+def light_of(chief: ChiefRays, pupil: Pupil, place, upright, point, normal, falls_off: bool, vignetting: bool):
+    """Return the light of rays that pass, relative to the mean of the middle of the picture; arguments as in
+    ``from_film``, and the film's normal. Without ``vignetting`` the rays that pass make up for those that do
+    not, as far as they do so where the film is upright.
+    """
+    value = 1.0
     if falls_off:
-        crossing = chief.crossing(squared)
-        beside = [part - part * crossing + pupil.disc * own for part, own in zip(place, point, strict=True)]
-        cosine = distance * distance / (distance * distance + beside[0] * beside[0] + beside[1] * beside[1])
-        value = cosine * cosine / pupil.cosine
+        value = _falloff(pupil, place, _in_pupil(chief, pupil, upright, point), normal) / pupil.cosine
     if vignetting:
         return value / max(pupil.passing[0], FEWEST)
     table = np.maximum(np.array(pupil.passing), FEWEST)
+    squared = upright[0] * upright[0] + upright[1] * upright[1]
     row = np.minimum(np.sqrt(squared) * ((RADII - 1) / pupil.corner), RADII - 1 - 1e-6)
     first = np.floor(row)
     low, high = (look_up(table, as_index(first + k)) for k in (0, 1))

@@ -31,7 +31,8 @@ class Tilt:
         return bool(self.tau_x or self.tau_y)
 
     @cached_property
-    def _turn(self) -> np.ndarray:
+    def rotation(self) -> np.ndarray:
+        """R."""
         (cx, sx), (cy, sy) = ((cos(tau), sin(tau)) for tau in (self.tau_x, self.tau_y))
         return array([[cy, 0, -sy], [0, 1, 0], [sy, 0, cy]]) @ array([[1, 0, 0], [0, cx, sx], [0, -sx, cx]])
 
@@ -40,11 +41,11 @@ class Tilt:
         """Return a, b such that the sensor meets the direction (x, y, 1) at the depth 1 / (1 + a x + b y), if it is at
         depth 1 on the axis.
         """
-        return self._turn[2, 0] / self._turn[2, 2], self._turn[2, 1] / self._turn[2, 2]
+        return self.rotation[2, 0] / self.rotation[2, 2], self.rotation[2, 1] / self.rotation[2, 2]
 
     @cached_property
     def _matrix(self) -> np.ndarray:
-        turn = self._turn
+        turn = self.rotation
         return array([[turn[2, 2], 0, -turn[0, 2]], [0, turn[2, 2], -turn[1, 2]], [0, 0, 1]]) @ turn
 
     @cached_property
