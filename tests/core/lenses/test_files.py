@@ -57,6 +57,22 @@ def rayoptics(rows=ROWS, profile="Spherical", **more):
     return json.dumps({"optical_model": made("", seq_model=sequence, system_spec=system, profile_dict=profiles)})
 
 
+def optiland(rows=ROWS, kind="StandardGeometry", aperture=None, **more):
+    """As Optiland saves it, but for what is of no use here. Without rims if the system's aperture is given."""
+    z, surfaces = 0.0, [{"type": "ObjectSurface", "geometry": {"type": "Plane", "cs": {"z": float("-inf")}},
+                         "material_post": {"type": "IdealMaterial", "index": 1.0, "absorp": 0.0}}]  # fmt: skip
+    for place, (radius, gap, index, diameter) in enumerate([*rows, (0.0, 0.0, 1.0, 40.0)]):
+        frame = {"cs": {"x": 0.0, "y": 0.0, "z": z, "rx": 0.0, "ry": 0.0, "rz": 0.0, "reference_cs": None}}
+        shape = {"type": kind, "radius": radius, "conic": 0.0} | more if radius else {"type": "Plane"}
+        glass = {"type": "AbbeMaterial", "abbe": 60.0} if index > 1 else {"type": "IdealMaterial"}
+        rim = None if aperture else {"type": "RadialAperture", "r_max": diameter / 2, "r_min": 0.0}
+        surfaces.append({"type": "Surface", "geometry": shape | frame, "material_post": glass | {"index": index},
+                         "is_stop": radius == 0 and place < len(rows), "aperture": rim,
+                         "interaction_model": {"is_reflective": False}})  # fmt: skip
+        z += gap
+    return json.dumps({"name": "doublet", "aperture": aperture, "surface_group": {"surfaces": surfaces}})
+
+
 def pbrt(rows=ROWS):
     return "\n".join("  ".join(map(str, row)) for row in rows) + "\n"
 
@@ -75,9 +91,9 @@ def lens_of(folder, text, name="lens.txt"):
 
 @pytest.mark.parametrize(
     "text",
-    [pbrt(), kolb(), optical_bench(), isetcam(), rayoptics(), zemax(), zemax(unit="IN", size=25.4),
+    [pbrt(), kolb(), optical_bench(), isetcam(), rayoptics(), optiland(), zemax(), zemax(unit="IN", size=25.4),
      zemax().encode("utf-16")],
-    ids=["pbrt", "kolb", "optical_bench", "isetcam", "rayoptics", "zemax", "zemax-inches", "zemax-utf16"],
+    ids=["pbrt", "kolb", "optical_bench", "isetcam", "rayoptics", "optiland", "zemax", "zemax-inches", "zemax-utf16"],
 )
 def test_a_lens_is_the_same_in_each_format(tmp_path, text):
     lens = lens_of(tmp_path, text)
@@ -112,6 +128,26 @@ def test_polynomials_of_rayoptics_are_of_r_or_of_its_square(tmp_path):
     even = lens_of(tmp_path, rayoptics(profile="EvenPolynomial", cc=-0.5, coefs=[0.0, 1e-5]), "even.roa").rows[0]
     assert (odd.conic, odd.asphere) == (-0.5, ((3, 1e-5), (4, 2e-7)))
     assert (even.conic, even.asphere) == (-0.5, ((4, 1e-5),))
+
+
+def test_polynomials_of_optiland_are_of_r_or_of_its_square(tmp_path):
+    odd = lens_of(tmp_path, optiland(kind="OddAsphere", coefficients=[0.0, 0.0, 1e-5, 2e-7], conic=-0.5)).rows[0]
+    even = lens_of(tmp_path, optiland(kind="EvenAsphere", coefficients=[0.0, 1e-5]), "even.json").rows[0]
+    assert (odd.conic, odd.asphere) == (-0.5, ((3, 1e-5), (4, 2e-7)))
+    assert (even.conic, even.asphere) == (0.0, ((4, 1e-5),))
+
+
+@pytest.mark.parametrize(
+    ("kind", "value", "f_number"), [("imageFNO", 5.0, 5.0), ("EPD", 8.0, None), ("float_by_stop_size", 6.0, None)]
+)
+def test_the_stop_of_optiland_has_the_system_s_aperture(tmp_path, kind, value, f_number):
+    lens = lens_of(tmp_path, optiland(aperture={"type": kind, "value": value}))
+    optics = Optics.of(lens)
+    if kind == "float_by_stop_size":
+        assert lens.rows[3].rim == 3.0
+    else:
+        expected = f_number or optics.focal_length / value
+        assert optics.widest_f_number == pytest.approx(expected, rel=1e-12)
 
 
 def test_a_placeholder_is_not_the_index_of_a_catalog_glass(tmp_path):
@@ -164,8 +200,15 @@ def test_a_plane_of_a_plate_is_not_the_stop(tmp_path, ior):
         (rayoptics().replace('"stop_surface": 4', '"stop_surface": 9'), "its stop_surface is none of its surfaces"),
         (rayoptics().replace('"n": 1.52', '"gname": "X"'), "txt': surface 1 has the medium X without its index"),
         (rayoptics().replace("profile_id", "profile"), "its sequential model cannot be read"),
+        (optiland().replace('"is_reflective": false', '"is_reflective": true', 1), "surface 1 is .*, reflecting"),
+        (optiland().replace('"y": 0.0', '"y": 0.5', 1), "surface 1 is a StandardGeometry: only centered ones"),
+        (optiland(kind="OddAsphere", coefficients=[1.0]), "surface 1 has a coefficient of r"),
+        (optiland().replace('"index": 1.52', '"name": "X"'), "surface 1 has the medium X without its index"),
+        (optiland().replace("true", "false"), "0 surfaces that are the stop"),
+        (optiland(aperture={"type": "objectNA", "value": 0.1}), "the stop, has no radius"),
+        (optiland().replace('"cs"', '"frame"'), "its group of surfaces cannot be read"),
     ],
-    ids=range(20),
+    ids=range(27),
 )
 def test_what_is_no_lens_is_refused_in_one_line_that_names_the_file(tmp_path, text, words):
     with pytest.raises(crc.InputError, match=words) as caught:

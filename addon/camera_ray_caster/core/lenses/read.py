@@ -61,7 +61,7 @@ def _read(path: str, modified: int, size: int) -> Prescription:
                 lens = checked(read(text, Path(path).stem))
                 Optics.of(lens.in_state(0.0))  # refused here if it does not focus
                 return lens
-        raise InputError("it is none of the known formats: pbrt, Optical Bench, ISETCam, Zemax, RayOptics")
+        raise InputError("it is none of the known formats: pbrt, Optical Bench, ISETCam, Zemax, RayOptics, Optiland")
     except InputError as error:
         raise InputError(f"lens file {path!r}: {error}") from error
 

@@ -6,8 +6,8 @@ from ...lenses.prescription import D_LINE
 from .settings import Choice, FilePath, Flag, Item, Number
 
 LENS_FILE = FilePath(
-    "lens_file", "Lens File", "Prescription of the lens: of pbrt, Optical Bench, ISETCam, Zemax or RayOptics, or the "
-    "name of a lens that comes with the add-on. If empty, a double Gauss lens", "",
+    "lens_file", "Lens File", "Prescription of the lens: of pbrt, Optical Bench, ISETCam, Zemax, RayOptics or "
+    "Optiland, or the name of a lens that comes with the add-on. If empty, a double Gauss lens", "",
 )  # fmt: skip
 PARAXIAL = "PARAXIAL"
 FOCUS = Choice(
