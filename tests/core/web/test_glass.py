@@ -1,5 +1,7 @@
 """The section of a lens in the page, by real mouse and keyboard events, beside the paths that Step Through draws."""
 
+import time
+
 import numpy as np
 import pytest
 
@@ -51,3 +53,55 @@ def test_the_section_has_the_ray_of_the_pixel_and_its_stop_and_film_are_dragged(
     nearer = seen(opened)
     assert nearer["focus"] < 0 or nearer["focus"] > first["focus"]  # the film nearer to the lens: farther things
     assert nearer["fNumber"] == pytest.approx(first["fNumber"] / 0.8)
+
+
+def test_the_picture_follows_the_stop_and_the_film(opened, page):
+    """With the stop almost closed it is that of the chief rays, times cos^4; with it open, edges are soft, the more so
+    with the film out of focus.
+    """
+    from selenium.webdriver.common.keys import Keys
+
+    fresh(opened, page, LINK)
+    settled(opened, lambda one: by_id(one, "glass-card").is_displayed())
+    canvas = by_id(opened, "glass")
+    opened.execute_script("arguments[0].scrollIntoView({block: 'center'})", canvas)
+    sharp = light_of(opened)
+    canvas.send_keys(Keys.SHIFT, *18 * [Keys.ARROW_DOWN])
+    settled(opened, lambda one: seen(one)["fNumber"] > 90)
+    closed = light_of(opened)
+    model, (height, width) = example(RealLens).model, closed.shape[:2]
+    x, y = (np.arange(width) + 0.5) * model.frame[0] / width, (np.arange(height) + 0.5) * model.frame[1] / height
+    a, b = model.window.plane_from_pixels(x, y[:, None])
+    away = (model.film - model.optics.exit_pupil[0]) ** 2
+    rows, columns = ((np.arange(part) + 0.5) * whole / part for part, whole in zip(closed.shape, sharp.shape[:2]))
+    expected = sharp[np.ix_(rows.astype(int), columns.astype(int))] * ((away / (away + a * a + b * b)) ** 2)[..., None]
+    assert (np.abs(closed - expected).max(axis=2) < 0.02).mean() > 0.95  # but for edges, whose pixels are others
+
+    canvas.send_keys(Keys.SHIFT, *20 * [Keys.ARROW_UP])
+    settled(opened, lambda one: seen(one)["fNumber"] == pytest.approx(model.optics.widest_f_number))
+    wide = light_of(opened)
+    canvas.send_keys(Keys.SHIFT, *4 * [Keys.ARROW_RIGHT])
+    settled(opened, lambda one: seen(one)["film"] > model.film + 1.9)
+    soft = light_of(opened)
+    edges = [np.abs(np.diff(light.mean(axis=2)[len(light) // 2])).max() * light.shape[1] for light in (wide, soft)]
+    assert edges[0] > 1.5 * edges[1]
+    by_id(opened, "reset").click()
+    settled(opened, lambda one: seen(one)["film"] == model.film)
+    np.testing.assert_array_equal(light_of(opened), sharp)
+
+
+def light_of(driver):
+    """The picture in full, once it does not change any more: linear, rows from the bottom."""
+    before = None
+    for _ in range(60):
+        time.sleep(0.5)
+        size, data = driver.execute_script(
+            "const one = document.getElementById('picture'), gl = one.getContext('webgl2');"
+            "const bytes = new Uint8Array(4 * one.width * one.height);"
+            "gl.readPixels(0, 0, one.width, one.height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);"
+            "return [[one.height, one.width], Array.from(bytes)]"
+        )
+        if data == before:
+            return (np.array(data, float).reshape(*size, 4)[..., :3] / 255) ** 2.2
+        before = data
+    raise AssertionError("the picture does not settle")

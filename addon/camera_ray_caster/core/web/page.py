@@ -192,7 +192,8 @@ def glass_of(model: RealLens) -> dict[str, Any]:
     return {
         "surfaces": surfaces,
         "stop": optics.stop, "film": float(model.film), "radius": float(model.radius), "wide": max(filter(None, rims)),
-        "exit": optics.exit_pupil[0], "magnification": optics.entrance_pupil[1], "focal": optics.focal_length,
+        "pupil": float(model.pupil), "unit": float(model.unit), "exit": optics.exit_pupil[0],
+        "magnification": optics.entrance_pupil[1], "focal": optics.focal_length,
         "matrix": optics.whole.tolist(), "center": [float(window.center_x), float(window.center_y)],
         "pitch": [float(window.pitch_x), float(window.pitch_y)],
     }  # fmt: skip

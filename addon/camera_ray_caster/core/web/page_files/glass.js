@@ -1,5 +1,5 @@
 // A real lens in its section: the pixel's rays are traced through each surface; the stop and the film can be dragged.
-const STEPS_TO_AIM = 40, FAN = [-0.95, -0.7, -0.45, -0.2, 0.2, 0.45, 0.7, 0.95], NEAR = 14;
+const STEPS_TO_AIM = 40, FAN = [-0.95, -0.7, -0.45, -0.2, 0.2, 0.45, 0.7, 0.95], NEAR = 14, WIDE = 1.3; // WIDE: radius of the disc in the exit pupil over that of the stop's image
 
 // z, curvature, conic, asphere, rim and the indices before and behind are named as in the add-on; s is the height.
 function sagOf(surface, squared) {
@@ -32,7 +32,7 @@ function refract(surface, [z, s, dz, ds], side) {
 
 class Glass {
   constructor(canvas, text, list) {
-    Object.assign(this, { canvas, text, list, lens: null, held: "" });
+    Object.assign(this, { canvas, text, list, lens: null, held: "", moved: false });
     dragging(canvas, (event) => this.hold(event), (event) => this.move(event));
     arrows(canvas, (across, up) => this.set(this.film + across * 0.05, this.radius * (1 + 0.02 * up)));
   }
@@ -42,15 +42,18 @@ class Glass {
     if (this.lens === model.glass) return;
     this.lens = model.glass;
     if (this.lens) this.set(this.lens.film, this.lens.radius);
+    this.moved = false;
   }
 
   set(film, radius) {
+    this.moved = true;
     const { surfaces, stop } = this.lens, rear = surfaces[surfaces.length - 1].z, length = this.lens.film - rear;
     this.film = Math.min(Math.max(film, rear + 0.6 * length), rear + 1.6 * length);
     this.radius = Math.min(Math.max(radius, 0.02 * surfaces[stop].rim), surfaces[stop].rim);
   }
 
-  // The path from the film's point at height s to a height in the stop: points, sines, and whether a rim is in the way.
+  // The path from the film's point at height s to a height in the stop: points, sines, whether a rim is in the way, and
+  // the height in the exit pupil.
   path(s, wanted) {
     const { surfaces, stop, exit } = this.lens;
     const from = (aim) => { const z = exit - this.film, side = z < 0 ? 1 : -1, size = Math.hypot(z, aim - s); return [this.film, s, side * z / size, side * (aim - s) / size]; };
@@ -66,18 +69,41 @@ class Glass {
     for (let k = surfaces.length - 1; k >= 0 && !stopped; k--) {
       const found = refract(surfaces[k], ray, -1);
       ray = found.ray;
-      if (!ray.every(Number.isFinite)) return { points, sines, stopped: true };
+      if (!ray.every(Number.isFinite)) return { points, sines, aim, stopped: true };
       points.push(ray.slice(0, 2));
       if (surfaces[k].before !== surfaces[k].behind) sines.unshift([k, ...found.sines]);
       stopped = Math.abs(ray[1]) > (k === stop ? this.radius : surfaces[k].rim ?? Infinity) * (1 + 1e-9);
     }
-    return { points, sines, stopped, direction: ray.slice(2) };
+    return { points, sines, stopped, aim, direction: ray.slice(2) };
   }
 
   // What the pixel's rays are: s is negative, since the picture is upside down on the film.
   traced(x, y) {
     const { pitch, center } = this.lens, s = -Math.hypot((x - center[0]) * pitch[0], (y - center[1]) * pitch[1]);
     return { s, chief: this.path(s, 0), fan: FAN.map((share) => this.path(s, share * this.radius)) };
+  }
+
+  // The program of the picture with the whole stop, and what it reads; the disc holds all rays that pass.
+  get program() {
+    const { surfaces } = this.lens, bends = surfaces.reduce((count, one) => count + one.asphere.length, 0);
+    return OF_GLASS.replace(/\b(SURFACES|BENDS)\b/g, (name) => ({ SURFACES: surfaces.length, BENDS: bends }[name]));
+  }
+
+  get uniforms() {
+    const { surfaces, stop, exit, pupil, unit, pitch, center } = this.lens, bends = surfaces.map((one) => one.asphere);
+    const start = bends.map((_, k) => bends.slice(0, k).flat().length), rim = (one, k) => k === stop ? this.radius : one.rim ?? 1e6;
+    const wide = WIDE * Math.abs(this.path(0, this.radius).aim), reach = Math.hypot(center[0] * pitch[0], center[1] * pitch[1]) * 1.5;
+    const crossings = []; // of chief rays in the exit pupil, over the radius on the film
+    for (let k = 1; k <= 17; k++) {
+      const r = reach * (k - 1 || 0.01) / 16, { aim } = this.path(r, 0);
+      crossings.push(Number.isFinite(aim) ? aim / r : crossings[k - 2] ?? 0);
+    }
+    return {
+      shapes: ["4fv", surfaces.flatMap((one, k) => [one.z, one.curvature, one.conic, rim(one, k)])],
+      media: ["4fv", surfaces.flatMap((one, k) => [one.before, one.behind, start[k], one.asphere.length])],
+      bends: ["2fv", [...bends.flat(2), 0, 0]], pitch: ["2fv", pitch], center: ["2fv", center],
+      lens: ["4f", this.film, exit, pupil, WIDE ** 2], disc: ["1f", wide], unit: ["1f", unit], reach: ["1f", reach], crossings: ["1fv", crossings],
+    };
   }
 
   get fNumber() { return this.lens.focal / (2 * this.radius * Math.abs(this.lens.magnification)); }

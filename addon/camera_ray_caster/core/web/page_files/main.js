@@ -1,7 +1,7 @@
 // The page: what is shown, and what it does when something is turned, dragged or typed.
 const $ = (id) => document.getElementById(id);
-const SOFTWARE_BUDGET = 33, LEAST_SHARE = 0.2;
-let model, state, camera, seen = null, own = null, share = 1, waiting = 0, settling = 0;
+const SOFTWARE_BUDGET = 33, LEAST_SHARE = 0.2, COARSE = 12, LENS_BUDGET = 1500; // samples of a lens, milliseconds of its whole picture
+let model, state, camera, seen = null, own = null, share = 1, fine = 0, whole = 1, waiting = 0, settling = 0;
 const picture = new Picture($("picture")), space = new Space($("space")), glass = new Glass($("glass"), $("glass-text"), $("glass-sines"));
 
 function make(tag, text, settings = {}) {
@@ -146,9 +146,15 @@ function paint(full) {
   if (!picture.gl) return;
   const began = performance.now();
   const wide = $("picture").getBoundingClientRect().width * (window.devicePixelRatio || 1) / model.frame[0];
-  picture.draw(camera, state, full ? wide : share * wide);
-  picture.gl.finish();
-  const took = performance.now() - began;
+  const lens = !own && model.glass && glass.moved ? glass : null;
+  if (lens && !fine) share = LEAST_SHARE; // the first one
+  const drawn = full ? (lens ? whole : 1) : share;
+  picture.draw(camera, state, drawn * wide, false, lens, full ? fine : COARSE);
+  if (lens) picture.gl.readPixels(0, 0, 1, 1, picture.gl.RGBA, picture.gl.UNSIGNED_BYTE, new Uint8Array(4)); // which waits; finish may not
+  else picture.gl.finish();
+  const took = performance.now() - began, often = LENS_BUDGET * drawn ** 2 / took;
+  if (!lens) fine = 0;
+  else if (!full) [fine, whole] = [Math.min(Math.max(Math.round(COARSE * often), COARSE), 4 * COARSE), Math.min(1, Math.sqrt(often))];
   if (!full) share = Math.min(1, Math.max(LEAST_SHARE, share * Math.sqrt(Math.min(Math.max(SOFTWARE_BUDGET / Math.max(took, 1), 0.25), 1.5))));
   clearTimeout(settling);
   if (!full) settling = setTimeout(() => paint(true), 180);
@@ -181,6 +187,7 @@ function changed() {
 
 function choose(next) {
   model = MODELS.find((one) => one.key === next.model);
+  glass.lens = null; // with its own stop and film again
   own = next.own === undefined ? null : readText(next.own);
   if (own) $("own").value = next.own;
   state = next;

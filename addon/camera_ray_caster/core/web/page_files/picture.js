@@ -12,15 +12,7 @@ uniform vec2 turn;
 uniform highp sampler2D facets;
 vec4 texel(int k) { return texelFetch(facets, ivec2(k % 1024, k / 1024), 0); }
 #endif
-out vec4 color;
-void main() {
-  vec2 p = gl_FragCoord.xy * frame / resolution, a = p / frame - 0.5;
-  vec3 o, d;
-  if (!ray(p.x, p.y, o, d) || !(dot(d, d) > 0.0)) {
-    float line = mod(gl_FragCoord.x + gl_FragCoord.y, 12.0) < 1.5 ? 0.3 : 0.2;
-    color = plain > 0 ? vec4(1.0) : vec4(vec3(line), 1.0);
-    return;
-  }
+vec4 seen(vec2 a, vec3 o, vec3 d) {
   o = eye + o.x * axis_u + o.y * axis_v - o.z * axis_w;
   d = normalize(d.x * axis_u + d.y * axis_v - d.z * axis_w);
   float t = time + spread * (times == 1 ? a.y : times == 2 ? a.x : times == 3 ? length(vec2(a.x * frame.x / frame.y, a.y)) - 0.5 : 0.0);
@@ -69,8 +61,7 @@ void main() {
 #endif
   if (plain > 0) {
     float far = clamp(best / 64.0, 0.0, 0.999999);
-    color = vec4(float(index < 0 ? 254 : index) / 255.0, floor(far * 256.0) / 255.0, floor(fract(far * 256.0) * 256.0) / 255.0, floor(fract(far * 65536.0) * 256.0) / 255.0);
-    return;
+    return vec4(float(index < 0 ? 254 : index) / 255.0, floor(far * 256.0) / 255.0, floor(fract(far * 256.0) * 256.0) / 255.0, floor(fract(far * 65536.0) * 256.0) / 255.0);
   }
   vec3 base = index < 0 ? vec3(0.05, 0.07, 0.1) :
 #if NODES > 0
@@ -83,7 +74,72 @@ void main() {
     base = mix(base, base * 0.45, max(lines.x, max(lines.y, lines.z)));
   }
   float light = 0.45 + 0.4 * max(dot(normal, normalize(vec3(0.4, 0.8, 0.55))), 0.0) + 0.25 * max(dot(normal, -d), 0.0);
-  color = vec4(pow(base * light, vec3(1.0 / 2.2)), 1.0);
+  return vec4(base * light, 1.0);
+}`;
+const DISPLAYED = "vec4 displayed(vec3 light) { return vec4(pow(light, vec3(1.0 / 2.2)), 1.0); }";
+const PLACE = "vec2 p = gl_FragCoord.xy * frame / resolution, a = p / frame - 0.5;";
+const OF_FORMULA = `
+void main() {
+  ${PLACE}
+  vec3 o, d;
+  if (!ray(p.x, p.y, o, d) || !(dot(d, d) > 0.0)) {
+    float line = mod(gl_FragCoord.x + gl_FragCoord.y, 12.0) < 1.5 ? 0.3 : 0.2;
+    color = plain > 0 ? vec4(1.0) : vec4(vec3(line), 1.0);
+    return;
+  }
+  vec4 found = seen(a, o, d);
+  color = plain > 0 ? found : displayed(found.rgb);
+}`;
+
+// The picture of a real lens with its whole stop: from the film's point through every surface, to the scene.
+const OF_GLASS = `
+uniform vec4 shapes[SURFACES], media[SURFACES];
+uniform vec2 bends[BENDS + 1], pitch, center;
+uniform vec4 lens;
+uniform float disc, unit, reach, crossings[17];
+uniform int samples;
+vec2 sag(vec4 s, vec4 m, float q) {
+  float root = sqrt(1.0 - (1.0 + s.z) * s.y * s.y * q);
+  vec2 found = vec2(s.y * q / (1.0 + root), s.y / (2.0 * root));
+  for (int i = int(m.z); i < int(m.z + m.w); i++) {
+    float lower = bends[i].y * pow(q + 1e-20, 0.5 * bends[i].x - 1.0);
+    found += vec2(lower * q, 0.5 * bends[i].x * lower);
+  }
+  return found;
+}
+bool passes(inout vec3 o, inout vec3 d) {
+  for (int k = SURFACES - 1; k >= 0; k--) {
+    vec4 s = shapes[k], m = media[k];
+    o += (s.x - o.z) / d.z * d;
+    float f = s.y * dot(o.xy, o.xy), g = d.z - s.y * dot(o.xy, d.xy), root = g * g - s.y * f * (1.0 + s.z * d.z * d.z);
+    if (!(root >= 0.0)) return false;
+    o += f / (g - sqrt(root)) * d;
+    for (int i = 0; i < (m.w > 0.0 ? 5 : 0); i++) {
+      vec2 at = sag(s, m, dot(o.xy, o.xy));
+      o += (at.x - o.z + s.x) / (d.z - 2.0 * at.y * dot(o.xy, d.xy)) * d;
+    }
+    if (!(dot(o.xy, o.xy) <= s.w * s.w)) return false;
+    vec3 n = -normalize(vec3(-2.0 * sag(s, m, dot(o.xy, o.xy)).y * o.xy, 1.0));
+    float ratio = m.y / m.x, cosine = dot(d, n), rest = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+    if (!(rest >= 0.0)) return false;
+    d = ratio * d + (sqrt(rest) - ratio * cosine) * n;
+  }
+  return true;
+}
+void main() {
+  ${PLACE}
+  vec3 film = vec3((center - p) * pitch, lens.x), total = vec3(0.0);
+  float place = min(length(film.xy) / reach * 16.0, 15.999);
+  vec2 middle = film.xy * mix(crossings[int(place)], crossings[int(place) + 1], fract(place));
+  float turned = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  for (int i = 0; i < samples; i++) {
+    float r = disc * sqrt((float(i) + 0.5) / float(samples)), angle = 2.39996323 * float(i) + 6.28318531 * turned;
+    vec3 d = normalize(vec3(middle + r * vec2(cosine(angle), sine(angle)), lens.y) - film), o = film;
+    if (d.z > 0.0) d = -d;
+    float slant = d.z * d.z;
+    if (passes(o, d)) total += slant * slant * seen(a, unit * (o - vec3(0.0, 0.0, lens.z)), d).rgb;
+  }
+  color = displayed(total * lens.w / float(samples));
 }`;
 
 class Picture {
@@ -106,13 +162,13 @@ class Picture {
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
   }
 
-  // The program of a formula; a Refusal with the compiler's words if there is none.
-  program(source, count) {
-    if (this.programs.has(source)) return this.programs.get(source);
+  // The program of a formula, or of a lens; a Refusal with the compiler's words if there is none.
+  program(source, count, end = OF_FORMULA) {
+    if (this.programs.has(source + end)) return this.programs.get(source + end);
     const gl = this.gl, made = gl.createProgram();
     const sizes = { SPHERES: SPHERES.length, FLATS: RECTANGLES.length, SHAPES: SPHERES.length + RECTANGLES.length, NEAR: SCENE.near.toExponential(6), NODES: SCENE.nodes, GRID: SCENE.still ? 0 : 1 };
     const caster = CASTER.replace(/\b(SPHERES|FLATS|SHAPES|NEAR|NODES|GRID)\b/g, (name) => sizes[name]);
-    const text = `#version 300 es\nprecision highp float;\nprecision highp int;\nuniform float k[${Math.max(count, 1)}];\n${HELPERS}${source}${caster}`;
+    const text = `#version 300 es\nprecision highp float;\nprecision highp int;\nuniform float k[${Math.max(count, 1)}];\n${HELPERS}${source}out vec4 color;\n${DISPLAYED}${caster}${end}`;
     for (const [kind, own] of [[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, text]]) {
       const shader = gl.createShader(kind);
       gl.shaderSource(shader, own);
@@ -123,14 +179,15 @@ class Picture {
     gl.bindAttribLocation(made, 0, "corner");
     gl.linkProgram(made);
     if (!gl.getProgramParameter(made, gl.LINK_STATUS)) throw new Refusal("the graphics card refuses the formula");
-    this.programs.set(source, made);
+    this.programs.set(source + end, made);
     return made;
   }
 
-  draw(camera, state, share, plain = false) {
+  // glass: a Glass with the whole stop of which the picture is taken, in so many samples; without it by the formula.
+  draw(camera, state, share, plain = false, glass = null, samples = 0) {
     const gl = this.gl;
     if (!gl || gl.isContextLost()) return;
-    const made = this.program(camera.glsl, camera.numbers.length), [width, height] = camera.frame;
+    const made = glass ? this.program("", 0, glass.program) : this.program(camera.glsl, camera.numbers.length), [width, height] = camera.frame;
     this.canvas.width = Math.max(16, Math.round(share * width));
     this.canvas.height = Math.max(9, Math.round(share * height));
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);
@@ -153,7 +210,10 @@ class Picture {
     gl.uniform3fv(place("sides_u"), [...RECTANGLES.flatMap((one) => one.u), 0, 0, 0]);
     gl.uniform3fv(place("sides_v"), [...RECTANGLES.flatMap((one) => one.v), 0, 0, 0]);
     const within = (value) => Number.isNaN(value) ? 0 : Math.min(Math.max(Number(value), -3e38), 3e38);
-    if (camera.numbers.length) gl.uniform1fv(place("k"), camera.numbers.map(within));
+    if (glass) {
+      for (const [name, [kind, ...values]] of Object.entries(glass.uniforms)) gl[`uniform${kind}`](place(name), ...values);
+      gl.uniform1i(place("samples"), samples);
+    } else if (camera.numbers.length) gl.uniform1fv(place("k"), camera.numbers.map(within));
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
