@@ -47,7 +47,6 @@ from .parts.tilted_film import UPRIGHT_FILM, TiltedFilm
 RIM_SLACK = 2.0**-30
 """Share of the rim's radius beyond it within which a point counts as on the rim; see ``parts.radial``."""
 
-
 ROUNDED = 0.034
 """A tenth of a stop, as a share of the f-number: a lens that is called f/2 may open to 2.03."""
 
