@@ -60,11 +60,18 @@ def test_a_sample_is_of_its_program_and_of_no_other(program):
     assert all(lens.refusal is None for lens in lenses)
     assert bool(lenses) == (program.read is not None)
     assert any(read(path, poses_of) for path in samples) == (program.poses is not None)
+    assert any(len(read(path, rays_of)) for path in samples) == (program.rays is not None)
 
 
 def poses_of(path, *_):
     """The poses of a file."""
     return placed_in(document(path), 1.0)
+
+
+def rays_of(path, *_):
+    """The rays of a scanner without rows and columns; none of other files."""
+    program = program_of(document(path))
+    return [] if program is None or program.rays is None else program.rays(document(path))
 
 
 def read(path, reader):
@@ -88,6 +95,7 @@ def test_a_damaged_sample_ends_in_a_lens_or_in_one_line(program, tmp_path):
             for lens in read(file, lenses_of):
                 assert lens.refusal is None or "\n" not in str(lens.refusal)
             read(file, poses_of)
+            read(file, rays_of)
 
 
 def damaged(path):

@@ -12,6 +12,7 @@ radar equation.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -26,6 +27,7 @@ from ..motion.moments import check_rows
 from ..records import InputError, Shapes
 from ..scene import Scene
 from .beams import CameraBeams, CloudBeams, RayBeams
+from .patterns import SCANNED, pattern_in
 
 MOST_CATEGORY = np.iinfo(np.int32).max
 
@@ -104,11 +106,12 @@ def scan(
 
     camera: as in ``cast``; each pixel's chief ray is a beam.
     rays: in place of a camera, any pattern: origins and directions as in ``cast_rays``, with ``shapes=`` beside them,
-        or the result of ``cast_rays``. Points have the order of the rays; rays of one axis are one row.
+        or the result of ``cast_rays``, or the path of a file of PROGRAMS, which has times and perhaps rings. Points
+        have the order of the rays; rays of one axis are one row.
     times, rings: of ``rays``: frames, as in ``cast_rays``, and whole numbers; they broadcast with the rays. The cloud's
         frame is the earliest. Without rings each row has its own.
     pose: of the sensor that has ``rays``, as of a camera, (4, 4). Without it the sensor has the world's axes, and lies
-        where the rays begin, or at the world's origin if they begin in several places.
+        where the rays begin, or at the world's origin if they begin in several places. Rays of a file are the sensor's.
     name, fps: of a cloud of ``rays``: its name, and the frames per second, by which times become seconds.
     noise: standard deviation of the ranges, in Blender units.
     dropout: range up to which a surface perpendicular to the beam always returns it. In general a return is lost with
@@ -140,8 +143,9 @@ def scan(
         check_rows(shapes)
         beams = CameraBeams.of(scene.camera, shapes)
     else:
-        pattern, shapes = _given(rays, times, rings, camera, shapes)
         (step, behind), rate = _steps(None, quantum), arguments.number(fps, "fps", LARGEST, LEAST)
+        rays = pattern_in(os.fspath(rays), pose, rate) if isinstance(rays, str | os.PathLike) else rays
+        pattern, shapes = _given(rays, times, rings, camera, shapes)
         check_rows(shapes)
         beams = RayBeams.of(pattern, shapes, arguments.name(name), pose, rate)
     images, frame = beams.images, beams.frame
@@ -181,12 +185,17 @@ def scan(
     )
 
 
+scan.__doc__ = (scan.__doc__ or "").replace("PROGRAMS", SCANNED)
+
+
 def _given(rays, times, rings, camera, shapes) -> tuple[RayPattern, Shapes]:
     """Return the rays of a cloud, and the shapes at which they are cast."""
     if isinstance(rays, RayImages):
         if rays.rays is None:
             raise InputError("all hits of rays are no cloud: cast the rays without all_hits")
         pattern, shapes = rays.rays, rays.shapes if shapes is None else shapes
+    elif isinstance(rays, RayPattern):
+        pattern = rays
     else:
         try:
             origins, directions = (rays.origins, rays.directions) if hasattr(rays, "origins") else rays

@@ -7,6 +7,7 @@ from . import (
     aria,
     arkitscenes,
     basalt,
+    blainder,
     bop,
     bundler,
     cahvor,
@@ -23,9 +24,11 @@ from . import (
     hesai,
     hot3d,
     hugin,
+    isaac_lidar,
     kalibr,
     kitti,
     lensfun,
+    livox,
     llff,
     maplab,
     meshroom,
@@ -73,13 +76,13 @@ MODULES = (
     nvm, gaussian_splatting, camera_path, llff, open3d, surround360, fspy, polycam, arkitscenes, tum,
     kitti, gyroflow, ocam, lensfun, hugin, ptgui, velodyne,
     ost, depthai, anipose, easymocap, panoptic, nuscenes, callab,
-    ouster, hesai, recorded, schops, rpc, ray_table, nerf, euroc_trajectory, stmap,
+    ouster, hesai, livox, isaac_lidar, blainder, recorded, schops, rpc, ray_table, nerf, euroc_trajectory, stmap,
 )  # fmt: skip
 PROGRAMS: tuple[ProgramFiles, ...] = tuple(module.PROGRAM for module in MODULES)
 """All programs, in the order in which messages name them."""
 
 
-READ = in_words(program.name for program in PROGRAMS if program.reads)
+READ = in_words(program.name for program in PROGRAMS if program.read is not None)
 """The programs whose lenses are read, in words."""
 PLACED = in_words(program.name for program in PROGRAMS if program.poses is not None)
 """The programs whose poses are read, in words."""

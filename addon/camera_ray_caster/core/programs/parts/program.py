@@ -72,6 +72,21 @@ class CameraRecord:
         return {"fit": self.fit} if self.fit else {}
 
 
+class ScanPattern(NamedTuple):
+    """Rays of a scanner that are no rows and columns, in its axes, x ahead, y to the left, z up; (n,) arrays."""
+
+    azimuth: np.ndarray
+    """To the left, degrees."""
+    elevation: np.ndarray
+    """Degrees."""
+    seconds: np.ndarray
+    """From the begin of the scan."""
+    rings: np.ndarray | None = None
+    """Numbers of the emitters, if the file tells them."""
+    height: np.ndarray | float = 0.0
+    """Of the origins above the center, in the program's unit."""
+
+
 @dataclass(frozen=True)
 class FileWriter:
     """How a program's files are written."""
@@ -132,6 +147,8 @@ class ProgramFiles:
     """Returns the lenses of a document; None if they are further inside, in entries by name."""
     poses: Callable[[Document], list[Placed]] | None = None
     """Returns the poses of a document in its order."""
+    rays: Callable[[Document], ScanPattern] | None = None
+    """Returns the rays of a scanner that has no rows and columns."""
     note: Callable[[Document], str] = lambda document: ""
     """Returns what is left out of the poses of a document, in one line; "" if nothing is."""
     export: FileWriter | None = None

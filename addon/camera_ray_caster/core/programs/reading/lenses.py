@@ -53,7 +53,8 @@ def _known(document: Document) -> list[Lens] | None:
     if program is None:
         return None
     if program.read is None:
-        raise document.refusal(f"it is a file of {program.name}, which has poses and no lens")
+        contents = "poses and no lens" if program.rays is None else "a list of rays: give it to scan(rays=), in Python"
+        raise document.refusal(f"it is a file of {program.name}, which has {contents}")
     return program.read(document)
 
 
