@@ -41,7 +41,7 @@ OVERSCAN = 10.0
 SENSOR = 36.0
 IMAGE = {
     "media_type": "IMAGE", "file_format": "OPEN_EXR", "color_mode": "RGBA", "color_depth": "32",
-    "color_management": "FOLLOW_SCENE",
+    "color_management": "FOLLOW_SCENE", "exr_codec": "NONE",
 }  # fmt: skip
 """Settings of the files of faces, in the order in which they can be set; Blender before 5.0 has no media_type."""
 FAILED = "{} did not render a face: {}"

@@ -42,12 +42,18 @@ def resampled(
     offsets = (np.arange(SIDE) + 0.5) / SIDE - 0.5
 
     def put(rows: slice) -> None:
+        sums = result[rows].reshape(-1, result.shape[-1])
         for up in offsets:
             for right in offsets:
                 rays = still.rays_at(x + right, y[rows] + up)
-                directions = rays.directions[rays.valid] @ turn
-                colors = _colors(faces, pictures, directions if lens is None else lens.directions(directions))
-                result[rows][rays.valid] += colors / SIDE**2
+                directions = rays.directions.reshape(-1, 3) @ turn
+                if lens is not None:
+                    directions = lens.directions(directions)
+                face_of = np.where(rays.valid.ravel(), chosen(faces, directions), -1)
+                for index, (face, picture) in enumerate(zip(faces, pictures, strict=True)):
+                    here = np.flatnonzero(face_of == index)
+                    sums[here] += _between(picture, face.places(directions[here]))
+        sums /= SIDE**2
         result[rows][~still.rays_at(x, y[rows]).valid] = 0.0
 
     if faces:
@@ -55,22 +61,12 @@ def resampled(
     return result
 
 
-def _colors(faces: Sequence[Face], pictures: Sequence[np.ndarray], directions: np.ndarray) -> np.ndarray:
-    """Return the colors that faces have in directions (n, 3), (n, channels)."""
-    colors = np.empty((len(directions), pictures[0].shape[-1]), np.float32)
-    face_of = chosen(faces, directions)
-    for index, (face, picture) in enumerate(zip(faces, pictures, strict=True)):
-        here = face_of == index
-        colors[here] = _between(picture, face.places(directions[here]))
-    return colors
-
-
 def _between(picture: np.ndarray, places: np.ndarray) -> np.ndarray:
     """Return a picture's colors at places (n, 2) in texels, between the middles of the four nearest ones."""
-    size = np.array(picture.shape[1::-1])
-    at = np.clip(places - 0.5, 0, size - 1)
-    first = np.minimum(at.astype(np.intp), size - 2)
-    (x, y), (right, up) = first.T, (at - first).astype(np.float32).T[..., None]
-    low = picture[y, x] * (1 - right) + picture[y, x + 1] * right
-    high = picture[y + 1, x] * (1 - right) + picture[y + 1, x + 1] * right
-    return low * (1 - up) + high * up
+    height, width, channels = picture.shape
+    at = np.clip(places - 0.5, 0, (width - 1, height - 1))
+    first = np.minimum(at.astype(np.intp), (width - 2, height - 2))
+    right, up = (at - first).astype(np.float32).T
+    weights = np.stack(((1 - right) * (1 - up), right * (1 - up), (1 - right) * up, right * up), axis=-1)
+    texels = (first[:, 0] + width * first[:, 1])[:, None] + (0, 1, width, width + 1)
+    return np.einsum("nk,nkc->nc", weights, picture.reshape(-1, channels).take(texels, axis=0))
