@@ -63,7 +63,7 @@ def _alone(camera: Camera, shapes: Shapes, plan: Plan) -> Iterator[tuple[int, in
     """Yield the row of each shape that has pixels of its own, the first column and row of a window, and which pixels of
     the window would show the shape alone, (rows, columns) bool.
     """
-    if camera.pixel_time is not None or uses_tree(camera):
+    if camera.pixel_time is not None or uses_tree(plan):
         for row in range(len(shapes)):
             pixels = cast(camera, _only(shapes, row), passes=("shape_index",), threads=1)["shape_index"] >= 0
             if pixels.any():
