@@ -17,6 +17,7 @@ from points_scenarios import POINTS_SCENARIOS
 from redraw_scenarios import REDRAW_SCENARIOS
 from saved_scenarios import SAVED_SCENARIOS
 from stranger_scenarios import ROW, STRANGER_SCENARIOS, open_menu
+from time_scenarios import TIME_SCENARIOS
 from user import pixels_of
 from views_scenarios import VIEWS_SCENARIOS
 from walk_scenarios import WALK_SCENARIOS
@@ -272,6 +273,6 @@ SCENARIOS = {
         panel, no_camera, left_out, *CAST_SCENARIOS, overlay, ray_under_mouse, viewport,
         cycles, *CAMERA_SCENARIOS, *LESSON_SCENARIOS, *STRANGER_SCENARIOS, *REDRAW_SCENARIOS, *WINDOW_SCENARIOS,
         *ALL_SCENARIOS, *WALK_SCENARIOS, *POINTS_SCENARIOS, *VIEWS_SCENARIOS, *ANIMATED_SCENARIOS, *SAVED_SCENARIOS,
-        *LIVE_SCENARIOS, *LEFT_SCENARIOS, disable,
+        *LIVE_SCENARIOS, *LEFT_SCENARIOS, *TIME_SCENARIOS, disable,
     )
 }  # fmt: skip

@@ -25,7 +25,7 @@ SCENARIOS = (
     "step_through_image", "lens_in_view", "examples", "cast_a_cube", "see_through", "ray_of_a_pixel", "export_colmap",
     "notes_stay", "results_stay", "redraws_of_shapes", "redraws_of_monkeys", "redraws_all_around", "redraws_of_models",
     "shown_camera", "set_frame", "other_engine", "marks", "click_seen", "drag_a_ray", "cast_all", "cast_all_by_cycles",
-    "export_all", "scanned_points", "slit_scan_movie",
+    "export_all", "scanned_points", "slit_scan_movie", "slit_scan_preview",
     "drag_x_before_a_class", "autosaved", "lecture",
     "quad_and_local_views", "undone", "linked_cameras", "by_hand", "every_kind", "saved_views", "saved_runs",
     "live_picture", "live_ends", "live_redraws", "live_shadings", "live_look", "left_however",

@@ -12,7 +12,7 @@ from .engine import engine, viewport
 from .output import images, reports
 from .properties import calibration, groups, paths
 from .properties.declared import ENGINE
-from .read import kept, scene_cache
+from .read import kept, other_times, scene_cache
 from .terminal import commands
 from .ui import (
     add_line,
@@ -72,10 +72,10 @@ CLASSES = (
 """Blender types in registration order: a panel comes after its parent panel."""
 
 MODULES = (
-    groups, paths, kept, follow, reports, images, gallery, lens_icon, scene_cache, engine, viewport, cast_operator,
-    overlay, points, lesson, live, notice, render_panels, menus, gallery_panels, gallery_operators, lesson_operators,
-    lecture_operators, presets, export_operators, rig_operators, commands, other_engine, see_through, hide_overlays,
-    select_seen, in_steps,
+    groups, paths, kept, follow, reports, images, gallery, lens_icon, scene_cache, other_times, engine, viewport,
+    cast_operator, overlay, points, lesson, live, notice, render_panels, menus, gallery_panels, gallery_operators,
+    lesson_operators, lecture_operators, presets, export_operators, rig_operators, commands, other_engine, see_through,
+    hide_overlays, select_seen, in_steps,
 )  # fmt: skip
 """Modules that register more than classes. Their ``register(undo)`` gives ``undo`` the callbacks that undo it."""
 

@@ -95,9 +95,12 @@ def test_the_notice_is_in_views_that_show_rays(perspective, shading, local_view,
             overlay=SimpleNamespace(show_overlays=show_overlays),
             local_view=local_view,
         ),
-        region_data=SimpleNamespace(view_perspective=perspective),
-    )
+        region_data=SimpleNamespace(view_perspective=perspective), view_layer=None,
+    )  # fmt: skip
+    own = f"{SENTENCE}, in a view that is read on"
+    monkeypatch.setattr(notice.other_times, "sentences", lambda scene, layer: iter([own]))
     monkeypatch.setattr(notice, "cached_scene", lambda context: SimpleNamespace(differences=(SENTENCE,), reason=""))
     said, overlaid = list(notice._sentences(context)), show and show_overlays
-    assert (SENTENCE in said) == (overlaid or (shading, perspective) == ("RENDERED", "CAMERA"))
+    is_cast = (shading, perspective) == ("RENDERED", "CAMERA")
+    assert ((own in said), (SENTENCE in said)) == (is_cast, overlaid and not is_cast)
     assert (notice.LOCAL_VIEW in said) == (local_view is not None and (overlaid or shading == "RENDERED"))

@@ -25,10 +25,15 @@ from ...core.camera.view_records import frame_record, view_record
 from ...core.cast import Images, cast
 from ...core.casting.images import reusable
 from ...core.casting.worker import Worker
+from ...core.motion.evaluations import Motion
+from ...core.motion.unfinished import seen_by
 from ...core.records import BlenderCamera, InputError
 from ...core.report.report import uncolored
+from ...core.scene import Scene
+from ...core.timeline import Timeline
 from ..output.reports import left_out_count
 from ..properties.declared import SHADING
+from ..read import other_times
 from ..read.scene_cache import CachedScene, cached_scene
 from ..read.view import camera_frame
 
@@ -63,11 +68,20 @@ class Target:
     raw: BlenderCamera
     seen: tuple[float, float, float, float]
     """Part of the camera's frame that the region shows, in fractions: left, bottom, right, top."""
+    motion: Motion | None = None
+    """The scene over the times of the camera's pixels; None if all are shown at one time."""
 
     def camera(self, step: int) -> Camera:
         """Return the camera with pixels whose side is ``step`` pixels of the window."""
         width, height = (max(1, round(side / step)) for side in (self.width, self.height))
-        return replace(camera_from(frame_record(self.raw, width, height, self.seen)), pixel_time=None)
+
+        def made(raw: BlenderCamera) -> Camera:
+            return camera_from(frame_record(raw, width, height, self.seen))
+
+        if self.motion is None:
+            return replace(made(self.raw), pixel_time=None)
+        motion = seen_by(self.motion, lambda camera: made(camera.record))
+        return replace(made(self.raw), timeline=Timeline(motion))
 
     def rectangle(self, raster) -> tuple[float, float, float, float]:
         """Return left, bottom, width and height of a raster's render window in the region."""
@@ -107,7 +121,10 @@ class Viewport:
         settings = context.scene.camera_ray_caster
         shown = {"shading": settings.shading or SHADING.default}  # no word for the item of a newer version
         matrices = [tuple(row) for row in (*region_data.view_matrix, *region_data.window_matrix)]
-        key = scene, matrices, context.region.width, context.region.height, shown, settings.samples
+        motion = None
+        if region_data.view_perspective == "CAMERA":
+            motion = other_times.known(context.scene, context.view_layer).motion
+        key = scene, id(motion), matrices, context.region.width, context.region.height, shown, settings.samples
         self.update_stats("", left_out_count((*scene.shapes.left_out, *uncolored(scene.shapes, ("combined",)))))
         if self._worker is not None and self._worker.done:
             self._take()
@@ -118,16 +135,17 @@ class Viewport:
         if self._key != key and (self._worker is None or not self._is_first):
             self._key, self._samples = key, settings.samples
             self._abandon()
-            self._begin(context, scene, shown)
+            self._begin(context, scene, motion, shown)
         if self._picture is not None:
             self._draw(depsgraph.scene)
 
-    def _begin(self, context, scene: CachedScene, shown) -> None:
+    def _begin(self, context, scene: CachedScene, motion: Motion | None, shown) -> None:
         """Start the cast of a coarse picture. If it is finished in time, show it, and start that of the last one."""
         try:
             self._target = _target(context, scene.raw)
             if self._target is not None:
                 self._target.camera(1)
+                self._target = replace(self._target, motion=motion)
         except InputError:  # the sidebar shows the reason
             self._target = None
         if self._target is None:
@@ -214,7 +232,8 @@ def _cast(target: Target, shapes, shown: dict[str, Any], step: int, spare: Image
     """
     camera, passes = target.camera(step), ("combined",)
     into = reusable(spare, passes, camera.raster.shape, np.float32)
-    images = cast(camera, shapes, passes=passes, dtype=np.float32, **shown, progress=progress, into=into)
+    scene = Scene(camera, replace(shapes, timeline=camera.timeline))
+    images = cast(scene, passes=passes, dtype=np.float32, **shown, progress=progress, into=into)
     return images, target.rectangle(camera.raster)
 
 

@@ -1,7 +1,9 @@
 """Labels of models and settings, for messages in the window in place of the names that files and the terminal use."""
 
 import re
+from itertools import chain
 
+from ...core.camera.pixel_time import SETTINGS
 from ...core.cameras import MODELS
 
 
@@ -15,7 +17,8 @@ def in_labels(text: str) -> str:
     the names of options in parentheses: of the terminal, and of Python beside it. Names that are words of the language,
     too, stay.
     """
-    labels = {setting.name: setting.label for model in MODELS for setting in model.SETTINGS if "_" in setting.name}
+    settings = chain.from_iterable((*SETTINGS.values(), *(model.SETTINGS for model in MODELS)))
+    labels = {setting.name: setting.label for setting in settings if "_" in setting.name}
     text = re.sub(r" \(--[a-z-]+(, in Python \w+=)?\)", "", text)
     text = re.sub(r"\w+", lambda word: labels.get(word[0], word[0]), text)
     return text[:1].upper() + text[1:]

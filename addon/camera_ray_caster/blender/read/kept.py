@@ -46,14 +46,19 @@ class _Entry:
 
 
 _entries: dict[str, dict[tuple[int, Hashable], _Entry]] = {}
-"""Entries by the depsgraph's mode, VIEWPORT or RENDER: a render's thread and the window's share no entries."""
+"""Entries by the depsgraph's mode, VIEWPORT or RENDER: a render's thread and the window's share no entries; those of a
+copy of the scene by COPY.
+"""
+COPY = "COPY"
+copies: set[int] = set()
+"""The session_uid of each copy of a scene that is evaluated at other frames than the scene: see ``copied``."""
 
 
 class Reading:
     """One reading of a depsgraph."""
 
     def __init__(self, depsgraph):
-        self._mode = depsgraph.mode
+        self._mode = _mode(depsgraph)
         active = depsgraph.view_layer.objects.active
         self._trusted = _is_told() and (active is None or active.mode in STEADY)
         self._before = _entries.get(self._mode, {})
@@ -85,11 +90,21 @@ class Reading:
 
     @cached_property
     def _meshes(self) -> dict[tuple, Mesh]:
-        return {_sample(entry.mesh): entry.mesh for entry in self._before.values() if entry.mesh is not None}
+        known = {**_entries.get("VIEWPORT", {}), **self._before} if self._mode == COPY else self._before
+        return {_sample(entry.mesh): entry.mesh for entry in known.values() if entry.mesh is not None}
 
     def keep(self) -> None:
         """Keep the entries that were used and discard all others."""
         _entries[self._mode] = self._used
+
+
+def _mode(depsgraph) -> str:
+    return COPY if depsgraph.scene.session_uid in copies else depsgraph.mode
+
+
+def forget_copy() -> None:
+    """Discard the entries of a copy, whose evaluated data is freed."""
+    _entries.pop(COPY, None)
 
 
 def _sample(mesh: Mesh) -> tuple:
@@ -116,7 +131,7 @@ def tag(scene, depsgraph):
         mark_all()
         return
     changed = {update.id.original.session_uid for update in depsgraph.updates if update.is_updated_geometry}
-    for entry in _entries.get(depsgraph.mode, {}).values():
+    for entry in _entries.get(_mode(depsgraph), {}).values():
         if not changed.isdisjoint(entry.owners):
             entry.owners.clear()
 

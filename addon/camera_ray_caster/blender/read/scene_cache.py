@@ -36,6 +36,8 @@ class CachedScene:
     """Names of the objects that a render evaluates otherwise: see ``evaluated_otherwise``."""
 
 
+TIMES = "Every pixel is shown at frame"
+"""Beginning of the sentence about a camera whose pixels have their own times."""
 _read: list[CachedScene] = []
 _stale = {"camera", "shapes"}
 
@@ -73,7 +75,7 @@ def differences(camera: Camera | None, scene) -> Iterator[str]:
     if camera.pixel_time is not None:
         now, first, last = frame_of(scene), camera.pixel_time.first, camera.pixel_time.last
         yield (
-            f"Every pixel is shown at frame {now:g}; in a render, each pixel has its own time, from frame {first:.4g} "
+            f"{TIMES} {now:g}; in a render, each pixel has its own time, from frame {first:.4g} "
             f"to {last:.4g}"
         )
     if camera.aperture is not None:

@@ -58,6 +58,8 @@ def why_not(camera_object, depsgraph) -> str:
 
 
 def _reason(camera: Camera) -> str:
+    if camera.pixel_time is not None:
+        return "each pixel has its own time"
     return "" if is_blenders(camera) else refusal(camera)
 
 

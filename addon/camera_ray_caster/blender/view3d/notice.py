@@ -1,7 +1,6 @@
 """A notice at the bottom of a 3D View: why its camera cannot be cast, and differences between the view and a render.
 
-The scene cannot be evaluated at other frames while a view is drawn. Doing it at other times would reset objects that
-the user has moved without a keyframe. So the view shows all pixels at one frame, and the notice says so.
+A view shows all pixels at one frame, and the notice says so, until the scene has been evaluated at other frames.
 The shapes are read once for all views, so the notice also says that rays are not limited to Local View.
 """
 
@@ -12,7 +11,8 @@ from collections.abc import Iterator
 import bpy
 
 from ..properties.declared import ENGINE
-from ..read.scene_cache import cached_scene
+from ..read import other_times
+from ..read.scene_cache import TIMES, cached_scene
 from . import live, text
 from .shown import is_live
 
@@ -41,7 +41,10 @@ def _sentences(context) -> Iterator[str]:
     looks_through = context.region_data.view_perspective == "CAMERA"
     if is_rendered and looks_through and (reason := cached_scene(context).reason):
         yield reason
-    if is_overlaid or (is_rendered and looks_through):
+    if is_rendered and looks_through:
+        yield from other_times.sentences(scene, context.view_layer)
+        yield from (line for line in cached_scene(context).differences if not line.startswith(TIMES))
+    elif is_overlaid:
         yield from cached_scene(context).differences
     if space.local_view is not None and (is_overlaid or is_rendered):
         yield LOCAL_VIEW

@@ -15,7 +15,7 @@ the evaluations can be missed; whole frames and those with keys are evaluated fi
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -73,10 +73,7 @@ class Motion:
     @cached_property
     def is_still(self) -> bool:
         """Whether camera and shapes are the same in all evaluations."""
-        looks = [
-            ((camera.model, camera.pose, camera.aperture, camera.clip_start, camera.clip_end), shapes)
-            for camera, shapes in self.states.values()
-        ]
+        looks = [(c.model, c.pose, c.aperture, c.clip_start, c.clip_end, shapes) for c, shapes in self.states.values()]
         return all(same(looks[0], other) for other in looks[1:])
 
     def parts(self, frames: np.ndarray) -> Iterator[tuple[TimeInterval, np.ndarray]]:
@@ -163,28 +160,44 @@ def resolve(
 ) -> Motion:
     """Evaluate a scene at as few frames as keep the motion between them within ``tolerance`` pixels.
 
-    ``evaluate(frame)`` returns camera and shapes; it is called at most ``most`` times. Whole frames, since cuts lie
+    ``evaluate(frame)`` returns camera and shapes; it is called at most ``most`` times. See ``resolving``.
+    """
+    steps, state = resolving(first, last, tolerance, most, keys), None
+    while True:
+        try:
+            state = evaluate(steps.send(state))
+        except StopIteration as end:
+            return end.value
+
+
+def resolving(
+    first: float, last: float, tolerance: float, most: int, keys: Iterable[float]
+) -> Generator[float, State | None, Motion]:
+    """Yield the frames that ``resolve`` evaluates, receive their states, and return the motion.
+
+    Whole frames, since cuts lie
     there, and ``keys``, the frames with keys, are evaluated first; if these are more than a quarter of ``most``, those
     with keys only, or else whole frames only, or else evenly spaced ones of both. Then intervals are tested, the
     longest first. Those that remain when the budget is used up are reported as unresolved.
     """
     states: dict[float, State] = {}
 
-    def know(*frames: float) -> None:
+    def know(*frames: float) -> Generator[float, State | None, None]:
         for frame in frames:
             if frame not in states:
-                found = evaluate(frame)
-                states[frame] = _with_lens_of(next(iter(states.values()), found), found)
+                found = yield frame
+                assert found is not None
+                states[frame] = with_lens_of(next(iter(states.values()), found), found)
 
     if first == last:
-        know(first)
+        yield from know(first)
         return Motion((TimeInterval.of(states, (first,)),), states, tolerance, 0.0, ())
     whole = np.arange(np.floor(first) + 1, np.ceil(last)).tolist()
     keyed = sorted({float(frame) for frame in keys if first < frame < last})
     both, few = sorted({*whole, *keyed}), max(1, most // 4)
     at_once = next((some for some in (both, keyed, whole) if len(some) <= few), both[:: -(-len(both) // few) or 1])
     ends = [first, *at_once, last]
-    know(*ends)
+    yield from know(*ends)
     waiting = list(pairwise(ends))
     done: list[tuple[float, ...]] = []
     unresolved, estimated, seen = [], 0.0, 0.0
@@ -201,7 +214,7 @@ def resolve(
             unresolved.append((a, b))
             done.append((a, b))
             continue
-        know(p, q)
+        yield from know(p, q)
         probed = [
             (TimeInterval.of(states, others).at(probe), states[probe])
             for probe, others in ((p, (a, q, b)), (q, (a, p, b)))
@@ -219,7 +232,7 @@ def resolve(
             cuts = [a, p, q, b]
             beside = b - SHORTEST
             if is_jump and moves[-1] > tolerance and b in keyed and beside > q and len(states) < most:
-                know(beside)  # a key may begin with a jump
+                yield from know(beside)  # a key may begin with a jump
                 cuts.insert(3, beside)
             waiting += pairwise(cuts)
             continue
@@ -235,13 +248,13 @@ def resolve(
 
 def measured(motion: Motion, evaluate: Callable[[float], State], frames) -> Motion:
     """Return a motion with its errors measured at some frames: the interpolated against the evaluated scene."""
-    known = next(iter(motion.states.values()))
-    both = [(motion.at(frame), _with_lens_of(known, evaluate(frame))) for frame in frames]
+    first = next(iter(motion.states.values()))
+    both = [(motion.at(frame), with_lens_of(first, evaluate(frame))) for frame in frames]
     off, change = (max((error(*pair) for pair in both), default=0.0) for error in (apart, _change))
     return replace(motion, measured=off, appearance=(motion.appearance[0], change))
 
 
-def _with_lens_of(known: State, state: State) -> State:
+def with_lens_of(known: State, state: State) -> State:
     """Return a state with the very lens of a known one if both are the same, so that its tables are computed once."""
     (other, _), (camera, shapes) = known, state
     return (replace(camera, model=other.model), shapes) if same(other.model, camera.model) else state

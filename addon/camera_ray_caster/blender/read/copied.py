@@ -1,0 +1,47 @@
+"""A copy of a window's scene, which can be evaluated at other frames while the window shows its own.
+
+The window's scene keeps its frame, and objects that were moved without a keyframe keep their places. The copy shares
+all data with the scene, and exists during one reading only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import bpy
+
+from . import kept
+
+EVENTS = "depsgraph_update_pre", "depsgraph_update_post", "frame_change_pre", "frame_change_post"
+
+
+@contextmanager
+def copied(window) -> Iterator[bpy.types.Scene]:
+    """Yield a copy of a window's scene. Handlers of evaluations do not run meanwhile, but for those that keep meshes:
+    they would change the scene itself.
+    """
+    with bpy.context.temp_override(window=window), _without_handlers():
+        copy = window.scene.copy()
+        kept.copies.add(copy.session_uid)
+        try:
+            yield copy
+        finally:
+            kept.copies.clear()
+            kept.forget_copy()
+            bpy.data.scenes.remove(copy)
+            for other in bpy.context.window_manager.windows:
+                other.view_layer.update()  # reports all objects once, as a copy is removed
+
+
+@contextmanager
+def _without_handlers() -> Iterator[None]:
+    """Take out the handlers that are not of ``kept``."""
+    before = {name: list(getattr(bpy.app.handlers, name)) for name in EVENTS}
+    try:
+        for name, handlers in before.items():
+            getattr(bpy.app.handlers, name)[:] = [handler for handler in handlers if (name, handler) in kept.HANDLERS]
+        yield
+    finally:
+        for name, handlers in before.items():
+            getattr(bpy.app.handlers, name)[:] = handlers
