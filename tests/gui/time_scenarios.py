@@ -65,7 +65,7 @@ def shown(user, name, space):
             both = picture[y, x, :3], rendered[rows, columns, :3]
             off.append(np.abs(np.subtract(*(part.mean(axis=(0, 1)) for part in both))).max())
     assert len(off) > 80, len(off)
-    assert np.quantile(off, 0.95) < 0.03, np.sort(off)[-30:]
+    assert np.quantile(off, 0.95) < 0.06, np.sort(off)[-30:]  # one ray a pixel meets the lines of the grid or not
 
 
 TIME_SCENARIOS = (slit_scan_preview,)
