@@ -80,6 +80,11 @@ class Flow:
         return found
 
     @lazy
+    def _every(self) -> np.ndarray:
+        """The indices of all points."""
+        return np.arange(len(self._at))
+
+    @lazy
     def _own(self) -> np.ndarray:
         """The coordinates (m, 2) of the pixels themselves."""
         rays, shape = self._values.hits.rays, self._values.hits.t.shape
@@ -112,13 +117,18 @@ class Flow:
         """Return how some of the points have moved; NaN if their shape is not in ``shapes``."""
         if self._last is None or self._last[0] is not shapes:
             self._last, self._known = (shapes, rows_in(self._values.target.shapes, shapes)), None
+        if self._picture.camera.pixel_time is None and some is not self._every:  # all are asked for first
+            moved = self._moved(shapes, self._every)
+            return moved if len(some) == len(self._every) else Moved(*(values.take(some, axis=-1) for values in moved))
         if self._known is None or self._known[0] is not some:  # ``at`` and ``error`` are called in turn
             self._known = some, self._move(shapes, self._last[1], some)
         return self._known[1]
 
     def _move(self, shapes: Shapes, rows: np.ndarray, some: np.ndarray) -> Moved:
-        moved = Moved(np.full((3, len(some)), np.nan), *np.full((2, len(some)), np.nan))
         is_there = rows[self._at[some]] >= 0
+        if len(self._follow) == 1 and is_there.all():
+            return self._follow[0](shapes, rows, some)
+        moved = Moved(np.full((3, len(some)), np.nan), *np.full((2, len(some)), np.nan))
         for follow, first, end in zip(self._follow, self._ends, self._ends[1:], strict=False):
             mine = np.flatnonzero(is_there & (some >= first) & (some < end))
             if mine.size:

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..conventions import gamma
+from ..maths.speed import taken
 from ..maths.vector import components, difference, matrix_rows, matvec, norm
 from ..records import Shapes
 from .frames import InCamera
@@ -34,17 +35,29 @@ def follow_frames(shapes: InCamera, at: np.ndarray, point: Any) -> Follow:
     """Return a function that moves points with the frames of their shapes; the points are given as (m,) components
     relative to the eye, the shapes by their indices (m,).
     """
-    now, inner = shapes.shapes, shapes.shape_from_world[at]
-    offset = difference(point, components(now.center[at] - shapes.pose.eye))
-    place = np.array(matvec(matrix_rows(inner), offset))
-    size, condition = norm(offset), np.sqrt((inner * inner).sum(axis=(1, 2)))
-    doubt = (shapes.rounding[at] + gamma(8)) * size
+    now = shapes.shapes
 
     def moved(then: Shapes, rows: np.ndarray, some: np.ndarray) -> Moved:
-        here, there = at[some], rows[at[some]]
-        shift, turn = then.center[there] - now.center[here], then.axes[there] - now.axes[here]
-        by = np.array(matvec(matrix_rows(turn), place[:, some])) + shift.T
-        spread = np.sqrt((turn * turn).sum(axis=(1, 2))) * condition[some]
-        return Moved(by, spread, doubt[some] * spread + gamma(8) * (norm(shift.T) + norm(by)))
+        found = Moved(np.zeros((3, len(some))), *np.zeros((2, len(some))))
+        seen = np.zeros(len(now), bool)
+        seen[at[some]] = True
+        here = np.flatnonzero(seen)  # points are many, shapes are few
+        shift, turn = then.center[rows[here]] - now.center[here], then.axes[rows[here]] - now.axes[here]
+        moves = (shift != 0).any(axis=1) | (turn != 0).any(axis=(1, 2))
+        if not moves.any():
+            return found
+        place = np.zeros(len(now), int)
+        place[here[moves]] = 1 + np.flatnonzero(moves)
+        which = taken(place, taken(at, some)) - 1
+        own = np.flatnonzero(which >= 0)
+        which, points = which[own], some[own]
+        shift, turn, inner = shift[which].T, turn[which], shapes.shape_from_world[here[which]]
+        offset = difference([part[points] for part in point], components(now.center[here[which]] - shapes.pose.eye))
+        by = np.array(matvec(matrix_rows(turn), np.array(matvec(matrix_rows(inner), offset)))) + shift
+        spread = np.sqrt((turn * turn).sum(axis=(1, 2))) * np.sqrt((inner * inner).sum(axis=(1, 2)))
+        doubt = (shapes.rounding[here[which]] + gamma(8)) * norm(offset)
+        for values, new in zip(found, (by, spread, doubt * spread + gamma(8) * (norm(shift) + norm(by))), strict=True):
+            values[..., own] = new
+        return found
 
     return moved
