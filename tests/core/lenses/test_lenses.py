@@ -82,8 +82,8 @@ def test_a_lens_of_the_library_is_what_its_name_says(name):
     focal = facts["focal_length"]
     assert focal == pytest.approx(float(stated[:-2]), rel=0.05)  # nominal: the fisheye of 5 mm has 5.208
     assert facts["source"] or name == "singlet_100mm"
-    # Newton's extension for 50 m; the sharpest film is nearer by spherical aberration, at most 0.013 f of these lenses
-    assert facts["film_distance"] == pytest.approx(facts["back_focus"] + focal**2 / 50e3, abs=0.02 * focal)
+    # Newton's extension for 50 m; the sharpest film is nearer by spherical aberration, at most 0.021 f of these lenses
+    assert facts["film_distance"] == pytest.approx(facts["back_focus"] + focal**2 / 50e3, abs=0.025 * focal)
     assert facts["image_circle"] > 5
     assert camera.rays().valid.any()
 
