@@ -27,8 +27,15 @@ from .parts.port import PORTS, DomePort, FlatPort, balls_inside, rays_inside
 from .parts.port_settings import PORT, SETTINGS
 from .parts.pose import pose_from
 from .parts.silhouette import everywhere
+from .parts.traced_aperture import TracedAperture, lines
 
 EYE = 0.0, 0.0, 0.0
+SAMPLES = 9
+"""Pixels across and up, and points of the aperture, at which the blur is measured."""
+CONVERGED, SHARP = 1.05, 1e-6
+"""Where twice as many pixels across and up find a blur that is larger by this factor and angle, as they do close to
+total reflection and to a plate's own direction, it counts as endless. The measured blur has a margin of 1.25.
+"""
 OF_FLAT = (
     Step("Unit vector inside", "d = r / sqrt(r . r)"),
     Step("Cosine of the angle inside to the plate's normal N", "c = d . N"),
@@ -45,14 +52,6 @@ OF_DOME = (
     Step("On the outer face", "Q = P + k (f - b)/ng²"),
     Step("Origin and direction behind the port", "o = Q - E, r = (k + Q (h - f)/B²) / nm"),
 )
-
-
-class AnyDepth(Aperture):
-    """An aperture whose blur is not bounded."""
-
-    def blur(self, centers, radii, planar):
-        """See Aperture."""
-        return np.full(np.shape(radii), np.inf)
 
 
 @dataclass(frozen=True)
@@ -123,7 +122,34 @@ class BehindPort(Model):
     def aperture(self, raw, pose):
         """See Model: the lens's own, sharp at its focus distance inside."""
         thin = self.lens.aperture(raw, pose)
-        return None if thin is None else AnyDepth(**vars(thin))
+        if thin is None:
+            return None
+        fine = self._traced(thin, 2 * SAMPLES - 1)
+        coarse = fine[:, ::2, ::2]  # of the first SAMPLES in each direction
+        bounded = np.isfinite(fine).all() and fine[0].max() <= CONVERGED * coarse[0].max()
+        bounded = bounded and fine[2].max() <= CONVERGED * coarse[2].max() + SHARP
+        apart, sharp, spread = fine.reshape(3, -1) if bounded else np.array([[np.inf], [0.0], [0.0]])
+        kept: dict[str, Any] = vars(thin)
+        apart, sharp, spread = (tuple(each.tolist()) for each in (apart, sharp, spread))
+        return TracedAperture(**kept, apart=apart, sharp=sharp, spread=spread, reach=self.port.reach)
+
+    def _traced(self, thin: Aperture, count: int) -> np.ndarray:
+        """Return the blur of chief rays of count x count pixels, (3, count, count), as ``lines`` does: 0 where the lens
+        has no ray, NaN where the port reflects one totally.
+        """
+        x, y = (np.linspace(0.0, side, count) for side in self.frame)
+        x, y = (np.ravel(each)[:, None] for each in np.meshgrid(x, y))
+        share = (np.arange(SAMPLES) + 0.5) / SAMPLES
+        point = thin.points(*(np.ravel(each) for each in np.meshgrid(share, share)))
+        with np.errstate(all="ignore"):
+            chief = self.lens.rays(x, y)
+            seen = np.broadcast_to(np.isfinite(chief[1][0]), (count * count, 1))
+            origin, direction = self.lens.through(thin, chief, x, y, point)
+            bent, center = (self.port.bent(o, self._unit(d)) for o, d in ((origin, direction), (EYE, chief[1])))
+            passes = np.isfinite(bent[1][0]) & np.isfinite(center[1][0]) & seen
+            found = np.array(lines(center, bent[0], bent[1], passes))
+        found[:, (passes != seen).any(axis=1)] = np.nan
+        return found.reshape(3, count, count)
 
     def through(self, aperture, chief, x, y, point):
         """See Model."""

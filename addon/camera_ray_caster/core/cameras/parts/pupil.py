@@ -17,8 +17,7 @@ from ...lenses.chief import ChiefRays
 from ...lenses.optics import BISECTIONS, Optics
 from ...lenses.trace import LensSurface, trace
 from ...maths.recording import is_recorded, look_up
-from ...maths.vector import norm
-from .aperture import Aperture
+from .traced_aperture import TracedAperture, lines
 
 RADII = 25
 """Radii on the film, from the axis to the end of the picture, at which the disc is tried."""
@@ -32,9 +31,6 @@ TRIED = 1.5
 SLACK = 2.0 * TRIED / (GRID - 1)
 """What the disc is wider than the farthest point that passes, in paraxial radii: the grid's step."""
 
-MARGIN = 1.25
-"""What the grid's largest values are multiplied by: a step at the rim changes third-order aberrations by 1.15."""
-
 NARROWED = 8
 """Largest number of times that the picture's end is moved to where light ends, if that is less than half of it."""
 
@@ -43,7 +39,7 @@ FEWEST = 1 / 64
 
 
 @dataclass(frozen=True)
-class Pupil(Aperture):
+class Pupil(TracedAperture):
     """The entrance pupil as an ``Aperture``, and the disc in the exit pupil."""
 
     plane: float = 0.0
@@ -63,36 +59,6 @@ class Pupil(Aperture):
     colors: tuple[tuple[float, ...], ...] = ()
     """Indices of red, green and blue light before the lens and behind each surface; empty if they are not traced apart.
     """
-    apart: tuple[float, ...] = ()
-    """Largest distance of a ray's line from the origin of its chief ray, Blender units, for some chief rays."""
-    sharp: tuple[float, ...] = ()
-    """One over the distance along them at which their rays come together, or 0 or less if they spread."""
-    spread: tuple[float, ...] = ()
-    """Largest distance of a ray from the chief ray there, over that distance."""
-    angles: tuple[float, ...] = ()
-    """Angles of these chief rays from the axis, in radians, ascending; empty if they do not tell them apart."""
-    reach: float = 0.0
-    """Largest distance from the eye at which rays begin, Blender units."""
-
-    def blur(self, centers, radii, planar: bool):
-        """See Aperture. At a distance s of a chief ray that is sharp at D another ray of the pixel is at most
-        apart |1 - s / D| + spread s away: it is a line.
-        """
-        distance = np.sqrt((centers * centers).sum(axis=1))
-        near, far = np.maximum(distance - radii - self.reach, 0.0)[:, None], (distance + radii + self.reach)[:, None]
-        apart, sharp, spread = (np.array(each) for each in (self.apart, self.sharp, self.spread))
-        blur = apart * np.maximum(1 - np.where(sharp > 0, near, far) * sharp, far * sharp - 1) + far * spread
-        worst = blur.max(axis=1)
-        if not self.angles:
-            return worst
-        around = (radii + worst + self.reach) / distance
-        angle = np.arccos(-centers[:, 2] / distance)
-        half = np.where(around < 1, np.arcsin(np.minimum(around, 1)), np.pi)
-        first = np.searchsorted(self.angles, angle - half) - 1
-        last = np.maximum(np.searchsorted(self.angles, angle + half, "right"), first)
-        place = np.arange(len(apart))
-        last, first = np.minimum(last, place[-1])[:, None], np.minimum(first, place[-1])[:, None]
-        return np.where((first <= place) & (place <= last), blur, 0.0).max(axis=1)
 
 
 def color_of(x, y):
@@ -210,13 +176,7 @@ def _lines(chief: ChiefRays, optics: Optics, origin, direction, upright, passes)
     height, place, tangent = chief.at(squared)
     turn = 2 / (1 + tangent * tangent * squared)
     ahead = a * tangent * turn, b * tangent * turn, 1 - turn
-    off = tuple(o - c for o, c in zip(origin, (a * height, b * height, place), strict=True))
-    way = sum(o * d for o, d in zip(off, direction, strict=True))
-    lines = np.where(passes, [o - way * d for o, d in zip(off, direction, strict=True)], 0.0)
-    turned = np.where(passes, [d - u for d, u in zip(direction, ahead, strict=True)], 0.0)
-    total = (lines * lines).sum(axis=(0, 2, 3))
-    sharp = -(lines * turned).sum(axis=(0, 2, 3)) / np.where(total > 0, total, 1.0)
-    apart, spread = (MARGIN * norm(part).max(axis=(1, 2)) for part in (lines, turned + lines * sharp[:, None, None]))
+    apart, sharp, spread = lines(((a * height, b * height, place), ahead), origin, direction, passes)
     angles = np.arccos(np.clip(turn - 1, -1.0, 1.0)).ravel()
     reach = float(np.hypot(np.sqrt(squared) * height, place - optics.entrance_pupil[0]).max() + apart.max())
     return apart, sharp, spread, angles, reach
