@@ -1,6 +1,7 @@
 """Cameras from files in Blender: lenses, places, keyframes and sizes, and casts that leave the .blend as it is."""
 
 import json
+from time import sleep
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from camera_ray_caster.blender.read.frames import go_to
 from camera_ray_caster.blender.read.scene import read_camera
 from camera_ray_caster.blender.rig import add_rig, contents, frames_of
 from camera_ray_caster.blender.terminal import commands
-from camera_ray_caster.blender.ui import chosen_frames, in_steps
+from camera_ray_caster.blender.ui import chosen_frames, in_process
 from camera_ray_caster.core.records import InputError
 
 CHAIN = """cam0:
@@ -170,8 +171,8 @@ def test_cast_all_and_exports_take_each_camera_in_the_frames_of_its_poses(blende
     add_rig(scene, [model])
     assert chosen_frames.usual(scene) == "POSES"
     assert cast(directory=str(tmp_path / "all"), frames="POSES", format="NPZ") == {"FINISHED"}
-    while in_steps.tick() is not None:
-        pass
+    while in_process.tick() is not None:
+        sleep(0.05)
     assert {path.stem for path in (tmp_path / "all").glob("*.npz")} == {"x-1_0001", "x-2_0002"}
     assert export(filepath=str(tmp_path / "e"), format="colmap", cameras="ALL", frames="POSES") == {"FINISHED"}
     assert (tmp_path / "e" / "images.txt").read_text().count(".png") == 2

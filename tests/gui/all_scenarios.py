@@ -8,17 +8,22 @@ import numpy as np
 from parts import BUTTON, addon, load
 from window_scenarios import dialog, middle
 
+STOP = 0.82
+"""Where the button that stops a run is in the sidebar's width."""
 LIST = 110
 """Pixels from the button Use in Cycles down to the title of the list of cameras."""
 
 
 def cast_all(user, scenes):
-    """The list of cameras casts them all at all frames into a folder, as the terminal does; Esc leaves whole frames."""
+    """The list of cameras casts them all at all frames into a folder by the terminal's command while the window works;
+    a stop leaves whole frames.
+    """
     yield from load(user, scenes, "toys")
-    scene, run = bpy.context.scene, addon("ui.in_steps")
+    scene, run = bpy.context.scene, addon("ui.in_process")
     second = beside(scene)
     second.data.camera_ray_caster.model = "OMNIMAX"
     scene.frame_current = 7
+    bpy.ops.ed.undo_push(message="A dome")
     before = kept(scene)
     yield from user.wait(0.7)
     user.picture("cameras_closed")
@@ -29,7 +34,9 @@ def cast_all(user, scenes):
     folder.mkdir(exist_ok=True)
     yield from into(user, folder)
     yield from user.until(run.running, "the pictures are being made")
+    user.area().spaces.active.shading.type = "RENDERED"  # which the run does not disturb
     yield from user.until(lambda: run.running() is None, "the pictures are made")
+    user.area().spaces.active.shading.type = "SOLID"
     assert run.latest().startswith("Wrote 4 pictures into"), run.latest()
     assert sorted(path.stem for path in folder.glob("*.png")) == [
         f"{name}_{frame:04}" for name in (scene.camera.name, "Dome") for frame in (1, 2)
@@ -40,15 +47,15 @@ def cast_all(user, scenes):
     user.picture("cameras_cast")
 
     scene.render.resolution_percentage, scene.frame_end = 60, 50
+    bpy.ops.ed.undo_push(message="Larger")
     yield from user.press(f"{BUTTON}cast_all(")
     folder = user.folder / "stopped"
     folder.mkdir(exist_ok=True)
     yield from into(user, folder)
-    yield from user.until(lambda: run.running() and run.running().made, "a picture is made")
+    yield from user.until(lambda: run.running() and run.running().fraction, "a picture is made")
     yield from user.wait(0.5)
     user.picture("cameras_casting")
-    yield from user.point(*middle(user.region("WINDOW")))
-    yield from user.key("Escape")
+    yield from stop(user)
     yield from user.until(lambda: run.latest().startswith("Stopped: "), "it has ended")
     assert 0 < len(list(folder.glob("*.json"))) < 100
     check_whole(folder)
@@ -59,7 +66,7 @@ def cast_all(user, scenes):
 def cast_all_by_cycles(user, scenes):
     """The pictures of the list are Cycles' by choice, beside our depth; the scene's own engine stays."""
     yield from load(user, scenes, "toys")
-    scene, run = bpy.context.scene, addon("ui.in_steps")
+    scene, run = bpy.context.scene, addon("ui.in_process")
     beside(scene)
     scene.cycles.samples = 4
     addon("properties.passes").tick(scene, bpy.context.view_layer, ["combined", "depth"])
@@ -89,12 +96,13 @@ def cast_all_by_cycles(user, scenes):
 
 
 def export_all(user, scenes):
-    """The list of cameras exports them all at all frames, while the window stays responsive; Esc leaves nothing."""
+    """The list of cameras exports them all at all frames, by the terminal's command; a stop leaves nothing."""
     yield from load(user, scenes, "toys")
-    scene, run = bpy.context.scene, addon("ui.in_steps")
+    scene, run = bpy.context.scene, addon("ui.in_process")
     second = bpy.data.objects.new("Dome", bpy.data.cameras.new("Dome"))
     scene.collection.objects.link(second)
     scene.frame_start, scene.frame_end, scene.frame_current = 1, 200, 7
+    bpy.ops.ed.undo_push(message="Two cameras")
     before = kept(scene)
     yield from user.wait(0.7)
     yield from open_list(user)
@@ -103,7 +111,7 @@ def export_all(user, scenes):
     yield from user.press(f"{BUTTON}export(")
     yield from into(user, folder)
     folder /= "toys_json"
-    yield from user.until(lambda: run.latest() == f"Wrote 1 file into {folder}", "it has exported")
+    yield from user.until(lambda: run.latest() == f"Wrote {folder / 'camera.json'}", "it has exported")
     cameras = json.loads((folder / "camera.json").read_text())["cameras"]
     assert [len(one["frames"]) for one in cameras] == [200, 200]
     assert kept(scene) == before
@@ -111,19 +119,25 @@ def export_all(user, scenes):
     user.picture("export_all")
 
     scene.frame_end, stopped = 100000, user.folder / "export_stopped"
+    bpy.ops.ed.undo_push(message="Longer")
     stopped.mkdir(exist_ok=True)
     yield from user.press(f"{BUTTON}export(")
     yield from into(user, stopped)
-    yield from user.until(lambda: run.running() and run.running().progress, "it is exporting")
+    yield from user.until(lambda: run.running() and run.running().fraction, "it is exporting")
     yield from user.wait(1)
     user.picture("exporting_all")
-    yield from user.point(*middle(user.region("WINDOW")))
-    yield from user.key("Escape")
+    yield from stop(user)
     yield from user.until(lambda: run.running() is None, "it has ended")
-    assert run.latest() == f"Stopped: nothing was written into {stopped / 'toys_json'}", run.latest()
+    assert run.latest() == "Stopped", run.latest()
     assert not list(stopped.iterdir())
     scene.frame_end = 200
     assert kept(scene) == before
+
+
+def stop(user):
+    """Press the button at the right end of the progress."""
+    yield from user.find(f"{BUTTON}stop_all(", share=STOP)
+    user.send("click", 1)
 
 
 def beside(scene):
@@ -133,6 +147,7 @@ def beside(scene):
     scene.collection.objects.link(second)
     scene.render.engine, scene.render.resolution_percentage = "BLENDER_WORKBENCH", 20
     scene.frame_start, scene.frame_end = 1, 2
+    bpy.ops.ed.undo_push(message="Two cameras")
     return second
 
 

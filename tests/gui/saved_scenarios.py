@@ -1,7 +1,6 @@
 """What a user finds in a file that was saved while something was running or shown: see scenarios.py."""
 
 import bpy
-from all_scenarios import beside, check_whole, kept
 from cast_scenarios import begin as begin_cast
 from lesson_scenarios import place_of
 from parts import BUTTON, addon, load
@@ -15,8 +14,8 @@ def saved_views(user, scenes):
 
 
 def saved_runs(user, scenes):
-    """While a cast or Cast All runs."""
-    yield from saved(user, scenes, a_cast, all_cameras)
+    """While a cast runs."""
+    yield from saved(user, scenes, a_cast)
 
 
 def saved(user, scenes, *states):
@@ -35,7 +34,6 @@ def saved(user, scenes, *states):
         user.picture(f"reopened_{begin.__name__}")
         held()
         assert every_handler() == handlers
-        assert addon("ui.in_steps").running() is None
         assert addon("ui.cast_operator").fraction() is None
         assert not addon("ui.lesson_operators")._waiting
         assert not addon("view3d.lesson").pixels
@@ -92,27 +90,6 @@ def a_cast(user, scenes):
     def held():
         assert addon("output.reports").latest() is None
         assert not [image for image in bpy.data.images if image.name.startswith("Ray Caster")]
-
-    return held
-
-
-def all_cameras(user, scenes):
-    """Cast all cameras at many frames: the scene is as before, and the pictures that were made are whole."""
-    yield from load(user, scenes, "toys")
-    scene, run = bpy.context.scene, addon("ui.in_steps")
-    beside(scene).data.camera_ray_caster.model = "OMNIMAX"
-    scene.frame_current, scene.frame_end = 7, 50
-    folder = user.folder / "midway"
-    folder.mkdir(exist_ok=True)
-    before = kept(scene)
-    with bpy.context.temp_override(window=user.window):
-        bpy.ops.camera_ray_caster.cast_all("EXEC_DEFAULT", directory=str(folder), frames="RANGE")
-    yield from user.until(lambda: run.running() and run.running().made, "a picture is made")
-
-    def held():
-        assert kept(bpy.context.scene) == before
-        assert 0 < len(list(folder.glob("*.json"))) < 100
-        check_whole(folder)
 
     return held
 

@@ -189,7 +189,7 @@ def notes_stay(user, scenes):
 def results_stay(user, scenes):
     """A cast, a verification and a cast of all cameras move no button, whatever they say: each is where it was."""
     yield from load(user, scenes, "left_out")
-    scene, run = bpy.context.scene, addon("ui.in_steps")
+    scene, run = bpy.context.scene, addon("ui.in_process")
     second = bpy.data.objects.new("Second", scene.camera.data)
     scene.collection.objects.link(second)
     scene.render.resolution_percentage = 10

@@ -40,6 +40,8 @@ WRONG_FOR_CAST = {
     "half a share": (["small.blend", "--frames", "1:4", "--shard", "3"], "'3'"),
     "a share of one frame": (["small.blend", "--shard", "1/4"], "of the frames of --frames"),
     "no such format": (["small.blend", "--format", "tiff"], "EXR"),
+    "poses of none": (["small.blend", "--poses"], "no camera has poses from a file: give --frames"),
+    "poses and frames": (["small.blend", "--poses", "--frames", "1:2"], "leave out --frame and --frames"),
     "one frame for frames": (["small.blend", "--frames", "2"], "'2'"),
     "frame and frames": (["small.blend", "--frame", "1", "--frames", "1:2"], "not allowed with"),
     "a file for a folder": (["small.blend", "--output", "text.blend"], "cannot write into 'text.blend'"),

@@ -30,7 +30,7 @@ from .ui import (
     gallery_operators,
     gallery_panels,
     hide_overlays,
-    in_steps,
+    in_process,
     lecture_operators,
     left_out_panels,
     lens_operators,
@@ -62,7 +62,7 @@ CLASSES = (
     *export_operators.CLASSES, *rig_operators.CLASSES, *mouse_gizmo.CLASSES, *render_panels.CLASSES,
     *gallery_panels.CLASSES, *menus.CLASSES, *presets.CLASSES, *model_panels.CLASSES,
     *see_through.CLASSES, *see_through_here.CLASSES, *select_seen.CLASSES,
-    *camera_panels.CLASSES, *in_steps.CLASSES, *cast_all.CLASSES,
+    *camera_panels.CLASSES, *in_process.CLASSES, *cast_all.CLASSES,
     *cameras_list.CLASSES, *show_result.CLASSES, *cast_panels.CLASSES, *verify_panels.CLASSES,
     *left_out_panels.CLASSES, *lens_operators.CLASSES, *lesson_operators.CLASSES, *lecture_operators.CLASSES,
     *point_operators.CLASSES, *gallery_operators.CLASSES,
@@ -75,7 +75,7 @@ MODULES = (
     groups, paths, kept, follow, reports, images, gallery, lens_icon, scene_cache, other_times, engine, viewport,
     cast_operator, overlay, points, lesson, live, notice, render_panels, menus, gallery_panels, gallery_operators,
     lesson_operators, lecture_operators, presets, export_operators, rig_operators, commands, other_engine, see_through,
-    hide_overlays, select_seen, in_steps,
+    hide_overlays, select_seen, in_process,
 )  # fmt: skip
 """Modules that register more than classes. Their ``register(undo)`` gives ``undo`` the callbacks that undo it."""
 

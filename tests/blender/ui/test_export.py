@@ -2,12 +2,13 @@
 
 import json
 import re
+from time import sleep
 
 import numpy as np
 import pytest
 
 from camera_ray_caster.blender.read.scene import read_camera
-from camera_ray_caster.blender.ui import export_operators, in_steps
+from camera_ray_caster.blender.ui import export_operators, in_process
 from camera_ray_caster.core.exports import FORMATS
 from camera_ray_caster.core.exports.camera_json import camera_from_json
 
@@ -62,19 +63,21 @@ def test_what_cannot_be_written_is_an_error_in_one_line(blender, two, tmp_path):
 
 @pytest.mark.full
 def test_the_nearest_lens_is_written_and_its_error_said_last(blender, two, tmp_path):
-    two.render.resolution_x, two.render.resolution_y = 24, 18
+    two.render.resolution_x, two.render.resolution_y, two.frame_end = 24, 18, two.frame_start
     own = two.camera.data.camera_ray_caster
     own.model, own.fx, own.fy, own.cx, own.cy = "DOUBLE_SPHERE", 11, 11, 11.5, 8.5
     own.calibration_width, own.calibration_height = 24, 18
     given = {"filepath": str(tmp_path), "format": "opencv"}
     with pytest.raises(RuntimeError, match=r"cannot represent the Double Sphere .*, or Fit Nearest Lens"):
         blender.ops.camera_ray_caster.export(**given)
-    blender.ops.camera_ray_caster.export(**given, fit=True, fit_within=1.0, in_steps=True)
-    while in_steps.tick() is not None:
-        pass
+    blender.ops.camera_ray_caster.export(**given, fit=True, fit_within=1.0, in_process=True, frames="RANGE")
+    while in_process.tick() is not None:
+        sleep(0.05)
     said = r"First: fitted to its Double Sphere, within 57.3 degrees of the viewing direction: .* mean [\d.e-]+ pixels"
-    assert re.match(said, in_steps.latest())
-    assert in_steps.latest() in (tmp_path / "First.yml").read_text()
+    wrote, *remarks = in_process.latest().splitlines()
+    assert wrote.startswith("Wrote ")
+    (error,) = [line for line in remarks if re.match(said, line)]
+    assert error in next(tmp_path.glob("First*.yml")).read_text()
 
 
 def test_only_formats_of_lenses_offer_the_nearest_one(blender):

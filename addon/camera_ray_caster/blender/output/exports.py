@@ -1,6 +1,6 @@
 """Export of cameras, by frame, to files of other programs; see ``core.exports``. All files appear, or none."""
 
-from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -22,59 +22,46 @@ from .saving import blender_writes
 
 Shown = Callable[[Any, float], bool]
 """Whether a camera is wanted in a frame."""
+Say = Callable[[str], object]
+"""What is called with a line about what is being done."""
 
 
 def write(
     scene, key: str, cameras: Sequence, frames: Iterable[float], folder: Path, target=None, own_sizes: bool = True,
-    fit: float | None = None, shown: Shown = lambda *_: True,
+    fit: float | None = None, shown: Shown = lambda *_: True, say: Say | None = None,
 ) -> tuple[list[str], list[Path]]:  # fmt: skip
     """Export camera objects of a scene at some frames, in the format ``key``, into ``folder``; return lines of messages
     and the paths of the files.
 
     In a stereo scene each rendered view of a camera is exported, with its suffix. ``target`` is the camera object to
-    which maps lead; ``fit``: see ``core.exports.export``; ``shown`` tells whether a camera is exported at a frame. The
-    scene is restored afterwards. Raises InputError if a camera cannot be read or represented or the folder cannot be
-    written, and Cancelled if stopped; then no files are left behind.
-    """
-    return writing.whole(steps(scene, key, cameras, frames, folder, target, own_sizes, fit, shown))
-
-
-def steps(
-    scene, key: str, cameras: Sequence, frames: Iterable[float], folder: Path, target=None, own_sizes: bool = True,
-    fit: float | None = None, shown: Shown = lambda *_: True,
-) -> Generator[str, None, tuple[list[str], list[Path]]]:  # fmt: skip
-    """Do what ``write`` does in steps, one for each frame and each file; yield what a step does, in words. If it is
-    closed before its end, the scene is restored and no files are left behind.
+    which maps lead; ``fit``: see ``core.exports.export``; ``shown`` tells whether a camera is exported at a frame;
+    ``say`` is called with the frames that are read and the names of the files. The scene is restored afterwards. Raises
+    InputError if a camera cannot be read or represented or the folder cannot be written, and Cancelled if stopped; then
+    no files are left behind.
     """
     if target is not None and not find_format(key).takes_target:
         raise InputError(f"format {key} has no target camera: only maps have a target")
-    files, remarks = export(key, (yield from reading(scene, cameras, frames, target, own_sizes, shown)), fit)
-    return remarks, (yield from writing.steps(_until_stopped(files), folder, _write_image))
+    files, remarks = export(key, shots(scene, cameras, frames, target, own_sizes, shown, say), fit)
+    return remarks, writing.write(_until_stopped(files, say), folder, _write_image)
 
 
-def _until_stopped(files: Iterable) -> Iterator:
-    """Yield files; raise Cancelled if a request to stop has arrived."""
+def _until_stopped(files: Iterable, say: Say | None) -> Iterator:
+    """Yield files, and say their names; raise Cancelled if a request to stop has arrived."""
     for file in files:
         signals.raise_if_stopping()
+        if say is not None:
+            say(file[0])
         yield file
 
 
 def shots(
     scene, cameras: Sequence, frames: Iterable[float], target=None, own_sizes: bool = True,
-    shown: Shown = lambda *_: True,
+    shown: Shown = lambda *_: True, say: Say | None = None,
 ) -> list[Shot]:  # fmt: skip
     """Return the cameras, or their eyes, at each frame, in the order of the frames; see ``write``.
 
     own_sizes: whether a camera with a size of its own has it, in place of the scene's; see ``read.size``.
     """
-    return writing.whole(reading(scene, cameras, frames, target, own_sizes, shown))
-
-
-def reading(
-    scene, cameras: Sequence, frames: Iterable[float], target=None, own_sizes: bool = True,
-    shown: Shown = lambda *_: True,
-) -> Generator[str, None, list[Shot]]:  # fmt: skip
-    """Do what ``shots`` does in steps, one for each frame and size of pictures."""
     views = [(view.file_suffix, view.name) for view in views_of(scene)] or [("", "")]
     names = [unique_name(camera, bpy.data.objects) for camera in cameras]
     file_names(f"{name}{suffix}" for name in names for suffix, _ in views)  # raises if two names are equal
@@ -89,7 +76,8 @@ def reading(
             for frame in frames:
                 signals.raise_if_stopping()
                 done += 1
-                yield f"Frame {frame:g}, {done} of {count}"
+                if say is not None:
+                    say(f"Frame {frame:g}, {done} of {count}")
                 go_to(scene, frame)
                 to = read_camera(scene, target) if target is not None else None
                 for camera, name in ours:

@@ -16,8 +16,8 @@ from . import dataset, farm, files
 from .jobs import PictureJob, first_jobs
 from .options import add_frame, add_json, command_parser, show, warn
 from .pictures import Pictures, add_words, parsed, suffixes_of, summary
-from .progress import follow
-from .words import add_frames, count, scheduler_address, share, unstamped
+from .progress import EVERY, follow
+from .words import add_frames, add_progress, count, scheduler_address, share, unstamped
 
 
 def run(arguments: Sequence[str], prog: str) -> int:
@@ -54,7 +54,7 @@ def run(arguments: Sequence[str], prog: str) -> int:
             outcomes = (make(job, stamp, prog, maps.get(job.camera)) for job in jobs)
         else:
             outcomes = farm.outcomes(client, pictures, stamp, maps, jobs)
-        for outcome in follow(outcomes, len(jobs), prog, options.log):
+        for outcome in follow(outcomes, len(jobs), prog, options.log, 0.0 if options.progress else EVERY):
             passed &= outcome.passed or bool(outcome.failure)
             made += outcome.made
             failed += bool(outcome.failure)
@@ -112,6 +112,7 @@ def options_of(arguments: Sequence[str], prog: str) -> argparse.Namespace:
     parser.add_argument("--file-output", action="store_true",
                         help="also write the files of the compositor's File Output nodes; default: the "
                              "nodes write nothing")  # fmt: skip
+    add_progress(parser)
     add_json(parser)
     parser.set_defaults(pictures=True)
     return parsed(parser, arguments)

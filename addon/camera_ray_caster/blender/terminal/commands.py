@@ -4,6 +4,7 @@ Exit status 0: done; 1: done, but an independent reference disagrees with the ca
 line on standard error; 130: stopped by Ctrl C or another signal that ends a process.
 """
 
+import signal
 import sys
 from collections.abc import Sequence
 
@@ -57,5 +58,7 @@ def register(undo) -> None:
 
 def _from_blender(arguments: Sequence[str]) -> int:
     keep_output()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signals.stop)
     command, *options = arguments or [""]
     return main(command, options, f"camera_ray_caster {command}".strip())

@@ -1,5 +1,6 @@
 """The command that exports cameras, by frame, to files of other programs."""
 
+import sys
 from argparse import ArgumentTypeError
 from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
@@ -20,7 +21,7 @@ from ..read.camera import ALL, check_camera, check_markers, find_camera, find_ca
 from ..read.frames import frame_of
 from ..read.scene import read_shapes
 from .options import command_parser, go_to, open_scene, scene_of, shown_at, warn
-from .words import add_cameras, add_frames, check_cameras, count, degrees
+from .words import add_cameras, add_frames, add_progress, check_cameras, count, degrees
 
 OF_SCENES = "calibration", "rig", "resolution", "to"
 """Options that change what a .blend has."""
@@ -58,6 +59,7 @@ def run(arguments: Sequence[str], prog: str) -> int:
         f"{', '.join(key for key, set_format in SET_FORMATS.items() if set_format.splits)}; default: none")  # fmt: skip
     add_cameras(parser)
     add_frames(parser)
+    add_progress(parser)
     parser.add_argument("--to", metavar="NAME", help="target camera of the maps, for stmap only; "
                                                      "default: a perspective camera with the same lens")  # fmt: skip
     parser.add_argument("--fit", nargs="?", type=degrees, const=pi, metavar="DEGREES", help=
@@ -87,12 +89,18 @@ def run(arguments: Sequence[str], prog: str) -> int:
     target = find_camera(scene, options.to) if options.to is not None else None
     frames = options.frames or [frame_of(scene)]
     go_to(scene, None, max(frames))
+    say = partial(_say, prog) if options.progress else None
     remarks, paths = exports.write(scene, options.format, cameras, frames, options.output, target,
-                                   not options.resolution, options.fit, partial(shown_at, options))  # fmt: skip
+                                   not options.resolution, options.fit, partial(shown_at, options), say)  # fmt: skip
     for line in not_run():
         warn(prog, line)
     _tell(remarks, paths, options.output)
     return 0
+
+
+def _say(prog: str, line: str) -> None:
+    """Print what is being done."""
+    print(f"{prog}: {line}", file=sys.stderr, flush=True)
 
 
 def _part(text: str) -> float:

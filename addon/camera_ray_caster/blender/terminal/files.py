@@ -1,13 +1,13 @@
 """A rendered frame as files: a picture, its passes as EXR or NPZ, and the report. All files appear, or none."""
 
 import os
-from collections.abc import Generator, Iterable, Mapping, Sequence
-from contextlib import ExitStack, closing, redirect_stdout
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import ExitStack, redirect_stdout
 from dataclasses import replace
 from math import ceil
 from pathlib import Path
 from time import perf_counter
-from typing import Any, TypeVar
+from typing import Any
 
 import bpy
 import numpy as np
@@ -38,34 +38,10 @@ EXR, NPZ = "EXR", "NPZ"
 FORMATS = EXR, NPZ
 """File formats of passes: a multilayer EXR, or NumPy arrays."""
 
-T = TypeVar("T")
-Making = Generator[None, None, T]
-"""Generator that waits for a render of the scene at each ``yield``, and returns a result."""
-
 NOT_WRITTEN = "the compositor's File Output nodes were not run: --file-output makes them write their files"
 
 
-def render(scene, *where, **how) -> tuple[Report, list[Path]]:
-    """Run ``rendering`` from its beginning to its end."""
-    return at_once(scene, rendering(scene, *where, **how))
-
-
-def at_once(scene, making: Making[T]) -> T:
-    """Run a generator that yields where it needs a render of the scene, with a render each time; return its result."""
-    with closing(making):
-        while True:
-            try:
-                next(making)
-            except StopIteration as end:
-                return end.value
-            try:
-                with redirect_stdout(None):  # warnings go into the report, errors into the exception
-                    bpy.ops.render.render(scene=scene.name)
-            except RuntimeError as error:
-                raise InputError(reported(error)) from error
-
-
-def rendering(
+def render(
     scene,
     folder: Path,
     name: str,
@@ -82,10 +58,8 @@ def rendering(
     beside: Iterable[Path] = (),
     spare: dict[tuple[str, str], Images] | None = None,
     dataset: Mapping[str, Any] | None = None,
-) -> Making[tuple[Report, list[Path]]]:
+) -> tuple[Report, list[Path]]:
     """Make files of the scene's current frame in ``folder``; return the report and the paths of the files.
-
-    It waits once, by a ``yield``, for a render of the scene; if it is closed there, nothing is left behind.
 
     The files are NAME.png, NAME.exr (or .npz, depending on ``layers``) and REPORT_NAME.json; with several views,
     NAME_L.png, NAME_R.png and so on, by the views' suffixes. ``half`` stores real numbers of passes with 16 bits.
@@ -103,7 +77,7 @@ def rendering(
     keeps = layers == NPZ or keypoints is not None or points is not None
     call = RenderCall(picture, {} if keeps else None, spare or {})
     with atomic_folder(folder) as temporary:
-        report = yield from _composited(scene, call, file_output)
+        report = _composited(scene, call, file_output)
         if picture is not None:
             report = replace(report, warnings=(*report.warnings, *picture.warnings))
             report = report.with_seconds(**{picture.step: picture.seconds})
@@ -147,21 +121,21 @@ def check(scene) -> None:
     _check_memory(scene)
 
 
-def _composited(scene, call: RenderCall, file_output: bool) -> Making[Report]:
+def _composited(scene, call: RenderCall, file_output: bool) -> Report:
     """Render the current frame, with File Output nodes writing only if ``file_output``, and return the report."""
     nodes = file_outputs.writing(scene)
     if file_output:
         before = file_outputs.files(scene, nodes)
-        report = yield from _rendered(scene, call)
+        report = _rendered(scene, call)
         written = file_outputs.changed(before, file_outputs.files(scene, nodes))
         return replace(report, file_outputs=written, warnings=(*report.warnings, *not_run()))
     with file_outputs.muted(nodes):
-        report = yield from _rendered(scene, call)
+        report = _rendered(scene, call)
     return replace(report, warnings=(*report.warnings, *not_run(), *([NOT_WRITTEN] if nodes else [])))
 
 
-def _rendered(scene, call: RenderCall) -> Making[Report]:
-    """Wait for a render of the current frame; return its report, with Blender's share of the time. Raises Cancelled if
+def _rendered(scene, call: RenderCall) -> Report:
+    """Render the current frame; return its report, with Blender's share of the time. Raises Cancelled if
     it was stopped.
 
     Beside the picture of another engine, which shows the faces of meshes, meshes are not cast as exact shapes.
@@ -174,7 +148,11 @@ def _rendered(scene, call: RenderCall) -> Making[Report]:
         if call.picture is not None:
             changed(stack, scene.camera_ray_caster, exact_shapes=False)
         stack.enter_context(call.handed())
-        yield
+        stack.enter_context(redirect_stdout(None))  # warnings go into the report, errors into the exception
+        try:
+            bpy.ops.render.render(scene=scene.name)
+        except RuntimeError as error:
+            raise InputError(reported(error)) from error
     elapsed = perf_counter() - started
     if call.stopped:
         raise Cancelled

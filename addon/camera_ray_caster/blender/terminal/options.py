@@ -19,7 +19,7 @@ from ..process import signals
 from ..process.opening import open_file, withhold_style_modules
 from ..properties.calibration import READING, set_calibration
 from ..read import frames
-from ..read.camera import check_camera, eye_object, find_camera, has_pixel_times, view_names
+from ..read.camera import ALL, check_camera, eye_object, find_camera, find_cameras, has_pixel_times, view_names
 from ..read.evaluated import camera_at
 from ..read.frames import frame_of, layer_of
 from ..read.physics import simulate
@@ -105,6 +105,8 @@ def open_scene(options, say: Callable[[str], object] | None = None):
             raise InputError(f"--{option.replace('_', '-')} needs a calibration file: add --calibration FILE")
     if rig:
         _mount(scene, options, rig, say)
+    elif getattr(options, "own_frames", False):
+        _take_poses(scene, options)
     return scene
 
 
@@ -130,6 +132,16 @@ def _mount(scene, options, paths: Sequence[str], say: Callable[[str], object]) -
     options.cameras = options.cameras or [item.name for item in mounted]
     if options.frames is None and getattr(options, "frame", None) is None:
         options.frames, options.own_frames = frames_of(mounted) or None, True
+
+
+def _take_poses(scene, options) -> None:
+    """Let the options name the frames of the poses of their cameras. Raises InputError if there are none."""
+    if options.frames is not None or getattr(options, "frame", None) is not None:
+        raise InputError("--poses are frames of their own: leave out --frame and --frames")
+    options.cameras = options.cameras or [ALL]
+    options.frames = frames_of(find_cameras(scene, options.cameras))
+    if not options.frames:
+        raise InputError("no camera has poses from a file: give --frames in place of --poses")
 
 
 def shown_at(options, camera, frame: float) -> bool:

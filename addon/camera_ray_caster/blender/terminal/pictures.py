@@ -111,15 +111,15 @@ def parsed(parser: Parser, arguments: Sequence[str]) -> Namespace:
 class Pictures:
     """A file, opened and set up for the options of a command line, and its pictures."""
 
-    def __init__(self, options, scene=None):
-        """Open the file and set up its scene, or set up a scene that is open. Raises InputError for bad input."""
+    def __init__(self, options):
+        """Open the file and set up its scene. Raises InputError for bad input."""
         by_cycles = options.engine == CYCLES
         if by_cycles:
             check_cycles()
         self.options = options
         self.warnings: list[str] = []
         self.spare: dict[tuple[str, str], Images] = {}
-        self.scene = scene = scene or open_scene(options, self.warnings.append)
+        self.scene = scene = open_scene(options, self.warnings.append)
         scene.render.engine = CameraRayCaster.bl_idname
         if PointFiles.of(options) is not None:
             check_points(scene)
@@ -197,15 +197,9 @@ class Pictures:
                     raise
         return Outcome(False, failure=f"{job.name}: {failure}")
 
-    def make(self, *arguments) -> Outcome:
-        """Run ``making`` from its beginning to its end."""
-        return files.at_once(self.scene, self.making(*arguments))
-
-    def making(
-        self, job: PictureJob, stamp: dict[str, Any], prog: str, ray_map: RayMap | None = None
-    ) -> files.Making[Outcome]:
+    def make(self, job: PictureJob, stamp: dict[str, Any], prog: str, ray_map: RayMap | None = None) -> Outcome:
         """Make a picture, or skip it if it is finished and --skip-existing is given. If the camera's rays are those of
-        ``ray_map``, leave out the ray passes. It waits for renders of the scene.
+        ``ray_map``, leave out the ray passes.
         """
         taken = self.taken(job, stamp, ray_map)
         if taken is not None:
@@ -217,18 +211,18 @@ class Pictures:
         self.tick(lambda key: key not in left_out)
         picture = self._by_engine(prog) if self.options.engine != OWN else None
         of = of_job(stamp, job, ray_map)
-        report, paths = yield from self.rendering(
+        report, paths = self.render(
             job, of, shown=self.options.pictures, picture=picture, beside=beside, keypoints=self.keypoints,
             points=PointFiles.of(self.options),
         )  # fmt: skip
         return Outcome(report.passed, True, report.warnings, report.notes, report.exact, report, paths)
 
-    def rendering(self, job: PictureJob, of: dict[str, Any], **options) -> files.Making[tuple[Report, list[Path]]]:
-        """Write the files of a job from the current state of the scene; ``of`` is their stamp; see ``files.rendering``.
+    def render(self, job: PictureJob, of: dict[str, Any], **options) -> tuple[Report, list[Path]]:
+        """Write the files of a job from the current state of the scene; ``of`` is their stamp; see ``files.render``.
         """
         asked = self.options
         path = asked.output / job.name
-        return files.rendering(
+        return files.render(
             self.scene, path.parent, path.name, Path(job.report).name,
             layers=asked.format, half=asked.half, file_output=asked.file_output, stamp=of, spare=self.spare,
             dataset=dataset_of(asked.output) if asked.dataset else None, **options,

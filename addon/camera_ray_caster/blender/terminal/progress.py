@@ -28,8 +28,8 @@ MOST_FAILURES = 10
 class Progress:
     """Counter of ``total`` items. Items from an earlier run count, but do not affect rate and remaining time."""
 
-    def __init__(self, total: int, prog: str, log: Path | None = None):
-        self.total, self.prog, self.log = total, prog, log
+    def __init__(self, total: int, prog: str, log: Path | None = None, every: float = EVERY):
+        self.total, self.prog, self.log, self.every = total, prog, log, every
         self.done = self.made = self.failed = 0
         self.began = self.said = monotonic()
 
@@ -47,11 +47,11 @@ class Progress:
             bar = f"{100 * self.done // self.total:3}%|{'#' * (COLUMNS * self.done // self.total):{COLUMNS}}|"
             text = f"{self.done}/{self.total} [{_words(elapsed)}<{left}, {rate} pictures/min, {self.failed} failed]"
             print(f"\r{bar} {text}\033[K", end="\n" if last else "", file=sys.stderr, flush=True)
-        if now - self.said >= EVERY or last:
+        if now - self.said >= self.every or last:
             self.said = now
             remains = f", {left} left" if tries else ""
             line = f"{rate} pictures a minute, {self.failed} failed, {self.done} of {self.total}{remains}"
-            if not sys.stderr.isatty() and elapsed >= EVERY:
+            if not sys.stderr.isatty() and elapsed >= self.every:
                 print(f"{self.prog}: {line}", file=sys.stderr, flush=True)
             self.write(line)
 
@@ -80,11 +80,14 @@ class Progress:
         return False
 
 
-def follow(outcomes: Iterable[Outcome], count: int, prog: str, log: Path | None = None) -> Iterator[Outcome]:
+def follow(
+    outcomes: Iterable[Outcome], count: int, prog: str, log: Path | None = None, every: float = EVERY
+) -> Iterator[Outcome]:
     """Yield outcomes as they come; show the progress of several jobs or of a long one, and print each warning once and
-    each failure. Raises InputError if the first MOST_FAILURES jobs fail.
+    each failure. Without a terminal there are at least
+    ``every`` seconds between two lines. Raises InputError if the first MOST_FAILURES jobs fail.
     """
-    progress, warned = Progress(count, prog, log), set()
+    progress, warned = Progress(count, prog, log, every), set()
     with signals.heard(progress.wait):
         for outcome in outcomes:
             for line in outcome.warnings:

@@ -9,7 +9,6 @@ import numpy as np
 
 from ...core.camera.camera import Camera
 from ..output.stamps import finished
-from .files import at_once
 from .jobs import PictureJob, RayMap
 
 PASSES = "ray_origin", "ray_direction"
@@ -40,6 +39,5 @@ def made_map(pictures, first: PictureJob, stamp: dict) -> RayMap | None:
         return RayMap(file, content["made"]["of"]["rays"])
     digest = digest_of(pictures.camera_at(first))
     pictures.tick(PASSES.__contains__)
-    making = pictures.rendering(replace(first, name=name, report=name), {**of, "rays": digest}, shown=False)
-    at_once(pictures.scene, making)
+    pictures.render(replace(first, name=name, report=name), {**of, "rays": digest}, shown=False)
     return RayMap(file, digest)

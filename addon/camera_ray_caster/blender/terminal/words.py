@@ -104,8 +104,14 @@ def add_frames(parser) -> None:
         "frames A to B, in steps of S (default: 1)"))  # fmt: skip
 
 
+def add_progress(parser) -> None:
+    """Add --progress."""
+    unstamped(parser.add_argument("--progress", action="store_true", help=
+        "print a line on standard error after each picture, frame and file; default: every 30 s"))  # fmt: skip
+
+
 def add_cameras(parser) -> None:
-    """Add --cameras NAME ...; see ``find_cameras``. Files of --rig may set ``own_frames``; see ``shown_at``."""
+    """Add --cameras NAME ...; see ``find_cameras``. --poses and --rig set ``own_frames``; see ``shown_at``."""
     unstamped(parser.add_argument("--cameras", nargs="+", metavar="NAME", help=
         f"names of several of the scene's cameras, or {ALL}"))  # fmt: skip
     unstamped(parser.add_argument("--rig", nargs="+", metavar="FILE", help=
@@ -114,7 +120,8 @@ def add_cameras(parser) -> None:
     parser.add_argument(
         "--rig-parent", metavar="NAME", help="object below which the cameras of --rig are put; default: none"
     )
-    parser.set_defaults(own_frames=False)
+    unstamped(parser.add_argument("--poses", dest="own_frames", action="store_true", help=
+        "the frames of the poses in files of cameras, each camera in its own, others in all of them"))  # fmt: skip
 
 
 def check_cameras(options: argparse.Namespace) -> None:

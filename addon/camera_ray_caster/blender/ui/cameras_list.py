@@ -8,7 +8,7 @@ from bpy.props import BoolProperty, StringProperty
 from ...core.records import InputError
 from ..properties.labels import label_of
 from ..read.camera import ALL, find_camera, find_cameras
-from . import in_steps
+from . import in_process
 from .cast_all import LatestRun, draw_all
 from .chosen_frames import usual
 from .drawing import Sidebar
@@ -77,7 +77,7 @@ class SidebarCameras(Sidebar, bpy.types.Panel):
         draw_all(layout)
         export = layout.operator(Export.bl_idname, text="Export All", icon="EXPORT")
         export.format, export.cameras, export.frames = "json", "ALL", usual(context.scene)
-        draw_line(layout, context, in_steps.latest(), LatestRun.bl_idname)
+        draw_line(layout, context, in_process.latest(), LatestRun.bl_idname)
 
 
 CLASSES = (UseCamera, SidebarCameras)

@@ -35,6 +35,16 @@ def chosen(scene, which: str, cameras: Sequence) -> tuple[Sequence[float], Calla
     return frames, shows
 
 
+def as_options(scene, which: str, cameras: Sequence) -> list[str]:
+    """Return the words of the terminal's commands for a choice. Raises InputError if there are no frames."""
+    frames, _ = chosen(scene, which, cameras)
+    if which == POSES[0]:
+        return ["--poses"]
+    if which == CURRENT[0]:
+        return [f"--frame={frames[0]!r}"]
+    return [f"--frames={scene.frame_start}:{scene.frame_end}:{scene.frame_step}"]
+
+
 def in_words(scene, which: str, seconds: float = 0.0) -> str:
     """Return how many pictures of all cameras a choice of frames makes, and about how long they take if one takes
     ``seconds``. Raises InputError if there are none.

@@ -1,8 +1,7 @@
 """Operators that export cameras to files and copy matrices to the clipboard, and the export menu."""
 
-from math import pi
+from math import degrees, pi
 from pathlib import Path
-from time import perf_counter
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
@@ -14,42 +13,16 @@ from ...core.records import InputError
 from ..output import exports
 from ..read.camera import ALL, find_camera, find_cameras
 from ..read.scene import read_camera
-from . import chosen_frames, in_steps
+from ..read.unique import unique_name
+from . import chosen_frames, in_process
 from .needs import OfScene, can_use, reporting
 
-WORK = 0.1
-"""Seconds of a step: the window is redrawn between two of them."""
 CHOSEN = {
     "ACTIVE": lambda context: [context.scene.camera],
     "SELECTED": lambda context: [item for item in context.selected_objects if item.type == "CAMERA"],
     "ALL": lambda context: find_cameras(context.scene, [ALL]),
 }
 """Functions that return the camera objects, by item of ``Export.cameras``."""
-
-
-class Exporting(in_steps.Running):
-    """The cameras that are being exported: as many frames and files at each step as fit into it."""
-
-    interval = 0.01
-
-    def __init__(self, scene, window, folder: Path, fits: bool, steps):
-        super().__init__(scene, window, steps)
-        self.folder, self.fits, self.is_heard = folder, fits, False
-        self.stopped = f"Stopped: nothing was written into {folder}"
-
-    def step(self) -> None:
-        """Read frames and write files for a while; before that, let a pressed Esc be handled."""
-        if not self.is_heard and not bpy.app.background:
-            bpy.ops.camera_ray_caster.hear_esc("INVOKE_DEFAULT")
-        self.is_heard, until = True, perf_counter() + WORK
-        self.progress = next(self.steps)
-        while perf_counter() < until:
-            self.progress = next(self.steps)
-        self.show()
-
-    def lines(self, result) -> list[str]:
-        """Return the remarks on the files, and their number."""
-        return said_of(*result, self.folder, self.fits)
 
 
 def said_of(said: list[str], paths: list[Path], folder: Path, fits: bool) -> list[str]:
@@ -97,8 +70,8 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
                     "of a fisheye",
         subtype="ANGLE", min=pi / 180, max=pi, default=pi,
     )  # fmt: skip
-    in_steps: BoolProperty(
-        name="In Steps", description="Write from a timer, so that the window stays responsive and Esc stops it",
+    in_process: BoolProperty(
+        name="In a Process", description="Write several frames in a process of its own, which can be stopped",
         options={"HIDDEN", "SKIP_SAVE"},
     )  # fmt: skip
 
@@ -118,11 +91,11 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         """Gray out the operator without a camera, and while other work is done."""
-        return super().poll(context) and can_use(cls, in_steps.BUSY if in_steps.is_busy() else "")
+        return super().poll(context) and can_use(cls, in_process.BUSY if in_process.running() else "")
 
     def invoke(self, context, event):
         """Ask for the folder."""
-        self.in_steps = True
+        self.in_process = True
         return super().invoke(context, event)
 
     def draw(self, context):
@@ -150,12 +123,16 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
         target = find_camera(scene, self.target) if self.target else None
         frames, shown = chosen_frames.chosen(scene, self.frames, cameras)
         folder = Path(bpy.path.abspath(self.filepath))
-        what = scene, self.format, cameras, frames, folder, target
-        how = {"fit": self.fit_within if self.fit else None, "shown": shown}
-        if self.in_steps:
-            in_steps.begin(Exporting(scene, context.window, folder, self.fit, exports.steps(*what, **how)))
+        if self.in_process and self.frames != chosen_frames.CURRENT[0]:
+            names = [unique_name(item, bpy.data.objects) for item in cameras]
+            words = ["--cameras", *names, "--format", self.format]
+            words += [f"--to={unique_name(target, bpy.data.objects)}"] if target else []
+            words += [f"--fit={degrees(self.fit_within)!r}"] if self.fit else []
+            in_process.begin("export", [*words, *chosen_frames.as_options(scene, self.frames, cameras)], folder)
             return {"FINISHED"}
-        for line in said_of(*exports.write(*what, **how), folder, self.fit):
+        fit = self.fit_within if self.fit else None
+        written = exports.write(scene, self.format, cameras, frames, folder, target, fit=fit, shown=shown)
+        for line in said_of(*written, folder, self.fit):
             self.report({"INFO"}, line)
         return {"FINISHED"}
 

@@ -16,7 +16,6 @@ from ..properties.declared import ENGINE
 from ..view3d import lesson, live, notice, overlay
 from ..view3d.live_picture import why_not
 from ..view3d.shown import can_show, is_live
-from .in_steps import is_busy
 from .needs import OfScene
 
 SEEN = "CAMERA", "RENDERED"
@@ -86,7 +85,7 @@ def show_cast(space, scene) -> bool:
 
 def watch() -> float | None:
     """Give back shading and engine where a cast is no longer shown; called by a timer until none is."""
-    if is_busy():  # with an engine of its own
+    if bpy.app.is_job_running("RENDER"):  # with an engine of its own
         return PERIOD
     shown = {space.as_pointer(): window.scene for window, space in _every_view()}
     spaces = {space.as_pointer(): space for space in _spaces()}

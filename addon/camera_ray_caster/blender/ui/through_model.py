@@ -1,10 +1,12 @@
 """Render Through Model: F12 with EEVEE or Workbench through the camera's model, beside the passes of a cast."""
 
+from contextlib import ExitStack
+
 import bpy
 
+from ..cycles.renderer import changed
 from ..engine.engine import RenderCall
 from ..faces.picture import EEVEE, NAMES, WORKBENCH, picture_of
-from ..output.restored import restored
 from ..properties.declared import ENGINE
 from .needs import OfScene, reporting
 
@@ -31,8 +33,10 @@ class RenderThroughModel(OfScene, bpy.types.Operator):
         scene = context.scene
         engine = WORKBENCH if scene.render.engine in NAMES[WORKBENCH] else EEVEE
         picture = picture_of(scene, engine)
-        with restored(scene), RenderCall(picture).handed():
-            scene.camera_ray_caster.exact_shapes, scene.render.engine = False, ENGINE
+        with ExitStack() as stack:
+            changed(stack, scene.camera_ray_caster, exact_shapes=False)
+            changed(stack, scene.render, engine=ENGINE)
+            stack.enter_context(RenderCall(picture).handed())
             bpy.ops.render.render(scene=scene.name)
         for line in picture.warnings:
             self.report({"INFO"}, line)

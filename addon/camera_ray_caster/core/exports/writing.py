@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Generator, Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any, TypeVar
 
 import numpy as np
 
@@ -14,8 +13,6 @@ from ..names import folded
 from ..records import InputError
 from .exr import exr
 from .format import Content
-
-T = TypeVar("T")
 
 
 def exr_file(path: Path, pixels: np.ndarray) -> None:
@@ -30,15 +27,6 @@ def write(
     in folders the outermost folder's.
 
     Raises InputError if two files have one name, or the folder cannot be written; then no file is left behind.
-    """
-    return whole(steps(files, folder, image))
-
-
-def steps(
-    files: Iterable[tuple[str, Content]], folder: Path, image: Callable[[Path, np.ndarray], None]
-) -> Generator[str, None, list[Path]]:
-    """Do what ``write`` does in steps: yield the name of each file that is written. If it is closed before its end, no
-    file is left behind.
     """
     written: set[str] = set()
     with atomic_folder(folder) as temporary:
@@ -55,15 +43,5 @@ def steps(
             else:
                 with path.open("w", encoding="utf-8", newline="\n") as file:
                     file.writelines([content] if isinstance(content, str) else content)
-            yield name
         names = sorted(os.listdir(temporary))
     return [folder / name for name in names]
-
-
-def whole(steps: Generator[Any, None, T]) -> T:
-    """Run steps to their end, and return their result."""
-    while True:
-        try:
-            next(steps)
-        except StopIteration as end:
-            return end.value

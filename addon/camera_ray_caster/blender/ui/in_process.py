@@ -1,0 +1,190 @@
+"""Long work by a command of the terminal in a process of its own: the window shows its progress and can stop it.
+
+The process reads the file as it is saved, or a copy if it has unsaved changes. The open scene is not changed.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from subprocess import DEVNULL, Popen
+from tempfile import TemporaryDirectory
+
+import bpy
+
+from ...core.file_set import clear_up
+from ..properties.labels import in_labels
+from ..read.unique import unique_name
+from .other_engine import show, show_later
+
+INTERVAL = 0.2
+"""Seconds between two looks at the process."""
+SHOWN = 10.0
+"""Seconds that the status bar shows the result."""
+BUSY = "Wait until the running work has ended, or stop it"
+STOPPED = 130
+"""Exit status of commands that were stopped."""
+DISAGREES = "A camera's rays differ from a reference: see the reports"
+PART = re.compile(r"(\d+) of (\d+)")
+"""Progress in a line of a command."""
+PROG, LOG = re.compile(r"^camera[-_]ray[-_]caster \w+: "), re.compile(r"\d\d:\d\d\.\d{3} ")
+"""How a line of a command begins, and a line of Blender's log."""
+PACKAGE = __name__.partition(".blender.")[0]
+FOLDER = Path(__file__).parents[2]
+"""The add-on's folder."""
+
+
+class Work:
+    """A command that runs: its process, and what it prints, in a temporary folder."""
+
+    def __init__(self, command: str, words: Sequence[str], folder: Path):
+        self.command, self.folder, self.is_stopped = command, folder, False
+        self.temporary = TemporaryDirectory(prefix="camera_ray_caster_", ignore_cleanup_errors=True)
+        place, (program, environment) = Path(self.temporary.name), program_of()
+        self.printed, self.errors = place / "output.txt", place / "errors.txt"
+        scene = unique_name(bpy.context.scene, bpy.data.scenes)
+        arguments = [str(saved_file(place)), f"--scene={scene}", f"--output={folder}", "--progress", *words]
+        arguments += ["--enable-autoexec"] * (not bpy.app.autoexec_fail)
+        with self.printed.open("w") as output, self.errors.open("w") as errors:
+            self.process = Popen(
+                [*program, command, *arguments], stdin=DEVNULL, stdout=output, stderr=errors,
+                env=os.environ | environment,
+            )  # fmt: skip
+
+    @property
+    def progress(self) -> str:
+        """How much is done and what is left, or what the command has said last."""
+        line = next(reversed(_lines(self.errors)), "Starting")
+        part = PART.search(line)
+        return line[part.start() :] if part else line
+
+    @property
+    def fraction(self) -> float:
+        """The part that is done, 0 to 1."""
+        parts = PART.findall("\n".join(_lines(self.errors)))
+        return int(parts[-1][0]) / max(int(parts[-1][1]), 1) if parts else 0.0
+
+    def stop(self) -> None:
+        """Ask the process to end after the current tile or file; the second time, end it at once."""
+        (self.process.kill if self.is_stopped else self.process.terminate)()
+        self.is_stopped = True
+
+    def result(self) -> str:
+        """Return how the process has ended, in lines."""
+        status, printed, errors = self.process.wait(), _lines(self.printed), _lines(self.errors)
+        if self.is_stopped or status == STOPPED:
+            if self.folder.is_dir():
+                clear_up(self.folder)  # a process that was killed could not do it
+            parts = PART.findall("\n".join(errors)) if self.command == "cast" else ()
+            return f"Stopped: {' of '.join(parts[-1])} pictures are in {self.folder}" if parts else "Stopped"
+        if status in (0, 1) and printed:
+            printed.sort(key=lambda line: not line.startswith("Wrote"))
+            return "\n".join([DISAGREES] * status + printed)
+        return in_labels(errors[-1]) if errors else f"Blender ended with status {status}"
+
+
+def program_of() -> tuple[list[str], dict[str, str]]:
+    """Return the words that run a command of this add-on, and what they need of the environment."""
+    environment = {"PYTHONPATH": str(FOLDER.parent)}
+    if not bpy.app.binary_path:  # pip's bpy
+        return [sys.executable, "-m", FOLDER.name], environment
+    run = ["--addons", PACKAGE, "--command", "camera_ray_caster"]
+    if PACKAGE.startswith("bl_ext."):
+        return [bpy.app.binary_path, *run], {}
+    return [bpy.app.binary_path, "--python-use-system-env", *run], environment
+
+
+def saved_file(place: Path) -> Path:
+    """Return the path of the open file, or of a copy with its unsaved changes in a folder."""
+    path = Path(bpy.data.filepath)
+    if bpy.data.filepath and not bpy.data.is_dirty:
+        return path
+    copy = place / f"{path.stem or 'untitled'}.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(copy), copy=True)
+    return copy
+
+
+def _lines(path: Path) -> list[str]:
+    """Return the lines of a file of what a command printed, without its name and without Blender's log."""
+    lines = (PROG.sub("", line).strip() for line in path.read_text(encoding="utf-8", errors="replace").splitlines())
+    return [line for line in lines if line and not LOG.match(line)]
+
+
+_running: list[Work] = []
+_ended: list[str] = []
+"""How the latest work ended."""
+
+
+def running() -> Work | None:
+    """Return the work that is being done, or None."""
+    return _running[0] if _running else None
+
+
+def latest() -> str:
+    """Return how the latest work ended, in lines; "" before the first."""
+    return _ended[-1] if _ended else ""
+
+
+def begin(command: str, words: Sequence[str], folder: Path) -> None:
+    """Begin a command that writes into a folder; a timer looks after it, also when another file is opened."""
+    _running.append(Work(command, words, folder))
+    bpy.app.timers.register(tick, first_interval=INTERVAL, persistent=True)
+
+
+def tick() -> float | None:
+    """Show the progress, or how the work has ended; called by a timer."""
+    work = running()
+    if work is None:
+        return None
+    if work.process.poll() is None:
+        tell(work.progress)
+        return INTERVAL
+    _ended[:] = [work.result()]
+    forget()
+    tell(latest().partition("\n")[0])
+    show_later(None, SHOWN)
+    return None
+
+
+def tell(text: str) -> None:
+    """Show a text in the status bar, and draw the sidebars again."""
+    show(text)
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
+
+
+def forget() -> None:
+    """End the process at once if it runs: the add-on is disabled, or Blender ends."""
+    while _running:
+        work = _running.pop()
+        work.process.kill()
+        work.process.wait()
+        work.temporary.cleanup()
+
+
+class StopAll(bpy.types.Operator):
+    """Stop after the current tile, frame or file; pictures that are finished stay. Press again to end it at once"""
+
+    bl_idname = "camera_ray_caster.stop_all"
+    bl_label = "Stop"
+    bl_options = {"INTERNAL"}
+
+    def execute(self, context):
+        """Ask the running work to end."""
+        for work in _running:
+            work.stop()
+        return {"FINISHED"}
+
+
+CLASSES = (StopAll,)
+
+
+def register(undo) -> None:
+    """Register this module; see ``registration``."""
+    undo.callback(_ended.clear)
+    undo.callback(forget)
