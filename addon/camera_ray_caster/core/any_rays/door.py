@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
-from dataclasses import replace
+from collections.abc import Iterable
 from typing import Any, NamedTuple
-from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -18,8 +16,7 @@ from ..maths.vector import norm
 from ..motion.evaluations import Motion
 from ..records import InputError, Shapes
 from .found import Span
-from .moving import HitGroup, Moving, all_apart, cast_apart, moving_of
-from .search import BodySearch
+from .moving import hit_groups, write_nearest
 
 KNOWN = tuple(name for name in PASSES if name not in WITHOUT_PIXEL)
 """The passes of rays, in the order of PASSES."""
@@ -128,35 +125,11 @@ def occluded(origins, targets, shapes: Shapes, *, times=None) -> np.ndarray:
     towards[:, ~(np.abs(towards).max(axis=0) > 0)] = np.nan
     with np.errstate(all="ignore"):
         rounding = gamma(4) * np.maximum(norm(start), norm(end)) / norm(towards)
-        for group in _groups(shapes, times_of(shapes, times, shape), start, towards, (0.0, 1.0)):
+        for group in hit_groups(shapes, times_of(shapes, times, shape), start, towards, (0.0, 1.0)):
             hits = group.hits
             error = group.found.t_errors(start[:, hits.ray], towards[:, hits.ray], hits) + rounding[hits.ray]
             hidden[hits.ray[(hits.t > error) & (hits.t < 1 - error)]] = True
     return hidden.reshape(shape)
-
-
-def write_nearest(
-    shapes: Shapes, origin: np.ndarray, direction: np.ndarray, times: np.ndarray | None, span: Span, images
-) -> None:
-    """Write the passes of the nearest hits of rays (3, n), with times (n,) if shapes move, into images of one row."""
-    moving = _moving(shapes, times, tuple(images))
-    if moving is not None and times is not None:
-        cast_apart(moving, search_of(moving.still), origin, direction, times, span, images)
-        return
-    for then, some in _by_time(shapes, times):
-        search = search_of(then)
-        rays = origin[:, some], direction[:, some]
-        search.write(*rays, *search.nearest(*rays, *span), images, np.arange(origin.shape[1])[some])
-
-
-_searches: WeakKeyDictionary[Shapes, BodySearch] = WeakKeyDictionary()
-
-
-def search_of(shapes: Shapes) -> BodySearch:
-    """Return the bodies of shapes with their tree, which is kept as long as the shapes are."""
-    if shapes not in _searches:
-        _searches[shapes] = BodySearch(replace(shapes))  # a copy: a value that refers to its key would never be freed
-    return _searches[shapes]
 
 
 def _rays(origins, directions) -> tuple[np.ndarray, np.ndarray, tuple[int, ...]]:
@@ -241,40 +214,10 @@ def times_of(shapes: Shapes, times, shape: tuple[int, ...]) -> np.ndarray | None
     return None if shapes.timeline.motion is None else each
 
 
-def _by_time(shapes: Shapes, each: np.ndarray | None) -> Iterator[tuple[Shapes, Any]]:
-    """Yield the shapes at each time, and the indices of the rays of that time."""
-    if each is None or not len(each):
-        yield shapes, slice(None)
-        return
-    for time in np.unique(each).tolist():
-        yield shapes.at(time), np.flatnonzero(each == time)
-
-
-def _moving(shapes: Shapes, each: np.ndarray | None, passes: tuple[str, ...] = ()) -> Moving | None:
-    """Return the shapes, divided, if that is how rays with these times are cast; else None."""
-    moving = moving_of(shapes) if each is not None and len(each) else None
-    return None if moving is not None and moving.light and "combined" in passes else moving
-
-
-def _groups(
-    shapes: Shapes, each: np.ndarray | None, origin, direction, span: Span, passes: tuple[str, ...] = ()
-) -> Iterator[HitGroup]:
-    """Yield all hits of rays (3, n) at their times (n,), in groups."""
-    moving = _moving(shapes, each, passes)
-    if moving is not None and each is not None:
-        yield from all_apart(moving, search_of(moving.still), origin, direction, each, span)
-        return
-    rays = np.arange(origin.shape[1])
-    for then, some in _by_time(shapes, each):
-        search = search_of(then)
-        hits = search.all(origin[:, some], direction[:, some], *span)
-        yield HitGroup.of(search, hits, rays[some], np.arange(len(then)))
-
-
 def _all(shapes, each, origin, direction, shape, passes, span: Span, dtype) -> RayImages:
     """Return the passes of all hits, with their rays and the counts of these."""
     found, order = [], []
-    for group in _groups(shapes, each, origin, direction, span, passes):
+    for group in hit_groups(shapes, each, origin, direction, span, passes):
         hits = group.hits
         images = RayImages({name: PASSES[name].empty((1, len(hits.t)), dtype) for name in passes})
         own = origin[:, hits.ray], direction[:, hits.ray]

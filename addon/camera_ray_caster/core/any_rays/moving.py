@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -26,17 +27,17 @@ from .balls import may_meet, unit_directions
 from .forms import SLACK, Form
 from .found import WORLD, Found, RayHits, Span
 from .own_times import OwnTimes, RowsPlaced
-from .search import RAYS, BodySearch
+from .search import RAYS, BodySearch, search_of
 
 MARGIN = 1.25
 """Factor by which balls are enlarged around shapes that change in size or form: between evaluations they may be larger.
 """
 
-CENTERS = 1 << 20
-"""Number of centers of shapes that are computed at once: it bounds the memory. Not tuned."""
-
 FLAT_OR_ROUND = {SPHERE: ((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0)), PLANE: ((-1.0, -1.0, 0.0), (1.0, 1.0, 0.0))}
 """Corners of the boxes of exact shapes in their own axes."""
+
+CENTERS = 1 << 20
+"""Number of centers of shapes that are computed at once: it bounds the memory. Not tuned."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,17 +119,6 @@ def _boxes(motion: Motion, forms: dict[int, Form]) -> dict[int, np.ndarray]:
     return found
 
 
-def _meets_box(axes: np.ndarray, to: np.ndarray, ahead: np.ndarray, corners: np.ndarray) -> np.ndarray:
-    """Return whether rays, given the ways to the middles of boxes and directions, (3, n), meet the boxes ahead."""
-    inwards, _, skewness = invert(axes)
-    if not (skewness < 1 / SLACK).all():
-        return np.ones(len(axes), bool)  # a flat mesh
-    start, way = (np.einsum("nij,jn->in", inwards, vector) for vector in (-to, ahead))
-    ends = (corners[:, :, None] - start) / way
-    enter, leave = np.fmin(*ends).max(axis=0), np.fmax(*ends).min(axis=0)
-    return ~((enter > leave) | (leave < 0))
-
-
 @dataclass(frozen=True, eq=False)
 class HitGroup:
     """Hits of rays on some bodies."""
@@ -147,18 +137,60 @@ class HitGroup:
         return cls(found, every, rows[found.at[hits.body]], found.number[hits.body])
 
 
-def cast_apart(apart: Moving, search: BodySearch, origin, direction, times: np.ndarray, span: Span, images) -> None:
-    """Write the passes of rays (3, n) with times (n,) into images with one row; ``search``: of what stands still."""
+def write_nearest(
+    shapes: Shapes, origin: np.ndarray, direction: np.ndarray, times: np.ndarray | None, span: Span, images
+) -> None:
+    """Write the passes of the nearest hits of rays (3, n), with times (n,) if shapes move, into images of one row."""
+    apart = _apart(shapes, times, tuple(images))
+    if apart is not None and times is not None:
+        _cast_apart(apart, origin, direction, times, span, images)
+        return
+    for then, some in _at_times(shapes, times):
+        search = search_of(then)
+        rays = origin[:, some], direction[:, some]
+        search.write(*rays, *search.nearest(*rays, *span), images, np.arange(origin.shape[1])[some])
+
+
+def hit_groups(
+    shapes: Shapes, times: np.ndarray | None, origin, direction, span: Span, passes: tuple[str, ...] = ()
+) -> Iterator[HitGroup]:
+    """Yield all hits of rays (3, n) at their times (n,), in groups."""
+    apart = _apart(shapes, times, passes)
+    if apart is not None and times is not None:
+        yield from _all_apart(apart, origin, direction, times, span)
+        return
+    rays = np.arange(origin.shape[1])
+    for then, some in _at_times(shapes, times):
+        search = search_of(then)
+        hits = search.all(origin[:, some], direction[:, some], *span)
+        yield HitGroup.of(search, hits, rays[some], np.arange(len(then)))
+
+
+def _apart(shapes: Shapes, times: np.ndarray | None, passes: tuple[str, ...] = ()) -> Moving | None:
+    """Return the shapes, divided, if that is how rays with these times are cast; else None."""
+    apart = moving_of(shapes) if times is not None and len(times) else None
+    return None if apart is not None and apart.light and "combined" in passes else apart
+
+
+def _at_times(shapes: Shapes, times: np.ndarray | None) -> Iterator[tuple[Shapes, Any]]:
+    """Yield the shapes at each time, and the indices of the rays of that time."""
+    if times is None or not len(times):
+        yield shapes, slice(None)
+        return
+    for time in np.unique(times).tolist():
+        yield shapes.at(time), np.flatnonzero(times == time)
+
+
+def _cast_apart(apart: Moving, origin, direction, times: np.ndarray, span: Span, images) -> None:
+    search = search_of(apart.still)
     for first in range(0, len(times), RAYS):
         some = slice(first, first + RAYS)
         part = {name: image[:, some] for name, image in images.items()}
         _cast_some(apart, search, origin[:, some], direction[:, some], times[some], span, part)
 
 
-def all_apart(
-    apart: Moving, search: BodySearch, origin, direction, times: np.ndarray, span: Span
-) -> Iterator[HitGroup]:
-    """Yield all hits of rays as ``cast_apart`` takes them."""
+def _all_apart(apart: Moving, origin, direction, times: np.ndarray, span: Span) -> Iterator[HitGroup]:
+    search = search_of(apart.still)
     for first in range(0, len(times), RAYS):
         part = slice(first, first + RAYS)
         rays, own = np.arange(len(times))[part], (origin[:, part], direction[:, part])
@@ -237,3 +269,14 @@ def _by_time(near: list[np.ndarray], times: np.ndarray) -> Iterator[tuple[float,
     for part in np.split(some, starts[1:]):
         if len(part):
             yield float(times[part[0]]), part
+
+
+def _meets_box(axes: np.ndarray, to: np.ndarray, ahead: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """Return whether rays, given the ways to the middles of boxes and directions, (3, n), meet the boxes ahead."""
+    inwards, _, skewness = invert(axes)
+    if not (skewness < 1 / SLACK).all():
+        return np.ones(len(axes), bool)  # a flat mesh
+    start, way = (np.einsum("nij,jn->in", inwards, vector) for vector in (-to, ahead))
+    ends = (corners[:, :, None] - start) / way
+    enter, leave = np.fmin(*ends).max(axis=0), np.fmax(*ends).min(axis=0)
+    return ~((enter > leave) | (leave < 0))

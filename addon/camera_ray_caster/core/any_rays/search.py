@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import partial
 from math import inf
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -164,6 +166,16 @@ class BodySearch(Found):
                 which, rays, left, ahead = which[own], ray[own], _of(origin, own), taken(direction, own)
             for hits in met(bodies, which, rays, (left, ahead), near, far, scratch, twice):
                 yield RayHits(hits.ray, hits.t, self._place[k][hits.body])
+
+
+_searches: WeakKeyDictionary[Shapes, BodySearch] = WeakKeyDictionary()
+
+
+def search_of(shapes: Shapes) -> BodySearch:
+    """Return the bodies of shapes with their tree, which is kept as long as the shapes are."""
+    if shapes not in _searches:
+        _searches[shapes] = BodySearch(replace(shapes))  # a copy: a value that refers to its key would never be freed
+    return _searches[shapes]
 
 
 def met(
