@@ -200,6 +200,26 @@ def test_lenses_of_meshroom(version, changes, model, focal, tmp_path):
     assert found.values(PINHOLE)[:4] == [*focal, 322, 237]
 
 
+def test_a_lens_of_3de_in_meshroom(tmp_path):
+    """Its formula, at a point, by hand; with the further terms, and with an undistortion, it is no model of ours."""
+    lens = {"intrinsicId": "7", "width": "640", "height": "480", "sensorWidth": "32", "focalLength": "25",
+            "type": "pinhole", "distortionType": "3deradial4", "principalPoint": ["0", "0"],
+            "distortionParams": ["-0.1", "0.02", "0.003", "-0.004", "0", "0"]}  # fmt: skip
+    (tmp_path / "a.sfm").write_text(json.dumps({"version": [1, 2, 12], "intrinsics": [lens]}))
+    x, y = 0.4, 0.3
+    radial = 1 - 0.1 * 0.25 + 0.02 * 0.0625
+    seen = (x * radial + (0.25 + 2 * x * x) * 0.003 + 2 * x * y * -0.004,
+            y * radial + (0.25 + 2 * y * y) * -0.004 + 2 * x * y * 0.003)  # fmt: skip
+    column, row = crc.load_calibration(tmp_path / "a.sfm").project((x, -y, -1))
+    expected = 320 + 500 * seen[0], 240 + 500 * seen[1]
+    np.testing.assert_allclose((column - 0.5, 479.5 - row), expected, rtol=0, atol=1e-9)
+    for change, says in (({"distortionParams": ["0"] * 5 + ["0.1"]}, "no model has them"),
+                         ({"undistortionType": "3declassicld", "undistortionParams": ["0.1"]}, "not read")):
+        (tmp_path / "b.sfm").write_text(json.dumps({"version": [1, 2, 12], "intrinsics": [lens | change]}))
+        with pytest.raises(InputError, match=says):
+            crc.load_calibration(tmp_path / "b.sfm")
+
+
 @pytest.mark.parametrize(
     ("name", "change", "says"),
     [

@@ -3,7 +3,8 @@
 Lengths are in pixels (pxFocalLength), or the focal length and the sensor's width in millimeters. The principal point is
 measured from the corner of the picture, and from version 1.2.1 on from its middle. The center of the first pixel is
 (0, 0). Numbers may be text. A pose is the center, and by columns the rotation from the world to the camera, or of a rig
-to the rig, whose cameras have poses in it. Views without a pose are left out: they were not reconstructed.
+to the rig, whose cameras have poses in it. Views without a pose are left out: they were not reconstructed. A 3deradial4
+is OpenCV's pinhole without its last two coefficients, u3 and v3, with which it is refused, and so is any undistortion.
 References: AliceVision, sfmDataIO: the changes of its file format; its camera models, Pose3 and SfMData::getPose.
 """
 
@@ -17,6 +18,7 @@ from .parts.lens import Lens, one_of_several
 from .parts.placed import Placed, checked
 from .parts.program import ProgramFiles
 
+RADIAL4 = "3deradial4"
 MODELS = {
     "pinhole": ("OPENCV_PINHOLE", ()),
     "none": ("OPENCV_PINHOLE", ()),
@@ -30,6 +32,7 @@ MODELS = {
     "equidistant": ("OPENCV_FISHEYE", ()),
     "equirectangular": ("EQUIRECTANGULAR", ()),
     "fisheye1": ("FOV", ("fov_omega",)),
+    RADIAL4: ("OPENCV_PINHOLE", ("k1", "k2", "p2", "p1")),
 }
 """Our model for a type, or for the distortionType of a pinhole, and its coefficients."""
 
@@ -109,7 +112,15 @@ def _lens(camera: Fields, version: list[float]) -> Lens:
     x, y = camera.numbers("principalPoint", 2)
     if version >= CENTERED:
         x, y = x + width / 2, y + height / 2
+    undistorted = camera.text("undistortionType", "none").lower() != "none"
+    if undistorted and any(camera.numbers("undistortionParams", default=())):
+        raise camera.document.refusal(f"{camera.said('undistortionParams')} are not 0, which are not read")
     coefficients = camera.numbers("distortionParams", default=[0.0] * len(terms))
+    if kind == RADIAL4 and len(coefficients) == len(terms) + 2:
+        if any(coefficients[len(terms) :]):
+            name_of_entry = camera.said("distortionParams")
+            raise camera.document.refusal(f"the last two of {name_of_entry} are not 0: no model has them")
+        coefficients = coefficients[: len(terms)]
     if len(coefficients) != len(terms) and any(coefficients):
         name_of_entry = camera.said("distortionParams")
         raise camera.document.refusal(f"{name_of_entry} has {len(coefficients)} numbers: {kind} has {len(terms)}")
@@ -120,6 +131,6 @@ def _lens(camera: Fields, version: list[float]) -> Lens:
 PROGRAM = ProgramFiles(
     "Meshroom", ".sfm of AliceVision", looks,
     marks="intrinsicId pxFocalLength principalPoint distortionParams sensorWidth",
-    reads="pinhole, radial1, radial3, brown, fisheye4, fisheye1, equidistant, equirectangular",
-    lost="views without a pose; the distortions of 3DE are refused", read=read, poses=poses,
+    reads="pinhole, radial1, radial3, brown, fisheye4, fisheye1, equidistant, equirectangular, 3deradial4",
+    lost="views without a pose; other distortions of 3DE and undistortions are refused", read=read, poses=poses,
 )  # fmt: skip
