@@ -73,6 +73,22 @@ def test_a_button_beside_the_menu_which_cannot_be_keyed_keys_the_model(blender, 
         assert own.model == model
 
 
+def test_the_button_adds_a_driver_with_shift_that_keeps_the_model_until_it_is_edited(blender, scene):
+    data = scene.camera.data
+    own = data.camera_ray_caster
+    own.model = "PENCIL"
+    assert blender.ops.camera_ray_caster.key_model(driver=True) == {"FINISHED"}
+    blender.context.view_layer.update()
+    assert own.model == "PENCIL"
+    (curve,) = data.animation_data.drivers
+    number = own.bl_rna.properties["model"].enum_items["OMNIMAX"].value
+    curve.driver.expression = str(number)
+    blender.ops.camera_ray_caster.key_model(driver=True)
+    assert [curve.driver.expression for curve in data.animation_data.drivers] == [str(number)]
+    scene.frame_set(3)
+    assert own.model == "OMNIMAX"
+
+
 @pytest.mark.parametrize("name", ["model", "time_mode", "shading", "primitive", "fov"])
 def test_a_driver_that_gives_no_item_is_told_and_one_that_is_muted_drives_nothing(blender, scene, name):
     ball = next(item for item in scene.objects if item.name == "Sphere")

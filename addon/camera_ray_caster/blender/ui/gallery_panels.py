@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from itertools import groupby
 
 import bpy
-from bpy.props import EnumProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ...core.camera import pixel_time
 from ...core.cameras import MODELS
@@ -71,15 +71,30 @@ class ChooseModel(OfCamera, bpy.types.Operator):
 
 
 class KeyModel(OfCamera, bpy.types.Operator):
-    """Insert a keyframe of the camera model at the current frame"""
+    """Insert a keyframe of the camera model at the current frame. Shift: add a driver, to be edited in a Drivers
+    Editor"""
 
     bl_idname = "camera_ray_caster.key_model"
     bl_label = "Key Camera Model"
     bl_options = {"UNDO", "INTERNAL"}
 
+    driver: BoolProperty(name="Driver", description="Add a driver instead", options={"SKIP_SAVE"})
+
+    def invoke(self, context, event):
+        """Add a driver if Shift is pressed."""
+        self.driver |= event.shift
+        return self.execute(context)
+
     def execute(self, context):
-        """Insert the keyframe."""
-        getattr(camera_object_of(context).data, GROUP).keyframe_insert(MODEL.name)
+        """Insert the keyframe, or add a driver that keeps the model until it is edited."""
+        settings = getattr(camera_object_of(context).data, GROUP)
+        if not self.driver:
+            settings.keyframe_insert(MODEL.name)
+            return {"FINISHED"}
+        number = settings.bl_rna.properties[MODEL.name].enum_items[settings.model].value
+        curve = settings.driver_add(MODEL.name)
+        curve.driver.expression = curve.driver.expression or str(number)
+        self.report({"INFO"}, "The model has a driver: edit it in a Drivers Editor")
         return {"FINISHED"}
 
 
