@@ -77,8 +77,8 @@ def own_view(user, scenes):
 
 
 def live_mishaps(user, scenes):
-    """While a view is live: a second window, a face that fails, other engines and shadings, undo, Esc, a camera that is
-    deleted; each ends in a picture or a line.
+    """While a view is live: a second window, a face that fails, other engines and shadings, undo, Esc, a lamp as the
+    scene's camera, a camera that is deleted; each ends in a picture or a line.
     """
     yield from load(user, scenes, "toys")
     scene, space, view = bpy.context.scene, user.area().spaces.active, user.region("WINDOW")
@@ -142,7 +142,15 @@ def live_mishaps(user, scenes):
         yield from user.key(keys)
         yield from user.wait(0.5)
     yield from draws("a move after undo and redo")
-    bpy.data.objects.remove(bpy.context.scene.camera)
+    scene, count = bpy.context.scene, next(iter(live._live[space.as_pointer()].values())).count
+    own = scene.camera
+    scene.camera = next(item for item in scene.objects if item.type == "LIGHT")
+    yield from user.wait(1)
+    user.picture("live_lamp")
+    assert next(iter(live._live[space.as_pointer()].values())).count == count
+    scene.camera = own
+    yield from draws("the camera again")
+    bpy.data.objects.remove(scene.camera)
     yield from user.wait(1)
     user.picture("live_without_camera")
     assert bpy.context.scene.render.engine == engine

@@ -3,6 +3,7 @@
 import bpy
 
 from .add_line import SETTINGS, AddGradient, AddLine
+from .cast_all import CastAll
 from .cast_operator import Cast
 from .cycles_operators import AddProjector, BackToBlender, FitLens, UseInCycles
 from .export_operators import CopyK, CopyWorldToCamera, ExportMenu
@@ -20,7 +21,7 @@ from .show_result import ResultsMenu
 from .through_model import RenderThroughModel
 
 LISTED = (
-    SeeThrough, RenderThroughModel, Cast, Verify, StepThrough, PixelOfPoint, EmptyAtHit, CopySteps, ClearSteps,
+    SeeThrough, RenderThroughModel, Cast, CastAll, Verify, StepThrough, PixelOfPoint, EmptyAtHit, CopySteps, ClearSteps,
     SetFrame, LoadCalibration, LensOfClip, AddCameras, AddGradient, FollowTimeline, UseThisEngine, UseInCycles, FitLens,
     BackToBlender, AddProjector, CopyFacts, CopyK, CopyWorldToCamera, WriteReport,
 )  # fmt: skip
