@@ -12,7 +12,7 @@ import camera_ray_caster as crc
 from camera_ray_caster.core.camera.camera import Camera
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cameras.model import GROUPS, Model
-from camera_ray_caster.core.exports import FORMATS, Shot
+from camera_ray_caster.core.exports import EXPORT_FORMATS, Shot
 from camera_ray_caster.core.sets.png import png, srgb
 
 PICTURES = Path("blend_scenes", "pictures")
@@ -120,7 +120,7 @@ def page(model: type[Model], root: Path, folder: Path) -> str:
         lesson=LESSON.format(key=model.key) if f'"key":"{model.key}"' in lesson_text(root) else "",
         key=model.key,
         rays="parallel rays" if model.parallel else "rays from one eye" if model.central else "rays from many eyes",
-        writers=", ".join(f"`{one.key}`" for one in FORMATS if one.refusal(shot_of(model)) is None),
+        writers=", ".join(f"`{one.key}`" for one in EXPORT_FORMATS if one.refusal(shot_of(model)) is None),
         file=file.name,
         path=file.relative_to(root).as_posix(),
         given=given(model),
@@ -156,7 +156,7 @@ def shot_of(model: type[Model]) -> Shot:
 def writers() -> str:
     """Return the table of the models that each export format represents."""
     text = WRITERS
-    for one in FORMATS:
+    for one in EXPORT_FORMATS:
         able = [model.label for model in MODELS if one.refusal(shot_of(model)) is None]
         text += f"| `{one.key}` | {'all' if len(able) == len(MODELS) else ', '.join(able)} |\n"
     return text

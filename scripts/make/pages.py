@@ -12,7 +12,7 @@ from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cameras.model import GROUPS, Model
 from camera_ray_caster.core.cameras.parts import port_settings
 from camera_ray_caster.core.cameras.parts.settings import OWN, Choice, Coefficients, Setting
-from camera_ray_caster.core.exports import FORMATS
+from camera_ray_caster.core.exports import EXPORT_FORMATS
 from camera_ray_caster.core.programs import PROGRAMS
 from camera_ray_caster.core.programs.parts.program import ProgramFiles
 from camera_ray_caster.core.sets import SET_FORMATS
@@ -156,7 +156,7 @@ def files() -> str:
 
 def program_row(program: ProgramFiles) -> str:
     """Return a program as a row of the table; it writes what its export's table of models says."""
-    keys = {each.key: each for each in FORMATS}
+    keys = {each.key: each for each in EXPORT_FORMATS}
     export = keys.get(program.export.key) if program.export else None
     writes = "" if export is None else f"`{export.key}`: {export.description}".replace("<", "\\<")
     return f"| {program.name} | {program.files} | {program.reads} | {writes} | {program.lost} |\n"

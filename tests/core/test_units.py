@@ -11,7 +11,7 @@ import camera_ray_caster as crc
 from camera_ray_caster.core.clouds.formats import POINT_FORMATS as CLOUDS
 from camera_ray_caster.core.clouds.formats import files_of
 from camera_ray_caster.core.clouds.sequences import sequence
-from camera_ray_caster.core.exports import FORMATS, export
+from camera_ray_caster.core.exports import EXPORT_FORMATS, export
 from camera_ray_caster.core.exports.format import Shot
 from camera_ray_caster.core.exports.writing import write
 from camera_ray_caster.core.programs import PROGRAMS
@@ -41,7 +41,7 @@ def words(content):
 
 
 @pytest.mark.one_for_each("chosen")
-@pytest.mark.parametrize("chosen", FORMATS, ids=lambda one: one.key)
+@pytest.mark.parametrize("chosen", EXPORT_FORMATS, ids=lambda one: one.key)
 def test_cameras_come_back_at_any_unit_scale(tmp_path, chosen):
     for meters in SCALES:
         given = shots(meters)

@@ -20,7 +20,7 @@ from .casting.plan import Plan, make_plan
 from .casting.previews import Previews, Show
 from .casting.request import MATERIAL, SHADINGS, Request
 from .casting.search import nearest_hits
-from .casting.tiles import STEPS, Effort, Tile, cast_tile, in_threads, listening, moments, shares
+from .casting.tiles import TIMED_STEPS, Effort, Tile, cast_tile, in_threads, listening, moments, shares
 from .maths.speed import Scratch, processors
 from .records import Shapes
 from .scene import Scene
@@ -130,7 +130,7 @@ def cast(
         span, tile = job
         if by_beam:
             return cast_sweep(moving, tile, images, effort)
-        seconds = np.zeros(len(STEPS))
+        seconds = np.zeros(len(TIMED_STEPS))
         then = moving.at(tile.frame)
         with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
             for part, _ in parts:
@@ -178,7 +178,7 @@ def cast(
     if not whole_rows:
         tell(slice(0, shape[0]))
     share = (perf_counter() - began - write) / max(busy.sum(), np.finfo(float).tiny)
-    images.seconds |= dict(zip(STEPS, busy * share, strict=True))
+    images.seconds |= dict(zip(TIMED_STEPS, busy * share, strict=True))
     if finished is not None:
         images.seconds["write"] = write
     return images

@@ -9,7 +9,7 @@ import pytest
 from camera_ray_caster.blender.output import exports
 from camera_ray_caster.blender.read.camera import find_cameras
 from camera_ray_caster.blender.read.scene import read_camera
-from camera_ray_caster.core.exports import FORMATS
+from camera_ray_caster.core.exports import EXPORT_FORMATS
 from camera_ray_caster.core.exports.camera_json import camera_from_json
 from camera_ray_caster.core.exports.stmap import perspective_of, places
 from camera_ray_caster.core.records import InputError
@@ -148,7 +148,7 @@ def test_maps_are_written_as_they_are_computed(scene, tmp_path, target):
         assert 0 < pixels[..., 2].mean() <= 1
 
 
-@pytest.mark.parametrize("key", [one.key for one in FORMATS])
+@pytest.mark.parametrize("key", [one.key for one in EXPORT_FORMATS])
 def test_every_format_of_a_scene_appears_whole(scene, tmp_path, key):
     frames = [1] if key == "kalibr" else [1, 2]  # a camchain is of a rig that does not change
     _, paths = exports.write(scene, key, find_cameras(scene, ["ALL"]), frames, tmp_path)

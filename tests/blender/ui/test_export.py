@@ -9,7 +9,7 @@ import pytest
 
 from camera_ray_caster.blender.read.scene import read_camera
 from camera_ray_caster.blender.ui import export_operators, in_process
-from camera_ray_caster.core.exports import FORMATS
+from camera_ray_caster.core.exports import EXPORT_FORMATS
 from camera_ray_caster.core.exports.camera_json import camera_from_json
 
 from .test_panels import Layout
@@ -82,7 +82,7 @@ def test_the_nearest_lens_is_written_and_its_error_said_last(blender, two, tmp_p
 
 def test_only_formats_of_lenses_offer_the_nearest_one(blender):
     offered = {}
-    for one in FORMATS:
+    for one in EXPORT_FORMATS:
         layout = Layout()
         operator = type("Operator", (), {"layout": layout, "format": one.key, "fit": False})
         export_operators.Export.draw(operator, blender.context)
@@ -95,7 +95,7 @@ def test_every_format_can_be_chosen_and_says_what_it_is(blender):
     properties = blender.ops.camera_ray_caster.export.get_rna_type().properties
     items = properties["format"].enum_items
     assert [(item.identifier, item.name, item.description) for item in items] == [
-        (one.key, one.label, one.description) for one in FORMATS
+        (one.key, one.label, one.description) for one in EXPORT_FORMATS
     ]
     assert export_operators._draw_in_file_menu in blender.types.TOPBAR_MT_file_export._dyn_ui_initialize()
 

@@ -77,7 +77,7 @@ def test_the_text_at_the_mouse_is_of_the_ray_alone_and_in_the_view(mouse, side, 
     mouse_gizmo.RayUnderMouse.draw(SimpleNamespace(mouse=(mouse, 300)), context)
     ((lines, place),) = written
     assert [name for name, _ in lines] == ["Pixel", "View", "Direction", "Hit"]
-    left, margin = place(width, 60)[0], mouse_gizmo.MARGIN
+    left, margin = place(width, 60)[0], mouse_gizmo.TEXT_DISTANCE
     assert left == {"right": mouse + 2 * margin, "left": mouse - 2 * margin - width, "edge": 40 + margin}[side]
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.camera.build import camera_from
-from camera_ray_caster.core.cameras.parts.silhouette import MARGIN
+from camera_ray_caster.core.cameras.parts.silhouette import PIXEL_MARGIN as MARGIN
 from camera_ray_caster.core.records import BlenderCamera, InputError
 
 from .model_examples import ONLY_SOME, camera

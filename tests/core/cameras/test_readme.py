@@ -5,7 +5,7 @@ from pathlib import Path
 
 from camera_ray_caster.core.camera import pixel_time
 from camera_ray_caster.core.cameras import MODELS
-from camera_ray_caster.core.exports import FORMATS
+from camera_ray_caster.core.exports import EXPORT_FORMATS
 from camera_ray_caster.core.programs import PROGRAMS, READ
 
 PAGES = runpy.run_path(str(Path(__file__).parents[3] / "scripts" / "make" / "pages.py"))
@@ -27,9 +27,9 @@ def test_every_model_and_every_setting_is_on_the_page():
 def test_every_export_and_every_program_is_on_the_page_of_files():
     page = PAGES["files"]()
     exports = {program.export.key for program in PROGRAMS if program.export}
-    for one in FORMATS:
+    for one in EXPORT_FORMATS:
         assert one.key in exports, f"no program of core/programs has the export {one.key}"
-    assert exports == {one.key for one in FORMATS}
+    assert exports == {one.key for one in EXPORT_FORMATS}
     for program in PROGRAMS:
         assert f"| {program.name} | {program.files} | {program.reads} |" in page
         assert not program.reads or program.name in READ

@@ -43,7 +43,7 @@ def test_coarse_pictures_come_first_and_have_the_pixels_of_the_picture(monkeypat
     chief = cast(camera, shapes, **options)["combined"]
     _, found = shown(monkeypatch, camera, shapes, samples=64, **options)
     assert found[0][2] == 0, "every 8th pixel comes before the first sample"
-    step = previews.STEPS[0]
+    step = previews.PREVIEW_STEPS[0]
     middles = [step // 2 + step * np.minimum(np.arange(side) // step, (side - step // 2 - 1) // step)
                for side in chief.shape[:2]]  # fmt: skip
     assert np.array_equal(found[0][0], chief[np.ix_(*middles)])

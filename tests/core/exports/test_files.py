@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.exports import FORMATS, export
+from camera_ray_caster.core.exports import EXPORT_FORMATS, export
 from camera_ray_caster.core.exports.format import Shot
 from camera_ray_caster.core.exports.rigid import with_rotation
 from camera_ray_caster.core.maths.rotations import half_turn_vector, quaternion
@@ -100,13 +100,13 @@ def test_transforms_json_has_one_model():
 @pytest.mark.parametrize("name", CAMERAS)
 def test_each_format_writes_or_refuses_with_those_that_can(name):
     (shot,) = shots(name, [1])
-    able = {one.key for one in FORMATS if one.refusal(shot) is None}
+    able = {one.key for one in EXPORT_FORMATS if one.refusal(shot) is None}
     assert able >= {"npz", "json", "stmap"}
-    for one in FORMATS:
+    for one in EXPORT_FORMATS:
         if one.key in able:
             assert files(one.key, [shot])
         else:
-            assert choices(one.key, [shot])[1] == [other.key for other in FORMATS if other.key in able]
+            assert choices(one.key, [shot])[1] == [other.key for other in EXPORT_FORMATS if other.key in able]
 
 
 @pytest.mark.parametrize("change", ["mirrored", "sheared"])
@@ -114,9 +114,9 @@ def test_axes_that_are_no_rotation_are_refused_where_poses_are_rotations(change)
     matrix = np.array(TURNED, float)
     matrix[:3, 0] = -matrix[:3, 0] if change == "mirrored" else matrix[:3, 0] + 0.01 * matrix[:3, 1]
     shot = Shot("Camera", 1, camera("PERSP", FRAME | {"matrix_world": matrix.tolist()}))
-    free = [one.key for one in FORMATS if not one.rigid]
+    free = [one.key for one in EXPORT_FORMATS if not one.rigid]
     assert {"ros", "stmap", "npz", "json"} <= set(free)
-    for one in FORMATS:
+    for one in EXPORT_FORMATS:
         if one.rigid:
             said, able = choices(one.key, [shot])
             assert f"whose axes are {change}, " in said

@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 import camera_ray_caster as crc
-from camera_ray_caster.core.exports import FORMATS, export
+from camera_ray_caster.core.exports import EXPORT_FORMATS, export
 from camera_ray_caster.core.exports.of_program import ProgramFormat
 from camera_ray_caster.core.records import InputError
 
@@ -52,7 +52,7 @@ def test_opencv_reads_the_nearest_lens_and_errs_as_it_says(name, kind, tmp_path)
     assert mean == pytest.approx(away.mean(), rel=0.06)
 
 
-@pytest.mark.parametrize("key", [one.key for one in FORMATS if isinstance(one, ProgramFormat) and one.table])
+@pytest.mark.parametrize("key", [one.key for one in EXPORT_FORMATS if isinstance(one, ProgramFormat) and one.table])
 def test_every_format_of_lenses_states_the_error(key):
     if key == "nerf":  # has one focal length, and the center in the middle
         with pytest.raises(InputError, match="no lens of NeRF can be fitted to the Field of View"):

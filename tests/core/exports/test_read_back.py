@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.exports import FORMATS
+from camera_ray_caster.core.exports import EXPORT_FORMATS
 from camera_ray_caster.core.programs.reading.lenses import lenses_of
 
 from ..cameras.model_examples import camera
@@ -16,7 +16,7 @@ READ = {
 """The file of each format that is read, too."""
 PAIRS = [
     (one.key, name)
-    for one in FORMATS
+    for one in EXPORT_FORMATS
     for name in CAMERAS
     if one.key in READ and one.refusal(shots(name, [1])[0]) is None and CAMERAS[name][0] != "EQUIRECTANGULAR"
 ]

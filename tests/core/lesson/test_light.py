@@ -7,7 +7,7 @@ import pytest
 
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.lesson.lesson import lesson
-from camera_ray_caster.core.lesson.light import MOST
+from camera_ray_caster.core.lesson.light import MOST_LAMPS
 from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, Lights
 
 from ..casting.test_cast import camera_at, random_shapes, shapes_of
@@ -50,7 +50,7 @@ def test_without_lamps_there_is_a_headlight_and_without_a_hit_the_world():
 
 
 @pytest.mark.full
-@pytest.mark.parametrize("count", [1, MOST, MOST + 1, 40])
+@pytest.mark.parametrize("count", [1, MOST_LAMPS, MOST_LAMPS + 1, 40])
 @pytest.mark.parametrize("shading", ["MATERIAL", "GRID"])
 def test_the_terms_make_the_color_of_the_picture(shading, count):
     """To the digits that are shown, and no lamp is left out."""
@@ -69,7 +69,7 @@ def test_the_terms_make_the_color_of_the_picture(shading, count):
             for begin in ("material", "world", "light", "linear")
         )
         shares = [numbers(line) for line in said if line.startswith("  ") or "more lamps" in line]
-        assert len(shares) == min(count, MOST + 1)
+        assert len(shares) == min(count, MOST_LAMPS + 1)
         assert light == pytest.approx(world + sum(shares), rel=1e-4)
         grid = [float(line.split()[1].rstrip(",")) for line in said if line.startswith("grid")]
         assert color[:3] == pytest.approx(material[:3] * light * np.prod(grid), rel=1e-4)

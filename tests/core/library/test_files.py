@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import camera_ray_caster as crc
-from camera_ray_caster.core.exports import FORMATS
+from camera_ray_caster.core.exports import EXPORT_FORMATS
 from camera_ray_caster.core.exports.exr import exr
 from camera_ray_caster.core.exports.stmap import places
 
@@ -21,7 +21,7 @@ def perspectives():
     return [crc.camera("PERSP", SIZE, crc.look_at((k, -4, 2), (0, 0, 0)), name="left", frame=k) for k in (2, 1)]
 
 
-@pytest.mark.parametrize("key", [one.key for one in FORMATS if one.key != "stmap"])
+@pytest.mark.parametrize("key", [one.key for one in EXPORT_FORMATS if one.key != "stmap"])
 @pytest.mark.one_for_each("key")
 def test_each_format_is_written(tmp_path, key):
     paths, remarks = crc.export(perspectives(), tmp_path / "out", key)
@@ -75,7 +75,7 @@ def test_what_cannot_be_exported_is_one_line_and_leaves_nothing(tmp_path, words,
 
 
 def test_the_help_names_every_format():
-    for one in FORMATS:
+    for one in EXPORT_FORMATS:
         assert f'"{one.key}"' in crc.export.__doc__, f"crc.export, core/library/files.py, has no {one.key}"
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core import programs
-from camera_ray_caster.core.exports import FORMATS
+from camera_ray_caster.core.exports import EXPORT_FORMATS
 from camera_ray_caster.core.names import frame_digits
 from camera_ray_caster.core.programs import PROGRAMS, program_of
 from camera_ray_caster.core.programs.parts.document import Document
@@ -183,7 +183,7 @@ def plain(lens):
 
 def test_every_export_of_a_program_is_a_format():
     keys = {one.export.key for one in PROGRAMS if one.export is not None}
-    assert keys == {one.key for one in FORMATS}
+    assert keys == {one.key for one in EXPORT_FORMATS}
 
 
 SHARED = {"OpenCV", "CAHVOR", "Velodyne", "Ouster", "this add-on"}

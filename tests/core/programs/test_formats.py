@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.cameras import MODELS
-from camera_ray_caster.core.programs.colmap import KINDS as COLMAP
+from camera_ray_caster.core.programs.colmap import CAMERA_MODELS as COLMAP
 from camera_ray_caster.core.programs.reading.lenses import lenses_of
 from camera_ray_caster.core.records import InputError
 

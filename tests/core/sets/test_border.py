@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.exports import FORMATS, export
+from camera_ray_caster.core.exports import EXPORT_FORMATS, export
 from camera_ray_caster.core.exports.writing import write
 from camera_ray_caster.core.programs.reading.lenses import lenses_of
 from camera_ray_caster.core.records import InputError
@@ -55,7 +55,7 @@ def check_lens(path, size, corner, cam):
 
 
 @pytest.mark.one_for_each("key")
-@pytest.mark.parametrize("key", [one.key for one in FORMATS])
+@pytest.mark.parametrize("key", [one.key for one in EXPORT_FORMATS])
 def test_cameras_are_those_of_the_picture(made, key, tmp_path):
     folder, size, corner, cam, _ = made
     shots = [one.shot for one in read_set(folder)]

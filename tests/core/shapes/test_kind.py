@@ -24,13 +24,13 @@ from .tetrahedron import FACES, OFFSETS, TETRAHEDRA
 PASSES = "shape_index", "distance", "position", "normal", "uv", "distance_bound", "normal_bound", "combined"
 SIZE = {"resolution_x": 36, "resolution_y": 28, "clip_end": 1e9}
 MODELS = "PERSP", "ORTHO", "EQUIRECTANGULAR", "PUSHBROOM"
-SHIPPED = kinds.KINDS
+SHIPPED = kinds.SHAPE_KINDS
 
 
 @pytest.fixture(autouse=True)
 def toy_kinds(monkeypatch):
     """Two kinds more."""
-    monkeypatch.setattr(kinds, "KINDS", (*kinds.KINDS, DISCS, TETRAHEDRA))
+    monkeypatch.setattr(kinds, "SHAPE_KINDS", (*kinds.SHAPE_KINDS, DISCS, TETRAHEDRA))
 
 
 def scene(camera, seed):
@@ -125,7 +125,8 @@ def test_toy_kinds_are_culled_sampled_and_asked_at_given_pixels_as_all_others(ke
 def test_kinds_that_are_not_in_view_are_named():
     camera = camera_of("PERSP", SIZE)
     said = "\n".join(cast(camera, shapes_of((DISCS.number, (0, 0, -5), 1.0)), passes=("depth",)).plan.left_out())
-    assert f"kernels of {', '.join(kind.name for kind in kinds.KINDS if kind is not DISCS)}: no such shape" in said
+    others = ", ".join(kind.name for kind in kinds.SHAPE_KINDS if kind is not DISCS)
+    assert f"kernels of {others}: no such shape" in said
     assert "sphere, plane, infinite plane, mesh" in said
 
 

@@ -37,11 +37,11 @@ from ..read import other_times
 from ..read.scene_cache import CachedScene, cached_scene
 from ..read.view import camera_frame
 
-STEPS = (32, 8, 2, 1)
+PIXEL_SIDES = (32, 8, 2, 1)
 """Side of a picture's pixel in pixels of the window, from coarse to fine."""
 
 FIRST = 1
-"""Index in STEPS of the first picture of a view whose pictures are quick."""
+"""Index in PIXEL_SIDES of the first picture of a view whose pictures are quick."""
 
 QUICK = 0.06
 """Longest time in seconds that a redraw waits for its first picture. If it takes less, the last picture follows
@@ -96,9 +96,9 @@ class Viewport:
     _key: Any = None
     """Scene, view and settings of the picture that is being cast, or was cast last."""
     _first = FIRST
-    """Index in STEPS of the first picture of a view."""
+    """Index in PIXEL_SIDES of the first picture of a view."""
     _step = 0
-    """Index in STEPS of the picture that is being cast, or was cast last; beyond the last one, it has all samples."""
+    """Index in PIXEL_SIDES of the picture that is cast, or was cast last; beyond the last one, it has all samples."""
     _samples = 1
     """Number of rays per pixel of the last picture."""
     _means: list[tuple] = []
@@ -107,7 +107,7 @@ class Viewport:
     _is_first = True
     """Whether the worker casts the first picture of a view."""
     _spare: Mapping[int, Images] = {}
-    """Pictures that were shown, by their index in STEPS, whose memory the next ones take."""
+    """Pictures that were shown, by their index in PIXEL_SIDES, whose memory the next ones take."""
     _picture: tuple | None = None
     """Latest texture and its rectangle in the region."""
 
@@ -160,26 +160,26 @@ class Viewport:
         took = perf_counter() - started
         self._take()
         if self._first == FIRST:
-            self._step = len(STEPS) - 2
+            self._step = len(PIXEL_SIDES) - 2
         elif took < QUICK / 4:
             self._first = FIRST
         self._refine()
 
     def _refine(self) -> None:
         """Start the cast of the next finer picture, if there is one."""
-        if self._step + 1 < len(STEPS) + (self._samples > 1):
+        if self._step + 1 < len(PIXEL_SIDES) + (self._samples > 1):
             self._start(self._step + 1)
 
     def _start(self, step: int, is_first: bool = False) -> None:
-        """Start the cast of a picture, given by its index in STEPS."""
+        """Start the cast of a picture, given by its index in PIXEL_SIDES."""
         self._step, self._is_first = step, is_first
         spare = self._spare.get(step)
         self._spare = {other: images for other, images in self._spare.items() if other != step}
         self._means, options = [], self._shown
-        if step == len(STEPS):
+        if step == len(PIXEL_SIDES):
             step -= 1
             options = {**options, "samples": self._samples, "preview": partial(_keep, self._means, self._target)}
-        self._worker = Worker(partial(self._cast, options, STEPS[step], spare))
+        self._worker = Worker(partial(self._cast, options, PIXEL_SIDES[step], spare))
         _workers.append(self._worker)
         if not bpy.app.timers.is_registered(redraw_if_finished):
             bpy.app.timers.register(redraw_if_finished, first_interval=INTERVAL)

@@ -9,7 +9,7 @@ from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
-from ...core.exports import FORMATS, export
+from ...core.exports import EXPORT_FORMATS, export
 from ...core.exports.format import Each
 from ...core.exports.writing import write
 from ...core.records import InputError, Shapes
@@ -45,7 +45,7 @@ def run(arguments: Sequence[str], prog: str) -> int:
         "writes a ray map for each camera and frame; cameras that a format cannot represent are refused.",
         ends="exit status: 0 done; 2 bad input.",
     )
-    formats = {export_format.key: export_format for export_format in FORMATS} | SET_FORMATS
+    formats = {export_format.key: export_format for export_format in EXPORT_FORMATS} | SET_FORMATS
     parser.add_argument("--format", type=str.lower, choices=formats, required=True, help=
         "; ".join(f"{key}: {export_format.description}" for key, export_format in formats.items())
         + f". For the folder of a finished data set only: {', '.join(SET_FORMATS)}")  # fmt: skip

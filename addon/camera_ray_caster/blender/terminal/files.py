@@ -35,7 +35,7 @@ from ..read.camera import views_of
 from ..read.frames import check_layers
 
 EXR, NPZ = "EXR", "NPZ"
-FORMATS = EXR, NPZ
+PASS_FORMATS = EXR, NPZ
 """File formats of passes: a multilayer EXR, or NumPy arrays."""
 
 NOT_WRITTEN = "the compositor's File Output nodes were not run: --file-output makes them write their files"

@@ -69,7 +69,7 @@ def add_words(parser) -> None:
     )
     parser.add_argument("--device", type=str.upper, metavar="KIND", help=
         "kind of device that Cycles renders on, such as CPU or OPTIX; default: the file's and the Preferences'")
-    parser.add_argument("--format", type=str.upper, choices=files.FORMATS,
+    parser.add_argument("--format", type=str.upper, choices=files.PASS_FORMATS,
                         help="file format of the passes: a multilayer EXR file, or NumPy arrays; "
                              "default: EXR, or NPZ with --dataset")  # fmt: skip
     parser.add_argument(

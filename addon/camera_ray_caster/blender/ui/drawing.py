@@ -4,7 +4,7 @@ from textwrap import wrap
 
 LETTER = 6.3
 """Approximate width of a letter in a panel, in pixels at interface scale 1."""
-MARGIN = 20.0
+FIELD_MARGIN = 20.0
 """Approximate margin on each side of a panel's fields, in pixels at interface scale 1."""
 ICON = 65.0
 """Width that a panel's margins and an icon leave no letters for, in pixels at interface scale 1."""
@@ -39,7 +39,7 @@ def draw_field(layout, context, owner, name: str):
         row = layout.row(align=True)
         row.prop(owner, name)
         return row
-    room = (LETTER * len(kind.name) + MARGIN) / max(width_of(context) - 2 * MARGIN, 1.0)
+    room = (LETTER * len(kind.name) + FIELD_MARGIN) / max(width_of(context) - 2 * FIELD_MARGIN, 1.0)
     row = layout.split(factor=min(room, 0.6), align=True)
     row.label(text=kind.name)
     row = row.row(align=True)

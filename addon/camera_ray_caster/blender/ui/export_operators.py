@@ -7,7 +7,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
-from ...core.exports import FORMATS, find_format
+from ...core.exports import EXPORT_FORMATS, find_format
 from ...core.exports.fitted import FIT, FIT_WITHIN
 from ...core.records import InputError
 from ..output import exports
@@ -41,7 +41,7 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
     bl_options = {"REGISTER"}
 
     format: EnumProperty(
-        name="Format", items=[(one.key, one.label, one.description) for one in FORMATS], options={"SKIP_SAVE"}
+        name="Format", items=[(one.key, one.label, one.description) for one in EXPORT_FORMATS], options={"SKIP_SAVE"}
     )
     cameras: EnumProperty(
         name="Cameras",
@@ -146,7 +146,7 @@ class ExportMenu(bpy.types.Menu):
     def draw(self, context):
         """Draw an entry for each format."""
         self.layout.operator_context = "INVOKE_DEFAULT"
-        for one in FORMATS:
+        for one in EXPORT_FORMATS:
             self.layout.operator(Export.bl_idname, text=one.label).format = one.key
 
 

@@ -92,7 +92,7 @@ def draw_setting(layout, context, camera, setting: Setting) -> None:
     """Draw a setting of a camera, or nothing for a setting of Cycles while Cycles is disabled."""
     owner = owner_of(setting, camera, context.scene)
     if owner is not None:
-        KINDS.get(setting.kind, _draw_property)(layout, context, owner, setting)
+        DRAWN_BY_KIND.get(setting.kind, _draw_property)(layout, context, owner, setting)
 
 
 def _draw_property(layout, context, owner, setting) -> None:
@@ -138,5 +138,5 @@ def is_missing(context, owner, setting: Setting) -> bool:
     return item is None or context.view_layer.objects.get(item.name) != item
 
 
-KINDS = {"IMAGE": _draw_image, "VECTOR": _draw_vector, "OBJECT": _draw_object}
+DRAWN_BY_KIND = {"IMAGE": _draw_image, "VECTOR": _draw_vector, "OBJECT": _draw_object}
 """Drawing functions by kind of setting; other kinds are drawn as plain properties."""

@@ -23,7 +23,7 @@ from ..read.scene_cache import differences
 from .live_programs import draw_map, draw_warp, map_texture
 from .overlay import batch_of, draw_batch
 
-MOST = 2048
+LARGEST_FACE = 2048
 """Largest side of a face in texels."""
 LINE = 1.0
 """Width of the frame's outline in pixels."""
@@ -86,7 +86,7 @@ def draw_picture_anew(context, view: LiveView, camera: Camera, frame) -> bool:
         return False
     key = view.directions[0], part
     if view.faces[0] != key:
-        view.faces = key, faces_of(camera, min(x, y), MOST, part)
+        view.faces = key, faces_of(camera, min(x, y), LARGEST_FACE, part)
         view.buffers = [gpu.types.GPUOffScreen(*face.size, format="RGBA8") for face in view.faces[1]]
         view.drawn = None
     seen = view.changes, camera.pose.eye.tobytes(), *_looks(context)

@@ -12,7 +12,7 @@ from ..read.scene_cache import cached_scene
 from . import text
 from .shown import picture_frame
 
-MARGIN = 14
+TEXT_DISTANCE = 14
 """Distance between mouse and text, in pixels at interface scale 1."""
 
 
@@ -79,7 +79,7 @@ def _lines(context, found: Probe) -> list[tuple[str, str]]:
 
 def _write(context, mouse, lines) -> None:
     """Write lines next to the mouse, on the side where they fit, and not past the left edge."""
-    margin, (left, right) = MARGIN * context.preferences.system.ui_scale, text.uncovered(context)
+    margin, (left, right) = TEXT_DISTANCE * context.preferences.system.ui_scale, text.uncovered(context)
 
     def place(width, height):
         x = mouse[0] + 2 * margin

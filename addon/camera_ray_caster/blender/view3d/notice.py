@@ -16,7 +16,7 @@ from ..read.scene_cache import TIMES, cached_scene
 from . import live, text
 from .shown import is_live
 
-MARGIN = 28
+EDGE_DISTANCE = 28
 """Distance between the text and the edge, in pixels at interface scale 1."""
 LOCAL_VIEW = "Rays see the whole scene, not only the objects in Local View"
 
@@ -26,7 +26,7 @@ def draw() -> None:
     context = bpy.context
     sentences = list(_sentences(context))
     if sentences:
-        margin, (left, right) = MARGIN * context.preferences.system.ui_scale, text.uncovered(context)
+        margin, (left, right) = EDGE_DISTANCE * context.preferences.system.ui_scale, text.uncovered(context)
         lines = [("", line) for one in sentences for line in text.wrapped(context, one, right - left - 2 * margin)]
         text.write(context, lines, lambda width, height: ((left + right - width) / 2, height + margin))
 

@@ -22,7 +22,7 @@ CLOSER = 0.003
 """Fraction of their distance by which points are drawn closer: otherwise half of the square of three pixels would be
 inside a surface that is seen at an angle.
 """
-MOST = 1 << 20
+MOST_RAYS = 1 << 20
 """Largest number of rays of which points are drawn."""
 
 _drawn: list[tuple] = []
@@ -79,7 +79,7 @@ def points_by_now(cloud: PointCloud, camera: Camera, seconds: float | None) -> n
 def _batch(scene: CachedScene, by: str, seconds: float | None):
     """Return the batch of the points, None without any; make it again after a change."""
     camera = scene.camera
-    if camera is None or camera.raster.width * camera.raster.height > MOST:
+    if camera is None or camera.raster.width * camera.raster.height > MOST_RAYS:
         return None
     if not _drawn or _drawn[0][0] is not scene:
         try:

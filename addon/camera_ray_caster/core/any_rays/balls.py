@@ -8,22 +8,22 @@ import numpy as np
 
 from ..maths.speed import Scratch
 from ..maths.vector import inner, norm
-from .tree import MARGIN
+from .tree import BOX_MARGIN
 
-LENGTHS = 1e-150, 1e150
+SAFE_LENGTHS = 1e-150, 1e150
 """Lengths of directions between which their squares are neither rounded to 0 nor infinite."""
 
 
 def unit_directions(direction: np.ndarray) -> np.ndarray:
     """Return directions (3, n) with length 1; NaN for those that are too short or too long to square."""
     length = norm(direction)
-    length[~((length > LENGTHS[0]) & (length < LENGTHS[1]))] = np.nan
+    length[~((length > SAFE_LENGTHS[0]) & (length < SAFE_LENGTHS[1]))] = np.nan
     return direction / length
 
 
 def may_meet(middle: Any, radius: Any, origin: Any, ahead: np.ndarray, scratch: Scratch) -> np.ndarray:
     """Return whether rays may meet balls, (n,) bool, given middles and origins as three components, numbers or (n,)
-    each, and unit directions (3, n). Balls are enlarged by MARGIN of the radius and of the distance. NaN may meet all.
+    each, and unit directions (3, n). Balls are enlarged by BOX_MARGIN of radius and distance. NaN may meet all.
     """
     shape = ahead.shape[1:]
     along, beyond, spare = (scratch(name, shape) for name in ("along", "beyond", "spare"))
@@ -31,6 +31,6 @@ def may_meet(middle: Any, radius: Any, origin: Any, ahead: np.ndarray, scratch: 
     to = [np.subtract(m, o, out=scratch(f"to {i}", own)) for i, (m, o, own) in enumerate(pairs)]
     inner(to, ahead, along, spare)
     np.multiply(np.maximum(along, 0.0, out=along), along, out=along)
-    np.multiply(inner(to, to, beyond, spare), 1 - MARGIN, out=beyond)
-    np.subtract(beyond, (1 + MARGIN) * radius * radius, out=beyond)
+    np.multiply(inner(to, to, beyond, spare), 1 - BOX_MARGIN, out=beyond)
+    np.subtract(beyond, (1 + BOX_MARGIN) * radius * radius, out=beyond)
     return ~(beyond > along)

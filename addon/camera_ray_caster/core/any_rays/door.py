@@ -21,7 +21,7 @@ from .moving import hit_groups, write_nearest
 KNOWN = tuple(name for name in PASSES if name not in WITHOUT_PIXEL)
 """The passes of rays, in the order of PASSES."""
 
-LENGTHS = 1e-100, 1e100
+LENGTH_RANGE = 1e-100, 1e100
 """Range of coordinates and of the lengths of directions: their squares and products neither overflow nor underflow."""
 
 FRAMES = 1e-6
@@ -88,7 +88,7 @@ def cast_rays(
     farther than its bound from an edge and from other surfaces.
 
     Raises InputError for arrays that are not (..., 3) or do not broadcast, directions of length 0, numbers that are
-    infinite or beyond LENGTHS, times beyond the frames at which the shapes were read, unknown passes, a range that is
+    infinite or beyond LENGTH_RANGE, times beyond the frames at which shapes were read, unknown passes, a range that is
     not one, and passes that need more memory than is available.
     """
     origin, direction, shape = _rays(origins, directions)
@@ -136,9 +136,9 @@ def _rays(origins, directions) -> tuple[np.ndarray, np.ndarray, tuple[int, ...]]
     """Return origins and directions, (3, n) each with NaN where there is no ray, and the shape of the rays."""
     origin, direction, shape = _points(origins, "origins", directions, "directions")
     length = np.abs(direction).max(axis=0, initial=0.0)
-    if (length < LENGTHS[0]).any():
-        first = int(np.argmax(length < LENGTHS[0]))
-        short = "0" if length[first] == 0 else f"shorter than {LENGTHS[0]:g}"
+    if (length < LENGTH_RANGE[0]).any():
+        first = int(np.argmax(length < LENGTH_RANGE[0]))
+        short = "0" if length[first] == 0 else f"shorter than {LENGTH_RANGE[0]:g}"
         raise InputError(f"directions are {short} for ray {first}: give each a length, or NaN for no ray")
     lost = np.isnan(origin).any(axis=0) | np.isnan(direction).any(axis=0)
     direction[:, lost] = np.nan
@@ -164,8 +164,8 @@ def _points(first, first_name: str, second, second_name: str) -> tuple[np.ndarra
     for values, name in zip(both, (first_name, second_name), strict=True):
         if np.isinf(values).any():
             raise InputError(f"{name} hold infinite numbers: give finite ones, or NaN for no ray")
-        if (np.abs(values) > LENGTHS[1]).any():
-            raise InputError(f"{name} hold numbers beyond {LENGTHS[1]:g}: scale the scene, or the directions")
+        if (np.abs(values) > LENGTH_RANGE[1]).any():
+            raise InputError(f"{name} hold numbers beyond {LENGTH_RANGE[1]:g}: scale the scene, or the directions")
     left, right = (np.array(np.broadcast_to(values, shape).reshape(-1, 3).T, order="C") for values in both)
     return left, right, shape[:-1]
 

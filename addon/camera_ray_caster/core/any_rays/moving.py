@@ -29,7 +29,7 @@ from .found import WORLD, Found, RayHits, Span
 from .own_times import OwnTimes, RowsPlaced
 from .search import RAYS, BodySearch, search_of
 
-MARGIN = 1.25
+BALL_FACTOR = 1.25
 """Factor by which balls are enlarged around shapes that change in size or form: between evaluations they may be larger.
 """
 
@@ -100,7 +100,7 @@ def _radius(motion: Motion) -> np.ndarray:
         every.append(np.linalg.norm(placed.center - shapes.center, axis=1) + placed.radius)
     radii = np.array(every)
     changes = radii.min(axis=0) < (1 - 1e-6) * radii.max(axis=0)
-    return radii.max(axis=0) * np.where(changes, MARGIN, 1 + 1e-6)
+    return radii.max(axis=0) * np.where(changes, BALL_FACTOR, 1 + 1e-6)
 
 
 def _boxes(motion: Motion, forms: dict[int, Form]) -> dict[int, np.ndarray]:

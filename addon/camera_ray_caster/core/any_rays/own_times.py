@@ -29,7 +29,7 @@ from .search import keep_nearest, met
 from .traversal import Traversal
 from .tree import Tree, tree_of
 
-PAIRS = 1 << 16
+PAIRS_AT_ONCE = 1 << 16
 """Number of pairs of rays and triangles that are tested at once, of meshes without a tree. Not tuned."""
 
 
@@ -134,7 +134,7 @@ class OwnTimes:
         rounding = 2 * (placed.rounding + gamma(4)) * np.linalg.norm(to_mesh, axis=2).max(axis=1)
         rounding *= np.linalg.norm(away, axis=1) + placed.radius
         if not (rounding < SLACK / 2 * reach).all():  # flat, or far away
-            for some in np.array_split(rays, -(-len(rays) * len(mesh) // PAIRS)):
+            for some in np.array_split(rays, -(-len(rays) * len(mesh) // PAIRS_AT_ONCE)):
                 yield np.repeat(some, len(mesh)), np.tile(np.arange(len(mesh), dtype=np.int32), len(some))
             return
         start, ahead = (np.einsum("nij,nj->in", to_mesh, vector) for vector in (away, self.direction.T))

@@ -27,7 +27,7 @@ RAYS = 1 << 16
 FEW = 12
 """Number of bodies that are tested one after the other at all rays, without a tree."""
 
-PAIRS = 1 << 12
+PAIRS_WITHOUT_TREE = 1 << 12
 """Number of pairs of rays and bodies tested all at once, without a tree: a ray with a time of its own at a mesh
 of 400 to 4,096 triangles that moves takes 2 to 3 ms, where its tree would make it 4 to 6.
 """
@@ -56,7 +56,7 @@ class BodySearch(Found):
 
     def _divided(self, order: Any, rays: float) -> tuple[np.ndarray, Tree | None]:
         """Return the bodies that are tested at all rays, and the tree of the others."""
-        if not len(self.at) or rays * len(self.at) <= PAIRS:
+        if not len(self.at) or rays * len(self.at) <= PAIRS_WITHOUT_TREE:
             return np.arange(len(self.at)), None
         low, high = (
             np.concatenate([getattr(own, end) for own in self._kinds], axis=1)[:, order] for end in ("low", "high")
@@ -114,7 +114,7 @@ class BodySearch(Found):
         """Yield rays and bodies that may meet: (m,) each, or rays and one body."""
         rays, bodies = np.arange(some[0].shape[1]), self._one_by_one
         eye, ahead = some[0] if some[0].strides[1] else some[0][:, 0], unit_directions(some[1])
-        if 0 < len(rays) * len(bodies) <= PAIRS:
+        if 0 < len(rays) * len(bodies) <= PAIRS_WITHOUT_TREE:
             yield np.repeat(rays, len(bodies)), np.tile(bodies, len(rays))
         elif len(rays):
             for shape in np.unique(self.at[bodies]).tolist():

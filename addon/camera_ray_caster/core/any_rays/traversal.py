@@ -18,7 +18,7 @@ from ..shapes.windows import counted
 from .packets import Packets
 from .tree import FAN, Tree
 
-PAIRS = 1 << 15
+PAIRS_AT_ONCE = 1 << 15
 """Number of pairs divided at once. With 2**13 or 2**17, rays in a room take 1.0 to 1.4 times as long."""
 
 SPLIT = 8.0
@@ -66,8 +66,8 @@ class Traversal:
             pairs = pairs.only(np.flatnonzero(pairs.near <= taken(self._farthest, pairs.packet)))
             if not len(pairs.node):
                 continue
-            if len(pairs.node) > PAIRS:
-                near = pairs.near <= np.partition(pairs.near, PAIRS)[PAIRS]
+            if len(pairs.node) > PAIRS_AT_ONCE:
+                near = pairs.near <= np.partition(pairs.near, PAIRS_AT_ONCE)[PAIRS_AT_ONCE]
                 if not near.all():
                     waiting += pairs.only(np.flatnonzero(~near)), pairs.only(np.flatnonzero(near))
                     continue

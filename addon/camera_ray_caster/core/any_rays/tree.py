@@ -17,7 +17,7 @@ FAN = 4
 LEAF = 4
 """Maximum number of bodies in a leaf. With 2, they take 1.0 to 1.3 times as long."""
 
-MARGIN = 2.0**-30
+BOX_MARGIN = 2.0**-30
 """Fraction by which boxes are enlarged. It exceeds the rounding of vertices, of box tests, and of t (see
 ``triangles.STEEP``), so that no hit lies outside of its box.
 """
@@ -62,7 +62,7 @@ def tree_of(low: np.ndarray, high: np.ndarray, body: np.ndarray) -> Tree:
     """Return the tree of some bodies, (b,) indices, b > 0, given the corners of their boxes, (3, b) each."""
     order = _order(low / 2 + high / 2)
     low, high = low[:, order], high[:, order]
-    reach = MARGIN * (high - low + np.maximum(np.abs(low), np.abs(high)))
+    reach = BOX_MARGIN * (high - low + np.maximum(np.abs(low), np.abs(high)))
     levels = [(low - reach, high + reach)]
     step = LEAF
     while len(levels) < 2 or levels[-1][0].shape[1] > FAN:

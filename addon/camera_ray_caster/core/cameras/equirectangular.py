@@ -18,7 +18,7 @@ from .model import Step
 from .parts.film import SHIFT
 from .parts.meridians import RAY, Meridians, longitude
 from .parts.settings import CAMERA, Number, span
-from .parts.silhouette import MARGIN, everywhere, longitude_latitude
+from .parts.silhouette import PIXEL_MARGIN, everywhere, longitude_latitude
 
 LONGITUDES = tuple(
     Number(
@@ -84,6 +84,6 @@ class Equirectangular(Meridians):
         pitch = abs(self.window.pitch_y)
         if max(-low, high) - pitch / 2 > pi / 2:
             _, (bottom, top) = longitude_latitude(centers, radii)
-            again = (top >= pi - high - MARGIN * pitch) | (bottom <= -pi - low + MARGIN * pitch)
+            again = (top >= pi - high - PIXEL_MARGIN * pitch) | (bottom <= -pi - low + PIXEL_MARGIN * pitch)
             bounds[again] = everywhere(int(again.sum()))
         return bounds

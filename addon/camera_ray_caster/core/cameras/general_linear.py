@@ -26,7 +26,7 @@ from ..maths.vector import components
 from ..records import BlenderCamera, InputError, Raster
 from .model import IN_RAYS, Model, Step
 from .parts.settings import Numbers, Setting
-from .parts.silhouette import MARGIN
+from .parts.silhouette import PIXEL_MARGIN
 
 RAY_ROUNDING = 16 * EPS32
 """Magnitude relative to the rays' numbers below which a value counts as zero: Blender stores the rays as float32."""
@@ -134,7 +134,9 @@ class GeneralLinear(Model):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
         across, up, determinant = self._solved(*(Interval.around(c, radii) for c in components(centers)))
         x, y = across / determinant * self.frame[0], up / determinant * self.frame[1]
-        bounds = np.stack((x.low - MARGIN, x.high + MARGIN, y.low - MARGIN, y.high + MARGIN), axis=-1)
+        bounds = np.stack(
+            (x.low - PIXEL_MARGIN, x.high + PIXEL_MARGIN, y.low - PIXEL_MARGIN, y.high + PIXEL_MARGIN), axis=-1
+        )
         bounds[centers[:, 2] > radii] = np.nan
         return bounds
 

@@ -33,7 +33,7 @@ from .parts.calibration import FROM_FILE
 from .parts.ray_grid import AROUND, CUBIC, LINEAR, NONE, SPLINE, RayGrid, weights_of
 from .parts.ray_search import entries_of, places_of
 from .parts.settings import FROM_A_FILE, Choice, Flag, Item, Numbers
-from .parts.silhouette import MARGIN
+from .parts.silhouette import PIXEL_MARGIN
 from .parts.vectors import Vectors
 
 DIRECTIONS = Vectors(
@@ -220,7 +220,7 @@ class RayTable(Model):
         """See Model: those of the parts of the table whose rays may meet the balls."""
         (a, c), (b, d) = self.scale, self.shift
         places = self.grid.seen_parts.bounds(centers, radii)
-        return (places - (b, b, d, d)) / (a, a, c, c) + (-MARGIN, MARGIN, -MARGIN, MARGIN)
+        return (places - (b, b, d, d)) / (a, a, c, c) + (-PIXEL_MARGIN, PIXEL_MARGIN, -PIXEL_MARGIN, PIXEL_MARGIN)
 
     @property
     def formula_reach(self) -> float:

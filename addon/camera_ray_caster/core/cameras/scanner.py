@@ -29,7 +29,7 @@ from .parts.beams import MICRO, Beams
 from .parts.calibration import FROM_FILE
 from .parts.devices import DEVICE, DEVICES, Device
 from .parts.settings import FULL_TURN
-from .parts.silhouette import MARGIN, longitude_latitude, turned
+from .parts.silhouette import PIXEL_MARGIN, longitude_latitude, turned
 
 
 @dataclass(frozen=True)
@@ -175,7 +175,7 @@ class Scanner(Model):
         heads = turned((left - greatest, right - least), ends, FULL_TURN)
         heads = heads if self.step > 0 else heads[::-1]
         x0, x1 = (((head - self.start) / self.step + 0.5) / self._across for head in heads)
-        margin_x, margin_y = MARGIN / min(1.0, self._across), MARGIN / min(1.0, self._down)
+        margin_x, margin_y = PIXEL_MARGIN / min(1.0, self._across), PIXEL_MARGIN / min(1.0, self._down)
         y0, y1 = low / self._down, high / self._down
         return np.stack((x0 - margin_x, x1 + margin_x, y0 - margin_y, y1 + margin_y), axis=-1)
 

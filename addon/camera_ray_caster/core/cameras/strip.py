@@ -27,7 +27,7 @@ from .model import Model, Step
 from .parts.film import Window
 from .parts.lines import LINE_ROUNDING, path_from
 from .parts.settings import Flag, Line
-from .parts.silhouette import MARGIN
+from .parts.silhouette import PIXEL_MARGIN
 from .perspective import PLANE, Perspective
 
 PATH = Line(
@@ -183,7 +183,7 @@ class Strip(Model):
                 ),
                 axis=1,
             )
-        return bounds + np.array((-MARGIN, MARGIN, -MARGIN, MARGIN))
+        return bounds + np.array((-PIXEL_MARGIN, PIXEL_MARGIN, -PIXEL_MARGIN, PIXEL_MARGIN))
 
     def _stretch(self, x):
         """Return the stretch of the path on which columns are."""

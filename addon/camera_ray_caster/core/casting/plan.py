@@ -133,7 +133,7 @@ class Plan:
             ends = f"{self.camera.clip_start:g} to {self.camera.clip_end:g}"
             lines.append(f"{', '.join(map(repr, names[:MOST_NAMED]))}{more}: beyond the clip range, {ends}")
         there = {kind.number for kind, _ in kinds.by_kind(self.shapes.kind[self.seen])}
-        missing = [kind.name for kind in kinds.KINDS if kind.number not in there]
+        missing = [kind.name for kind in kinds.SHAPE_KINDS if kind.number not in there]
         if missing:
             lines.append(f"kernels of {', '.join(missing)}: no such shape is in view")
         if self.camera.model.central:

@@ -21,7 +21,7 @@ from .tiles import LISTEN, Effort, Tile
 Show = Callable[[np.ndarray, slice, int], object]
 """Called with the combined pass, the rows of it that are new, and its samples per pixel; 0 while it is coarse."""
 
-STEPS = 8, 4, 2
+PREVIEW_STEPS = 8, 4, 2
 """Distances of the pixels of coarse pictures; each of these pixels fills a square."""
 
 TIMES = 64
@@ -45,7 +45,7 @@ class Previews:
 
     def __init__(self, plan: Plan, time: PixelTime | None, samples: int, show: Show | None):
         self._plan, self._show = plan, show
-        self._steps = list(STEPS) if show and time is None else []
+        self._steps = list(PREVIEW_STEPS) if show and time is None else []
         self._began, self._spent, self._last = process_time(), 0.0, 0.0
         height, width = plan.camera.raster.shape
         passes = show is not None and time is None and samples > 1 and height * width <= MOST_PIXELS

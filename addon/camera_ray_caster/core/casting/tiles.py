@@ -22,7 +22,7 @@ from .rays import chief_rays, sampled_rays
 from .search import HitSearch
 from .store import add_combined, store
 
-STEPS = "rays", "cast", "passes"
+TIMED_STEPS = "rays", "cast", "passes"
 """The steps whose seconds are measured per tile: making the rays, finding the nearest hits, writing the passes."""
 
 Job = TypeVar("Job")
@@ -126,7 +126,7 @@ def cast_tile(
     plan: Plan, search: HitSearch, tile: Tile, samples: range | None, images: dict[str, np.ndarray], scratch: Scratch,
     effort: Effort, sums: np.ndarray | None = None,
 ) -> np.ndarray:  # fmt: skip
-    """Cast one tile and store its passes in ``images``; return the seconds of STEPS.
+    """Cast one tile and store its passes in ``images``; return the seconds of TIMED_STEPS.
 
     With samples the only pass is combined, the mean of these rays of each pixel and of those before, whose sum is in
     ``sums``, (rows, columns, 4) float64 of the whole picture; it may be None if there are none before or after. Raises
@@ -135,7 +135,7 @@ def cast_tile(
     raster = plan.camera.raster
     place = raster.columns()[:, tile.columns], raster.rows()[tile.rows], (tile.columns.start, tile.rows.start)
     parts = {name: image[tile.rows, tile.columns] for name, image in images.items()}
-    seconds = np.zeros(len(STEPS))
+    seconds = np.zeros(len(TIMED_STEPS))
     total = None
     if samples is not None:
         total = np.zeros_like(parts["combined"], np.float64) if sums is None else sums[tile.rows, tile.columns]
@@ -176,7 +176,7 @@ def in_threads(
     take less than the start of a thread would pay for: they are run in this thread.
     """
     own = local()
-    total = np.zeros(len(STEPS))
+    total = np.zeros(len(TIMED_STEPS))
     if alone:
         with lending() as lend:
             scratch = lend()

@@ -25,7 +25,7 @@ from .of_program import ProgramFormat
 from .stmap import Stmap
 
 _OF_PROGRAMS = [ProgramFormat(program) for program in PROGRAMS if program.export is not None and program.export.files]
-FORMATS: tuple[Format, ...] = (
+EXPORT_FORMATS: tuple[Format, ...] = (
     *sorted(_OF_PROGRAMS, key=lambda each: not each.table), Stmap(), Npz(), CameraJson(),
 )
 """All formats, in the order of menus: those of lenses first, those that need whole cameras last."""
@@ -33,7 +33,7 @@ FORMATS: tuple[Format, ...] = (
 
 def find_format(key: str) -> Format:
     """Return the format of a key. Raises InputError that lists the formats for an unknown key."""
-    formats = {each.key: each for each in FORMATS}
+    formats = {each.key: each for each in EXPORT_FORMATS}
     return formats[the_word(key, "format", formats)]
 
 
@@ -71,7 +71,7 @@ def _prepared(key: str, shots: Sequence[Shot], fit: Any):
     for shot in shots:
         reason = _refusal(chosen, shot)
         if reason is not None:
-            able = ", ".join(each.key for each in FORMATS if _refusal(each, shot) is None)
+            able = ", ".join(each.key for each in EXPORT_FORMATS if _refusal(each, shot) is None)
             lens = f"{shot.camera.model.label} of camera {shot.camera.name!r}"
             of_lens = fit is None and can_fit(chosen, shot.camera) and rigid.refusal(shot.camera) is None
             near = f", or {FIT} (--fit)" if of_lens else ""

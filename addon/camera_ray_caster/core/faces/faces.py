@@ -27,7 +27,7 @@ FINEST = 0.02
 """Share of a face's pixels that may be finer than its texels: single rays at a kink make no face larger."""
 FLATTEST = 0.5
 """Least s2 / s1 that texels follow."""
-MARGIN = 2.0
+TEXEL_MARGIN = 2.0
 """Texels of a face beyond what is seen, for its filter."""
 LEAST = 8
 """Least side of a face in texels."""
@@ -167,7 +167,7 @@ def _face(axes, directions, by_x, by_y, reach, pixel: float, largest: int, wides
     moves = [(derivatives[inside] @ axes.T) for derivatives in (by_x, by_y)]
     (a, c), (b, d) = (((move[:, :2] + slopes * move[:, 2:]) / ahead[:, None]).T for move in moves)
     texel = pixel * _needed(a, b, c, d)
-    low, high = np.maximum(low - MARGIN * texel, -WIDEST), np.minimum(high + MARGIN * texel, WIDEST)
+    low, high = np.maximum(low - TEXEL_MARGIN * texel, -WIDEST), np.minimum(high + TEXEL_MARGIN * texel, WIDEST)
     size = [int(side) for side in np.clip(np.ceil((high - low) / texel), LEAST, largest)]
     return Face(axes, (float(low[0]), float(high[0]), float(low[1]), float(high[1])), (size[0], size[1]))
 

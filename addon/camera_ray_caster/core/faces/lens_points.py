@@ -15,7 +15,7 @@ import numpy as np
 from ..camera.camera import Camera
 from ..cameras.model import Model
 
-STEPS = 0.8191725133961645, 0.6710436067037893, 0.5497004779019703
+SEQUENCE_STEPS = 0.8191725133961645, 0.6710436067037893, 0.5497004779019703
 """Powers of the root of x^4 = x + 1: steps of a sequence that fills a cube evenly (M. Roberts, 2018)."""
 
 
@@ -39,7 +39,7 @@ def lens_points(camera: Camera, count: int) -> tuple[LensPoint, ...]:
     """Return points that fill the aperture of a camera. A panorama's are those of a disc of its radius."""
     aperture: Any = camera.aperture
     is_planar = camera.model.planar
-    u, v, w = np.mod(0.5 + np.outer(STEPS, np.arange(1, count + 1)), 1.0)
+    u, v, w = np.mod(0.5 + np.outer(SEQUENCE_STEPS, np.arange(1, count + 1)), 1.0)
     if is_planar:
         x, y = aperture.points(u, v)
         z = np.zeros(count)

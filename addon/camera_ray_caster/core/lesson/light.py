@@ -12,7 +12,7 @@ from ..casting.shading import HEADLIGHT, POINT, SUN, Light, grid_factor, irradia
 from .formula import digits
 from .meetings import words
 
-MOST = 12
+MOST_LAMPS = 12
 """Maximum number of lamps listed: those that give most."""
 
 
@@ -36,11 +36,11 @@ def color_lines(values: HitValues, color: np.ndarray) -> Iterator[str]:
         grid = grid_factor(values)
     yield f"material {words(material)}"
     ranked = sorted(range(len(terms)), key=lambda k: -terms[k][0].max())
-    for share, line, formula in (terms[k] for k in sorted(ranked[:MOST])):
+    for share, line, formula in (terms[k] for k in sorted(ranked[:MOST_LAMPS])):
         yield line
         yield f"  {formula} = {words(share)}"
-    if len(terms) > MOST:
-        yield f"{len(terms) - MOST} more lamps, together {words(sum(terms[k][0] for k in ranked[MOST:]))}"
+    if len(terms) > MOST_LAMPS:
+        yield f"{len(terms) - MOST_LAMPS} more lamps, together {words(sum(terms[k][0] for k in ranked[MOST_LAMPS:]))}"
     yield f"world, from all directions {words(world)}"
     yield f"light, of lamps and world {words(total)}"
     if grid is not None:

@@ -19,7 +19,7 @@ from ..shapes.mesh.surface import TRIANGLES, HitTriangles
 from ..tuning import MESH_BLOCK
 from .formula import NOISE, digits, shown
 
-MOST = 12
+MOST_INTERSECTIONS = 12
 """Maximum number of intersections listed per mesh."""
 
 SLACK = 1e-6
@@ -156,7 +156,7 @@ def _mesh(shapes, k, at, along):
         v, w = (beside * across).sum(axis=0) * scale, along @ turned * scale
         t = (other_edge * turned).sum(axis=0) * scale
         hit = np.flatnonzero((v >= 0) & (w >= 0) & (v + w <= 1))
-    hit = hit[np.argsort(np.abs(t[hit]))][:MOST]
+    hit = hit[np.argsort(np.abs(t[hit]))][:MOST_INTERSECTIONS]
     lines = (f"own frame: p + t d = (1 - v - w) A + v B + w C, p = {words(at)}, d = {words(along)}",)
     roots = []
     for i in hit:

@@ -14,7 +14,7 @@ from ..arguments import P, R, deprecated, number, shown, spelled
 from ..arguments import folder as a_folder
 from ..camera.camera import Camera
 from ..camera.fit import region_of
-from ..exports import FORMATS, find_format
+from ..exports import EXPORT_FORMATS, find_format
 from ..exports import export as files_of
 from ..exports.format import Content, Shot
 from ..exports.writing import write
@@ -125,7 +125,7 @@ def export(
     return Exported(write(_named(files, name) if name else files, folder), remarks)
 
 
-_KEYS = in_words([f'"{export_format.key}"' for export_format in FORMATS])
+_KEYS = in_words([f'"{export_format.key}"' for export_format in EXPORT_FORMATS])
 export.__doc__ = (export.__doc__ or "").replace("KEYS", _KEYS)
 
 

@@ -26,7 +26,7 @@ FISHEYE_TERMS, PINHOLE_TERMS = ("k1", "k2", "k3", "k4"), ("k1", "k2", "p1", "p2"
 F, FXY = ("f", "cx", "cy"), ("fx", "fy", "cx", "cy")
 SPHERE = "EQUIRECTANGULAR"
 """The whole sphere, whose parameters are width and height again; our model has the same name."""
-KINDS = {
+CAMERA_MODELS = {
     "SIMPLE_PINHOLE": ("OPENCV_PINHOLE", F),
     "PINHOLE": ("OPENCV_PINHOLE", FXY),
     "SIMPLE_RADIAL": ("OPENCV_PINHOLE", (*F, "k1")),
@@ -53,7 +53,7 @@ numbers by which binary files name the models.
 """
 MODELS = {
     kind: (key, tuple(name for name in names if name not in FXY))
-    for kind, (key, names) in KINDS.items()
+    for kind, (key, names) in CAMERA_MODELS.items()
     if names[0] == "fx" and kind != "FISHEYE"  # OPENCV_FISHEYE says the same, and every COLMAP reads it
 } | {SPHERE: (SPHERE, ANGLES)}
 """The models that are written."""
@@ -128,11 +128,11 @@ def _cameras_in(data: bytes) -> list[list[str]] | None:
         (count,), at = COUNT.unpack_from(data), COUNT.size
         if count * CAMERA.size > len(data):
             return None
-        kinds, cameras = dict(enumerate(KINDS)), []
+        kinds, cameras = dict(enumerate(CAMERA_MODELS)), []
         for _ in range(count):
             name, number, width, height = CAMERA.unpack_from(data, at)
             kind = kinds[number]
-            numbers = struct.unpack_from(f"<{len(KINDS[kind][1])}d", data, at + CAMERA.size)
+            numbers = struct.unpack_from(f"<{len(CAMERA_MODELS[kind][1])}d", data, at + CAMERA.size)
             at += CAMERA.size + 8 * len(numbers)
             cameras.append([str(name), kind, str(width), str(height), *map(repr, numbers)])
         return cameras if at == len(data) else None
@@ -175,9 +175,9 @@ def _images_in(data: bytes) -> list[tuple] | None:
 
 def _lens(document: Document, words: list[str]) -> Lens:
     name, kind, *numbers = words if len(words) > 3 else [*words, "", "", ""]
-    if kind not in KINDS:
-        raise document.refusal(f"camera {name} is of the model {kind!r}: it must be one of {', '.join(KINDS)}")
-    model, names = KINDS[kind]
+    if kind not in CAMERA_MODELS:
+        raise document.refusal(f"camera {name} is of the model {kind!r}: it must be one of {', '.join(CAMERA_MODELS)}")
+    model, names = CAMERA_MODELS[kind]
     width, height, *values = document.numbers(numbers, f"camera {name}", len(names) + 2)
     size, settings = document.size(width, height), dict(zip(names, values, strict=True))
     if kind == SPHERE:

@@ -19,7 +19,7 @@ from .parts.program import ProgramFiles
 
 OMNI = "omni"
 """SVO's type of OCam: its intrinsics are the polynomial, 5 terms, the center, c, d, e, the inverse and two radii."""
-KINDS = {"pinhole": "pinhole", "unifiedprojection": "omni"}
+CAMERA_TYPES = {"pinhole": "pinhole", "unifiedprojection": "omni"}
 BENDS = {"fisheye": "fov", "rationalradtan": "radialtangential8", "radtan": "radtan", "equidistant": "equidistant"}
 """The words of ``parts.camchain`` for a type of camera and of distortion, by their plain names."""
 
@@ -71,7 +71,9 @@ def _lens(camera: Fields) -> Lens:
         numbers = camera.matrix("intrinsics", 24)
         affine = dict(zip(("cx", "cy", "ocam_c", "ocam_d", "ocam_e"), numbers[5:10], strict=True))
         return Lens(camera.label, "OCAM", size | affine | {"ocam_polynomial": " ".join(map(repr, numbers[:5]))})
-    kind = KINDS[camera.document.one_of(spelled(camera.text("type")), camera.said("type"), (*KINDS, OMNI))]
+    kind = CAMERA_TYPES[
+        camera.document.one_of(spelled(camera.text("type")), camera.said("type"), (*CAMERA_TYPES, OMNI))
+    ]
     model, shape = SHAPES[kind]
     distortion = camera.part("distortion")
     word = spelled(distortion.text("type", "none"))

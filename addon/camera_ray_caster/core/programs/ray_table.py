@@ -12,7 +12,7 @@ from .parts.document import Document
 from .parts.lens import Lens
 from .parts.program import FileWriter, ProgramFiles
 
-KINDS = ray_arrays, ray_exr, ray_mesh
+READERS = ray_arrays, ray_exr, ray_mesh
 BINARY = {
     ".npy": ("an array of numpy", ray_arrays.NPY), ".npz": ("a file of numpy's arrays", ray_arrays.ZIP),
     ".exr": ("an EXR image", ray_exr.MAGIC),
@@ -22,12 +22,12 @@ BINARY = {
 
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
-    return any(kind.looks(document) for kind in KINDS)
+    return any(kind.looks(document) for kind in READERS)
 
 
 def read(document: Document) -> list[Lens]:
     """See ProgramFiles."""
-    return [next(kind for kind in KINDS if kind.looks(document)).lens_of(document)]
+    return [next(kind for kind in READERS if kind.looks(document)).lens_of(document)]
 
 
 def hint(document: Document) -> str | None:

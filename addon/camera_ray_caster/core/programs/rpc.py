@@ -33,7 +33,7 @@ SIDES = ("NUMROWS", "NUMCOLUMNS"), ("LASTROW", "LASTCOL")
 TERMS = 20
 STRAIGHT = 0.05
 """Largest distance in pixels between a ray and the polynomials half way."""
-STEP, STEPS, NEAR = 1e-5, 8, 1e-15
+STEP, NEWTON_STEPS, NEAR = 1e-5, 8, 1e-15
 """Of Newton's method with differences, in scaled longitude and latitude: each step gains five digits, until all pixels
 are this near. Where a pixel is not seen, all steps are made.
 """
@@ -104,7 +104,7 @@ def read(document: Document) -> list[Lens]:
     def seen(wanted, height):
         """Return the scaled longitude and latitude of pixels at a height, by Newton's method."""
         x = y = np.zeros(wanted.shape[:-1])
-        for _ in range(STEPS):
+        for _ in range(NEWTON_STEPS):
             short = pixel(x, y, height) - wanted
             if np.abs(short).max() < NEAR:
                 break

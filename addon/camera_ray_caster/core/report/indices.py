@@ -30,7 +30,7 @@ def _runs(shapes: Shapes) -> list[dict[str, Any]]:
     pairs = np.stack((shapes.name_index, shapes.kind.astype(np.int64)), axis=1)
     begins = np.flatnonzero(np.any(np.diff(pairs, axis=0, prepend=-1), axis=1))
     counts = np.diff(begins, append=len(shapes))
-    names = {kind.number: kind.name.upper().replace(" ", "_") for kind in kinds.KINDS}
+    names = {kind.number: kind.name.upper().replace(" ", "_") for kind in kinds.SHAPE_KINDS}
     return [
         {"first": first, "count": count, "object": shapes.names[name], "kind": names[kind]}
         for first, count, (name, kind) in zip(begins.tolist(), counts.tolist(), pairs[begins].tolist(), strict=True)

@@ -13,7 +13,7 @@ import numpy as np
 from ..camera.camera import Camera
 from ..camera.facts import CONVENTIONS, camera_facts
 from ..camera.pixel_time import ImageTime
-from ..cast import STEPS, Images
+from ..cast import TIMED_STEPS, Images
 from ..casting.needs import has_colors
 from ..conventions import EPS32
 from ..exports.camera_json import recorded
@@ -31,7 +31,7 @@ MOST_NUMBERS = 3 * 25_000
 VALUE_COLUMN = 23
 """Column in which the values of a camera's facts begin."""
 SIZES = [f"{size}_{unit}" for unit in ("pixels", "radians") for size in ("worst", "median", "bound")]
-CAST_STEPS = ("plan", *STEPS)
+CAST_STEPS = ("plan", *TIMED_STEPS)
 """Steps that count for rays per second: from camera and shapes to finished arrays."""
 
 

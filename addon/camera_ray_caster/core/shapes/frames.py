@@ -16,7 +16,7 @@ from ..maths.speed import lazy
 from ..maths.vector import dot, norm
 from ..records import Pose, Shapes
 
-MARGIN = 1 + 1e-9
+BOUNDS_FACTOR = 1 + 1e-9
 """Factor by which bounding volumes are enlarged: rounding moves the edge of a shape by at most 1e-12 of its size."""
 
 

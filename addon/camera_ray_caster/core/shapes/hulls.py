@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..maths.speed import taken
-from .frames import MARGIN
+from .frames import BOUNDS_FACTOR
 from .kind import PixelBounds
 
 
@@ -67,7 +67,7 @@ class HullPoints:
         places = self.at(corners)
         low, high = np.minimum.reduce(places), np.maximum.reduce(places)
         middle = low / 2 + high / 2
-        radius = MARGIN * np.sqrt(np.maximum.reduce([((corner - middle) ** 2).sum(axis=0) for corner in places]))
+        radius = BOUNDS_FACTOR * np.sqrt(np.maximum.reduce([((corner - middle) ** 2).sum(axis=0) for corner in places]))
         bounds, seen = self._pixels.of_balls(middle.T, radius)
         at = np.flatnonzero(seen)
         return bounds[at].astype(self._type), self._pixels.least_t(middle.T, radius)[at], at

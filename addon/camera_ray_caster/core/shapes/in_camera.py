@@ -8,8 +8,8 @@ from ..conventions import EPS, gamma
 from ..maths.exact import solve, two_sum
 from ..maths.vector import cross, dot, inverse, norm
 from ..records import InputError, Pose, Shapes
-from .frames import MARGIN, InCamera
-from .kinds import KINDS, by_kind
+from .frames import BOUNDS_FACTOR, InCamera
+from .kinds import SHAPE_KINDS, by_kind
 
 SIZES = 1e-152, 1e152
 """Range of sizes, distances and their ratios: their squares neither overflow nor underflow."""
@@ -38,14 +38,14 @@ def in_camera(shapes: Shapes, pose: Pose) -> InCamera:
     with np.errstate(all="ignore"):  # shapes that are flat or too far are refused below
         shape_from_world, rounding, skewness = invert(shapes.axes)
         offset = np.einsum("nij,nj->ni", shape_from_world, away)
-        may_be_flat = np.isin(shapes.kind, [kind.number for kind in KINDS if kind.may_be_flat])
+        may_be_flat = np.isin(shapes.kind, [kind.number for kind in SHAPE_KINDS if kind.may_be_flat])
         skewness[may_be_flat], offset[may_be_flat] = 1.0, 0.0
         _refuse(shapes, may_be_flat, skewness, away, offset)
         axes = np.einsum("ij,njk->nki", camera_from_world, shapes.axes)  # one axis per row
         for kind, at in by_kind(shapes.kind):
             radius[at], reach[at] = kind.extent(shapes, at, axes[at])
             is_close[at] = kind.is_close(offset[at], shape_from_world[at], away[at])
-        radius = radius * MARGIN + 16 * EPS * np.sqrt(np.einsum("ni,ni->n", away, away))
+        radius = radius * BOUNDS_FACTOR + 16 * EPS * np.sqrt(np.einsum("ni,ni->n", away, away))
         close = np.flatnonzero(is_close)
     offset_rest = np.full_like(offset, np.nan)
     if close.size:

@@ -1,6 +1,6 @@
 """The interface of a kind of shape, and the records that its methods take and return.
 
-A kind is one instance of a subclass of ``Kind``, listed in ``KINDS``. Its users are ``in_camera`` (``extent``,
+A kind is one instance of a subclass of ``Kind``, listed in ``SHAPE_KINDS``. Its users are ``in_camera`` (``extent``,
 ``is_close``), the plan and the search (``shape_set``), the passes (``normals``, ``uv``) and the error bounds
 (``errors``). Elsewhere, only what makes shapes and the equations of ``lesson.meetings`` know the kinds;
 boxes of objects and landmarks of motion take the cube -1 to 1 of a shape's own frame for all but planes and meshes.

@@ -1,4 +1,4 @@
-"""The kinds of shapes. A new kind needs a file of its own and an entry in KINDS; ``kind`` has its interface."""
+"""The kinds of shapes. A new kind needs a file of its own and an entry in SHAPE_KINDS; ``kind`` has its interface."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from .mesh.meshes import MESHES
 from .plane import INFINITE_PLANES, PLANES
 from .sphere import SPHERES
 
-KINDS: tuple[Kind, ...] = (SPHERES, PLANES, INFINITE_PLANES, MESHES)
+SHAPE_KINDS: tuple[Kind, ...] = (SPHERES, PLANES, INFINITE_PLANES, MESHES)
 """Every kind, in the order of the report."""
 
 
 def by_kind(numbers: np.ndarray) -> Iterator[tuple[Kind, np.ndarray]]:
     """Yield each kind whose number occurs in ``numbers``, and where it occurs, bool of the same shape."""
-    for kind in KINDS:
+    for kind in SHAPE_KINDS:
         some = numbers == kind.number
         if some.any():
             yield kind, some

@@ -15,7 +15,7 @@ from ...maths.recording import look_up
 from ...maths.speed import lazy
 from ...records import BlenderCamera, InputError
 from .scanners import AHEAD, AZIMUTHS, DELAYS, RIGHT, UP, Table
-from .silhouette import MARGIN
+from .silhouette import PIXEL_MARGIN
 
 MICRO = 1e-6
 """Seconds in a microsecond."""
@@ -23,7 +23,7 @@ MICRO = 1e-6
 NARROWEST = 1e-9
 """Elevation, in radians, by which bounds are widened, so that beams at the same elevation are told apart."""
 
-STEPS = 8
+NEWTON_STEPS = 8
 """Number of steps of Newton's method between two beams: for 16 digits four are enough from a tenth of a meter on."""
 
 MISSED = 1e-9
@@ -98,7 +98,7 @@ class Beams:
             for k in range(1, len(self)):
                 beam[self._looks(k, 0.0, across, up)[0] >= 0] = k
         low, high = np.where(beam == 0, -np.inf, 0.0), np.where(beam == last, np.inf, 1.0)
-        for _ in range(1 if is_linear else STEPS):
+        for _ in range(1 if is_linear else NEWTON_STEPS):
             above, slope, _ = self._looks(beam, share, across, up)
             share = np.clip(share - above / slope, low, high)
         above, slope, past = self._looks(beam, share, across, up)
@@ -124,8 +124,8 @@ class Beams:
         azimuth there, (n,) each.
         """
         rows = [np.interp(end, *self._profile) for end in (bottom - NARROWEST, top + NARROWEST)]
-        first = np.maximum(np.floor(rows[0] + 0.5 - MARGIN).astype(int), 0)
-        last = np.minimum(np.ceil(rows[1] + 0.5 + MARGIN).astype(int), len(self) + 1)
+        first = np.maximum(np.floor(rows[0] + 0.5 - PIXEL_MARGIN).astype(int), 0)
+        last = np.minimum(np.ceil(rows[1] + 0.5 + PIXEL_MARGIN).astype(int), len(self) + 1)
         level = np.frexp(last - first + 1.0)[1] - 1
         second, (low, high) = last + 1 - (1 << level), self._ranges
         least = np.minimum(low[level, first], low[level, second])

@@ -28,7 +28,7 @@ REACH, SMALL = 1.5, 1 / 8
 of its axis.
 """
 
-MARGIN = 1e-9
+SLOPE_MARGIN = 1e-9
 """Margin of slopes, far more than their rounding."""
 
 FIRST = np.cumsum([0] + [(CELLS >> level) ** 2 for level in range(LEVELS)])
@@ -80,7 +80,7 @@ class DirectionMap:
             _look_up(face, large, np.array((first[0], second[0])), np.array((first[1], second[1])), bounds)
         bounds[:, 1::2] *= -1
         bounds[np.isinf(bounds).any(axis=1)] = np.nan
-        holds = (centers * centers).sum(axis=1) <= radii * radii * (1 + MARGIN)
+        holds = (centers * centers).sum(axis=1) <= radii * radii * (1 + SLOPE_MARGIN)
         bounds[holds] = everywhere(int(holds.sum()))
         return bounds
 
@@ -101,7 +101,7 @@ def _face(axis: int, sign: int, low: np.ndarray, high: np.ndarray, parts: np.nda
     if not here.any():
         return None
     slopes = np.clip(slopes[:, :, here], -REACH, REACH)
-    slopes += np.array((-MARGIN, MARGIN))[:, None]
+    slopes += np.array((-SLOPE_MARGIN, SLOPE_MARGIN))[:, None]
     start = slopes[:, 0].min(axis=1)
     scale = CELLS / np.maximum(slopes[:, 1].max(axis=1) - start, 1e-6)
     face = CubeFace(axis, sign, start, scale, np.full((FIRST[-1], 4), np.inf, np.float32))
@@ -139,7 +139,7 @@ def _slopes(centers: np.ndarray, radii: np.ndarray, face: CubeFace) -> tuple[np.
     below = depth * depth - radii * radii
     half = radii * np.sqrt(others * others + below) / below
     middle = others * depth / below
-    half += MARGIN
+    half += SLOPE_MARGIN
     return middle - half, middle + half
 
 

@@ -23,7 +23,7 @@ STARTS = 3
 STEP = 2.0**-12
 """Offset in pixels of the finite differences: derivatives are right to about EPS / STEP and STEP squared."""
 
-STEPS = 40
+GAUSS_NEWTON_STEPS = 40
 """Maximum number of Gauss-Newton steps. A smooth model takes about six."""
 
 HALVINGS = 12
@@ -59,7 +59,7 @@ def _sought(rays, frame, points, start) -> np.ndarray:
         start = _starts(rays, frame, points) if start is None else start
         targets = np.repeat(points[:, None], start.shape[1], axis=1)
         off, limit = _off(rays, start, targets)
-        for _ in range(STEPS):
+        for _ in range(GAUSS_NEWTON_STEPS):
             step = _step(rays, start, targets, off)
             share = np.where(np.isfinite(step).all(axis=-1), 1.0, 0.0)[..., None]
             for _ in range(HALVINGS):

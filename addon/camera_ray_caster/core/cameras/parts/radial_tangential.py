@@ -35,7 +35,7 @@ FAST_STEPS = 5
 NEAR = 1e-8
 """Fraction of the guessed radius: after a step shorter than this, the remaining error is below rounding."""
 
-STEPS = 200
+NEWTON_STEPS = 200
 
 
 @dataclass(frozen=True)
@@ -226,7 +226,7 @@ class RadialTangential:
 
         x, y = np.zeros_like(u), np.zeros_like(v)
         with np.errstate(over="ignore", invalid="ignore"):
-            x, y, _, *off, _, _ = loop(step, (x, y, np.ones_like(u), *self._off(x, y, u, v), u, v), STEPS)
+            x, y, _, *off, _, _ = loop(step, (x, y, np.ones_like(u), *self._off(x, y, u, v), u, v), NEWTON_STEPS)
             converged = np.hypot(*off) <= 4 * goal(x, y, u, v)
         return np.where(converged, x, np.nan), np.where(converged, y, np.nan)
 

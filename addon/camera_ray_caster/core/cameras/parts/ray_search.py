@@ -22,7 +22,7 @@ REGIONS, TRIES = 4, 6
 panoramas and at their seams the nearest entry may lead nowhere.
 """
 
-STEPS, FULL = 24, 8
+NEWTON_STEPS, FULL = 24, 8
 """Largest number of steps, and of full ones: a smooth table takes about six. Later ones are halved, which ends cycles
 between the cells of a table with kinks.
 """
@@ -102,7 +102,7 @@ def _beside(grid: RayGrid, row: np.ndarray, column: np.ndarray, t: np.ndarray) -
 
 def _search(grid: RayGrid, points: np.ndarray, places: np.ndarray) -> np.ndarray:
     active, ends = np.arange(len(points)), np.array(grid.shape[::-1], np.float64)
-    for count in range(STEPS):
+    for count in range(NEWTON_STEPS):
         beside, step, _ = _missed(grid, points[active], places[active])
         size = np.abs(step).max(axis=1)
         step *= np.minimum(1.0, np.maximum(ends.max() / STARTS, 1.0) / size)[:, None]

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...maths.recording import NotRecordable, Record
 from ...maths.recording.ranges import ANY, ranges
-from .direction_map import MARGIN, DirectionMap
+from .direction_map import SLOPE_MARGIN, DirectionMap
 
 PARTS = 288
 """Parts along the longer side of a frame, of 2 x 2 pixels or more; a table has as many to twice as many on each axis.
@@ -76,7 +76,9 @@ def parts_of(formula: Callable[[], Record], frame: tuple[int, int], central: boo
     side = max(2, math.ceil(max(frame) / PARTS))
     x, y = np.meshgrid(*(np.arange(-1.0, math.ceil(length / side) * side + 1, side) for length in frame))
     try:
-        intervals = ranges(formula(), ((x - MARGIN, x + side + MARGIN), (y - MARGIN, y + side + MARGIN)))
+        intervals = ranges(
+            formula(), ((x - SLOPE_MARGIN, x + side + SLOPE_MARGIN), (y - SLOPE_MARGIN, y + side + SLOPE_MARGIN))
+        )
     except NotRecordable:
         intervals = (ANY,) * 6
     components = intervals[3:] if central else intervals[3:] + intervals[:3]

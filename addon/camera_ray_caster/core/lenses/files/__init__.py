@@ -2,6 +2,6 @@
 
 from . import isetcam, optical_bench, optiland, pbrt, rayoptics, zemax
 
-FORMATS = optical_bench, isetcam, rayoptics, optiland, zemax, pbrt
-READERS = tuple((module.recognizes, module.read) for module in FORMATS)
+MODULES = optical_bench, isetcam, rayoptics, optiland, zemax, pbrt
+READERS = tuple((module.recognizes, module.read) for module in MODULES)
 """(recognizes(text, path), read(text, name)) of each format, the most specific first."""

@@ -18,7 +18,7 @@ from .zemax import GLASSES
 UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "meters": 1000.0, "inches": 25.4, "in": 25.4}
 """Millimeters of the file's unit."""
 
-STEPS = {"EvenPolynomial": 2, "RadialPolynomial": 1}
+POWER_STEPS = {"EvenPolynomial": 2, "RadialPolynomial": 1}
 """By the class of a profile: step of the powers of r, which is also the first of them."""
 
 
@@ -54,11 +54,18 @@ def _row(
 ) -> Row:
     profile = surface.get("profile") or profiles[str(surface["profile_id"])]
     kind, numbers = profile["__instance_type__"][1], profile["attributes"]
-    if kind not in ("Spherical", "Conic", *STEPS) or surface.get("decenter") or surface["interact_mode"] == "reflect":
+    if (
+        kind not in ("Spherical", "Conic", *POWER_STEPS)
+        or surface.get("decenter")
+        or surface["interact_mode"] == "reflect"
+    ):
         problem = f"{kind}, {surface['interact_mode']}"
         raise InputError(f"surface {surface_index} is a {problem}: only centered ones that refract are read")
-    conic, step = float(numbers["ec"]) - 1 if "ec" in numbers else float(numbers.get("cc", 0.0)), STEPS.get(kind, 1)
-    powers = enumerate(numbers["coefs"], 1) if kind in STEPS else ()
+    conic, step = (
+        float(numbers["ec"]) - 1 if "ec" in numbers else float(numbers.get("cc", 0.0)),
+        POWER_STEPS.get(kind, 1),
+    )
+    powers = enumerate(numbers["coefs"], 1) if kind in POWER_STEPS else ()
     asphere = tuple((step * k, float(value) * unit ** (1 - step * k)) for k, value in powers if value)
     if asphere and asphere[0][0] < 2:
         raise InputError(f"surface {surface_index} has a coefficient of r^1: its tip is no vertex")

@@ -23,7 +23,7 @@ from .document import Document
 from .lens import Lens, matrix
 from .ray_arrays import sampled
 
-STEPS = 50
+NEWTON_STEPS = 50
 """Of the secant method for the turn about o, and of Newton's for chi, which end sooner."""
 ROUNDING = 1e-12
 """Part of a radius, or of the matrix, that is rounding."""
@@ -54,7 +54,7 @@ def lens_of(
     seen /= np.linalg.norm(seen[2])
     turn, before = 0.0, 1e-3
     (K, tilt), error = _on_sensor(seen, turn), _on_sensor(seen, before)[0][1, 0]
-    for _ in range(STEPS):  # until the second row of K is without x
+    for _ in range(NEWTON_STEPS):  # until the second row of K is without x
         if abs(K[1, 0]) <= ROUNDING * K[1, 1] or K[1, 0] == error:
             break
         before, turn, error = turn, turn - K[1, 0] * (turn - before) / (K[1, 0] - error), K[1, 0]
@@ -86,7 +86,7 @@ def _rays(seen: np.ndarray, radial, pupil, linearity: float):
             q = np.where(plane[..., 2:] > 0, plane[..., :2] / plane[..., 2:], np.nan)
             radius = np.hypot(*np.moveaxis(q, -1, 0))
             chi = radius / (1 + r0)
-            for _ in range(STEPS):
+            for _ in range(NEWTON_STEPS):
                 square = chi * chi
                 slope = 1 + r0 + square * (3 * r1 + square * 5 * r2)
                 short = chi * (1 + r0 + square * (r1 + square * r2)) - radius

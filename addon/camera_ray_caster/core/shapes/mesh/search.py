@@ -16,7 +16,7 @@ from ...maths.speed import merged, taken
 from ...maths.vector import difference, dot, norm
 from ...records import MESH
 from ..cutouts import Cutouts, crossings
-from ..frames import MARGIN
+from ..frames import BOUNDS_FACTOR
 from ..kind import Candidates, PixelBounds, ShapeSet
 from ..search_rays import SearchRays
 from ..windows import banded, in_tile, pixels_in, union
@@ -132,8 +132,8 @@ class MeshSet(ShapeSet):
         """Return lower bounds of t, given those of ``PixelBounds.least_t``."""
         if self.meshes.is_planar:
             return near
-        gap = near - MARGIN * reach[1]
-        return np.where(gap > 0, gap / (MARGIN * reach[0]), -np.inf)
+        gap = near - BOUNDS_FACTOR * reach[1]
+        return np.where(gap > 0, gap / (BOUNDS_FACTOR * reach[0]), -np.inf)
 
     def _in_plan(self, bounds: np.ndarray) -> np.ndarray:
         return bounds if self.pixels is None else self.pixels.within(bounds)
@@ -189,7 +189,7 @@ class MeshSet(ShapeSet):
         middle, radius = rays.origin_ball
         normal, away = plane(corners)[0], difference(corners[0], middle)
         side, lengths = dot(normal, away), norm(corners[0]) + norm(middle)
-        turns = ~(np.abs(side) > (MARGIN * radius + SIDE_ROUNDING * lengths) * norm(normal))
+        turns = ~(np.abs(side) > (BOUNDS_FACTOR * radius + SIDE_ROUNDING * lengths) * norm(normal))
         corners[1:] = np.where(turns | (side > 0), corners[1:], corners[:0:-1])
         return meets, corners, np.flatnonzero(turns)
 
