@@ -19,7 +19,7 @@ from .parts.fields import Fields
 from .parts.lens import Lens, matrix, one_of_several
 from .parts.program import ProgramFiles
 
-MOST_SAMPLES = 4096
+MOST_BEAMS = 4096
 """Beams of a scanner."""
 
 
@@ -50,7 +50,7 @@ def _lens(preset: Fields) -> Lens:
         middle = matrix(*focal, (width - 1) / 2, (height - 1) / 2)
         return Lens(preset.label, "OPENCV_PINHOLE", document.size(width, height) | middle)
     steps = preset.number("xStepDegree"), preset.number("yStepDegree")
-    if min(steps) <= 0 or up / steps[1] > MOST_SAMPLES or across / steps[0] > 1 << 20:
+    if min(steps) <= 0 or up / steps[1] > MOST_BEAMS or across / steps[0] > 1 << 20:
         raise document.refusal(f"xStepDegree and yStepDegree of {preset.label} must be above 0, and not so small")
     columns, rows = int(across / steps[0] + 1), int(up / steps[1] + 1)
     sweep = radians(across * columns / max(1, columns - 1))

@@ -17,7 +17,7 @@ from ..optics import Optics
 from ..prescription import Prescription, Row
 from .zemax import GLASSES
 
-POWER_STEPS = {"EvenAsphere": 2, "OddAsphere": 1}
+POWERS = {"EvenAsphere": 2, "OddAsphere": 1}
 """By the type of a geometry: step of the powers of r, which is also the first of them."""
 
 BESIDE = "x", "y", "rx", "ry"
@@ -51,11 +51,11 @@ def read(text: str, name: str) -> Prescription:
 def _row(surface: dict[str, Any], after: dict[str, Any], place: int) -> Row:
     geometry, kind = surface["geometry"], surface["geometry"]["type"]
     reflects = surface.get("is_reflective") or (surface.get("interaction_model") or {}).get("is_reflective")
-    if kind not in ("Plane", "StandardGeometry", *POWER_STEPS) or reflects or any(geometry["cs"][axis] for axis in BESIDE):
+    if kind not in ("Plane", "StandardGeometry", *POWERS) or reflects or any(geometry["cs"][axis] for axis in BESIDE):
         said = f"{kind}{', reflecting' if reflects else ''}"
         raise InputError(f"surface {place} is a {said}: only centered ones that refract are read")
-    step = POWER_STEPS.get(kind, 1)
-    powers = enumerate(geometry.get("coefficients") or () if kind in POWER_STEPS else (), 1)
+    step = POWERS.get(kind, 1)
+    powers = enumerate(geometry.get("coefficients") or () if kind in POWERS else (), 1)
     asphere = tuple((step * k, float(value)) for k, value in powers if value)
     if asphere and asphere[0][0] < 2:
         raise InputError(f"surface {place} has a coefficient of r^1: its tip is no vertex")
