@@ -125,7 +125,7 @@ UNITS = {
     "nuScenes": "m",
     "ARKitScenes": "m", "OpenCV": "", "mrcal": "", "OpenSfM": "m", "RealityCapture": "", "openMVG": "",
     "Bundler": "", "NVM": "", "Gaussian splatting": "", "ns-render camera paths": "", "LLFF": "",
-    "Surround360": "", "fSpy": "", "Hugin": "", "Open3D": "m",
+    "Surround360": "", "fSpy": "", "Hugin": "", "PTGui": "", "Open3D": "m",
     "KITTI": "m", "this add-on": "", "TUM": "m", "EuRoC trajectories": "m",
 }  # fmt: skip
 """Units of lengths by the formats' documentation; "" for those that have none, of reconstructions."""
