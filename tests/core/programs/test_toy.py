@@ -14,7 +14,7 @@ RUN = """
 import json, sys
 from pathlib import Path
 import camera_ray_caster as crc
-from camera_ray_caster.core.exports import FORMATS
+from camera_ray_caster.core.exports import EXPORT_FORMATS
 from camera_ray_caster.core.programs import READ, PLACED
 sys.path.insert(0, sys.argv[2])
 from make import pages
@@ -33,7 +33,7 @@ for call in (lambda: crc.load_calibration(folder / "odd.txt"), lambda: crc.expor
         refusals.append(str(error))
 print(json.dumps({
     "table": pages.files(), "read": READ, "placed": PLACED, "help": crc.export.__doc__, "refusals": refusals,
-    "menu": [[one.key, one.label, one.description] for one in FORMATS],
+    "menu": [[one.key, one.label, one.description] for one in EXPORT_FORMATS],
     "rays": bool(abs(crc.load_calibration(paths[0]).rays().directions - camera.rays().directions).max() < 1e-12),
     "rig": {name: one.pose.eye.tolist() for name, one in crc.load_rig(paths[0]).items()},
 }))
