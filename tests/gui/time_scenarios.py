@@ -25,6 +25,7 @@ def slit_scan_preview(user, scenes):
     yield from user.until(lambda: times._known.is_done, "all frames are evaluated")
     yield from shown(user, "slit_scan_shown", space)
     assert (len(bpy.data.scenes), scene.frame_current) == (1, 7)
+    yield from user.until(lambda: times._known.is_done, "all frames are evaluated after the render")
     count = len(times._known.states)
     scene.frame_set(9)
     yield from user.wait(1)

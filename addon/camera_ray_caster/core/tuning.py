@@ -45,7 +45,10 @@ a wall and four passes.
 """
 
 TILE_PIXELS = 1 << 18, 1 << 20
-"""Minimum and maximum number of pixels in a tile, the unit of threads, progress and canceling."""
+"""Minimum and maximum number of pixels in a tile, the unit of threads, progress and canceling. Each thread has a tile
+with fewer pixels if it has that many rays: with 16 samples, two tiles of 640 x 400 pixels take 1.0 to 1.09 times the
+processor time of one, which a single thread casts.
+"""
 
 TILE_WORK = 1 << 23
 """Maximum work of a tile, counting all its samples: a tenth of a second. With less work each thread has one tile."""

@@ -7,12 +7,14 @@ import tracemalloc
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from threading import get_ident
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from camera_ray_caster.core import tuning
 from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.casting.tiles import shares
 from camera_ray_caster.core.maths.speed import release
 from camera_ray_caster.core.records import SPHERE
 
@@ -57,6 +59,12 @@ def test_threads_share_large_pictures_and_do_not_wait_for_each_other_in_small_on
     ]
     assert 1 < asked[0] < 16
     assert asked[1:] == [1, 1]
+
+
+@pytest.mark.parametrize(("samples", "tiles"), [(1, 1), (16, 2)])
+def test_each_thread_has_a_tile_of_a_small_picture_with_many_samples(samples, tiles):
+    heavy = SimpleNamespace(camera=camera_at(resolution_x=640, resolution_y=400), work=np.full(400, 1e6))
+    assert len(list(shares(heavy, 2, samples))) == tiles
 
 
 @pytest.mark.parametrize("key", ["PERSP", "OMNIMAX", "PUSHBROOM"])

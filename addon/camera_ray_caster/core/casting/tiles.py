@@ -85,7 +85,8 @@ def shares(plan: Plan, threads: int, samples: int = 1) -> Iterator[Tile]:
         most //= 2  # a sum doubles the memory; smaller tiles suffice if there are many, and stop sooner
     done = np.cumsum(plan.work)
     threads = sharing(threads, done[-1] / tuning.SERIAL_WORK)
-    count = min(threads * -(-int(done[-1] * samples) // (threads * tuning.TILE_WORK)), -(-height * width // least))
+    most_tiles = max(-(-height * width // least), min(threads, -(-height * width * samples // least)))
+    count = min(threads * -(-int(done[-1] * samples) // (threads * tuning.TILE_WORK)), most_tiles)
     cuts = np.searchsorted(done, done[-1] * np.arange(1, count) / count)
     cuts = np.unique(np.clip(np.rint(cuts / STRIP), 1, height // STRIP - 1).astype(int)) * STRIP
     for first, last in pairwise((0, *cuts[(cuts > 0) & (cuts < height)].tolist(), height)):
