@@ -11,10 +11,10 @@ import numpy as np
 
 from .parts.document import Document
 from .parts.fields import Fields
-from .parts.lens import Lens, one_of_several
-from .parts.placed import Placed, inverted, of_rotation
+from .parts.lens import Lens
+from .parts.placed import inverted, of_rotation
 from .parts.plain import of_matrix
-from .parts.program import ProgramFiles
+from .parts.program import ProgramFiles, of_cameras
 
 
 def looks(document: Document) -> bool:
@@ -28,19 +28,9 @@ def _cameras(document: Document) -> list[Fields]:
             if camera.has("matrix", "distortions", "rotation", "translation")]  # fmt: skip
 
 
-def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
-    return [one_of_several(camera.label, _lens, document, camera) for camera in _cameras(document)]
-
-
-def _lens(document: Document, camera: Fields) -> Lens:
+def _lens(camera: Fields) -> Lens:
     kind = "fisheye" if camera.text("fisheye", "False") != "False" else "plumb_bob"
-    return of_matrix(document, camera, "matrix", "distortions", camera.size("size"), kind)
-
-
-def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
-    return [Placed(camera.label, "", None, _pose(camera)) for camera in _cameras(document)]
+    return of_matrix(camera, "matrix", "distortions", camera.size("size"), kind)
 
 
 def _pose(camera: Fields) -> np.ndarray:
@@ -50,5 +40,5 @@ def _pose(camera: Fields) -> np.ndarray:
 
 PROGRAM = ProgramFiles(
     "Anipose", "calibration.toml", looks, marks="matrix distortions rotation translation size fisheye",
-    reads="pinhole, fisheye", read=read, poses=poses,
+    reads="pinhole, fisheye", **of_cameras(_cameras, _lens, _pose),
 )  # fmt: skip

@@ -16,8 +16,8 @@ from ..cameras.parts.devices import numbers_as_text
 from ..cameras.parts.scanners import AZIMUTHS, COLUMNS, ELEVATIONS, FARTHEST, RATE, SWEEP
 from .parts.document import Document
 from .parts.fields import Fields
-from .parts.lens import Lens, matrix, one_of_several
-from .parts.program import ProgramFiles
+from .parts.lens import Lens, matrix
+from .parts.program import ProgramFiles, of_cameras
 
 MOST_BEAMS = 4096
 """Beams of a scanner."""
@@ -29,10 +29,8 @@ def looks(document: Document) -> bool:
     return any(preset.has("name", "category", "type", "distanceUpper") for preset in presets)
 
 
-def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
-    presets = document.entries.named().values()
-    return [one_of_several(preset.text("name"), _lens, preset.labeled(preset.text("name"))) for preset in presets]
+def _presets(document: Document) -> list[Fields]:
+    return [preset.labeled(preset.text("name")) for preset in document.entries.named().values()]
 
 
 def _lens(preset: Fields) -> Lens:
@@ -64,5 +62,6 @@ def _lens(preset: Fields) -> Lens:
 PROGRAM = ProgramFiles(
     "BLAINDER", "presets.yaml of its range scanner", looks,
     marks="category fovX fovY xStepDegree yStepDegree rotationsPerSecond distanceUpper",
-    reads="rotating scanners; static ones as pinholes", lost="reflectivities; side-scan sonars are refused", read=read,
+    reads="rotating scanners; static ones as pinholes", lost="reflectivities; side-scan sonars are refused",
+    **of_cameras(_presets, _lens),
 )  # fmt: skip

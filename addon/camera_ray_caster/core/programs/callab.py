@@ -11,9 +11,9 @@ import re
 
 from .parts.document import Document
 from .parts.fields import Fields
-from .parts.lens import Lens, one_of_several
+from .parts.lens import Lens
 from .parts.plain import of_matrix
-from .parts.program import ProgramFiles
+from .parts.program import ProgramFiles, of_cameras
 
 LINE = re.compile(r"(camera\.\d+)\.(\w+)\s*=\s*\[?([^\]]*)\]?")
 RADIAL = "k1", "k2", "k3"
@@ -31,20 +31,17 @@ def _cameras(document: Document) -> list[Fields]:
     return [Fields(document, entries, name) for name, entries in by_camera.items() if "A" in entries]
 
 
-def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
-    return [one_of_several(camera.label, _lens, document, camera) for camera in _cameras(document)]
-
-
-def _lens(document: Document, camera: Fields) -> Lens:
+def _lens(camera: Fields) -> Lens:
+    document = camera.document
     if any(camera.numbers(name, 1, [0.0])[0] for name in ("p1", "p2", "t1", "t2")):
         raise document.refusal(f"{camera.label} has tangential distortion, which is not read")
     k1, k2, k3 = (camera.numbers(name, 1, [0.0])[0] for name in RADIAL)
     entries = camera.merged(Fields(document, {"radial": [k1, k2, 0.0, 0.0, k3]}))
-    return of_matrix(document, entries, "A", "radial", camera.sides("width", "height"))
+    return of_matrix(entries, "A", "radial", camera.sides("width", "height"))
 
 
 PROGRAM = ProgramFiles(
     "CalLab", "output of DLR CalDe and CalLab as text", looks, marks="camera.0.A camera.0.k1 camera.0.k2 CalLab CalDe",
-    reads="pinhole with radial distortion", lost="poses of the pattern; tangential distortion is refused", read=read,
+    reads="pinhole with radial distortion", lost="poses of the pattern; tangential distortion is refused",
+    **of_cameras(_cameras, _lens),
 )  # fmt: skip

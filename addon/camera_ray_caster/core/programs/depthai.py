@@ -13,10 +13,10 @@ import numpy as np
 from ..units import CENTIMETERS
 from .parts.document import Document
 from .parts.fields import Fields
-from .parts.lens import Lens, one_of_several
+from .parts.lens import Lens
 from .parts.placed import Placed, of_rotation
 from .parts.plain import of_matrix
-from .parts.program import ProgramFiles
+from .parts.program import ProgramFiles, of_cameras
 
 TYPES = {"0": "plumb_bob", "1": "fisheye"}
 FIRST = ord("A")
@@ -41,12 +41,8 @@ def _cameras(document: Document) -> dict[int, Fields]:
     return cameras
 
 
-def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
-    return [one_of_several(camera.label, _lens, document, camera) for camera in _cameras(document).values()]
-
-
-def _lens(document: Document, camera: Fields) -> Lens:
+def _lens(camera: Fields) -> Lens:
+    document = camera.document
     kind = TYPES[document.one_of(f"{camera.number('cameraType', 0.0):g}", camera.said("cameraType"), TYPES)]
     size = camera.sides("width", "height")
     count = 4 if kind == "fisheye" else 14
@@ -54,7 +50,7 @@ def _lens(document: Document, camera: Fields) -> Lens:
     if any(coefficients[count:]):
         raise document.refusal(f"{camera.said('distortionCoeff')} has more than {count} numbers")
     cut = camera.merged(Fields(document, {"distortionCoeff": coefficients[:count]}))
-    return of_matrix(document, cut, "intrinsicMatrix", "distortionCoeff", size, kind)
+    return of_matrix(cut, "intrinsicMatrix", "distortionCoeff", size, kind)
 
 
 def poses(document: Document) -> list[Placed]:
@@ -81,5 +77,6 @@ def _pose(extrinsics: Fields) -> np.ndarray:
 PROGRAM = ProgramFiles(
     "DepthAI", "calibration of a device as .json", looks,
     marks="cameraData cameraType distortionCoeff extrinsics intrinsicMatrix specTranslation toCameraSocket boardName",
-    reads="perspective, fisheye", lost="other types are refused", read=read, poses=poses, unit=CENTIMETERS,
+    reads="perspective, fisheye", lost="other types are refused", unit=CENTIMETERS, poses=poses,
+    **of_cameras(lambda document: _cameras(document).values(), _lens),
 )  # fmt: skip

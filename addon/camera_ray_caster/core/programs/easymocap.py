@@ -48,7 +48,7 @@ def read(document: Document) -> list[Lens]:
 def _lens(document: Document, name: str) -> Lens:
     entries = document.entries.labeled(name)
     distortion = entries.first(f"dist_{name}", f"D_{name}")
-    return of_matrix(document, entries, f"K_{name}", distortion, entries.sides(f"W_{name}", f"H_{name}"))
+    return of_matrix(entries, f"K_{name}", distortion, entries.sides(f"W_{name}", f"H_{name}"))
 
 
 def poses(document: Document) -> list[Placed]:

@@ -7,13 +7,15 @@ Reference: nuScenes documentation, Schema: calibrated_sensor.
 
 from __future__ import annotations
 
+import numpy as np
+
 from ..units import METERS
 from .parts.document import Document
 from .parts.fields import Fields
-from .parts.lens import FRAME_SIZE, Lens, one_of_several
-from .parts.placed import Placed, of_quaternion
+from .parts.lens import FRAME_SIZE, Lens
+from .parts.placed import of_quaternion
 from .parts.plain import of_matrix
-from .parts.program import ProgramFiles
+from .parts.program import ProgramFiles, of_cameras
 
 
 def looks(document: Document) -> bool:
@@ -27,25 +29,17 @@ def _cameras(document: Document) -> list[Fields]:
     return [sensor.labeled(sensor.text("token")) for sensor in sensors if sensor.count_of("camera_intrinsic")]
 
 
-def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
-    return [one_of_several(camera.label, _lens, document, camera) for camera in _cameras(document)]
+def _lens(camera: Fields) -> Lens:
+    return of_matrix(camera, "camera_intrinsic", "camera_distortion", dict(FRAME_SIZE))
 
 
-def _lens(document: Document, camera: Fields) -> Lens:
-    return of_matrix(document, camera, "camera_intrinsic", "camera_distortion", dict(FRAME_SIZE))
-
-
-def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles: in the vehicle."""
-    placed = []
-    for camera in _cameras(document):
-        turn, translation = camera.numbers("rotation", 4), camera.numbers("translation", 3)
-        placed.append(Placed(camera.label, "", None, of_quaternion(document, turn, translation, camera.label)))
-    return placed
+def _pose(camera: Fields) -> np.ndarray:
+    turn, translation = camera.numbers("rotation", 4), camera.numbers("translation", 3)
+    return of_quaternion(camera.document, turn, translation, camera.label)
 
 
 PROGRAM = ProgramFiles(
     "nuScenes", "calibrated_sensor.json", looks, marks="token sensor_token translation rotation camera_intrinsic",
-    reads="pinhole", lost="the size of the pictures, 1600 x 900", read=read, poses=poses, unit=METERS,
+    reads="pinhole", lost="the size of the pictures, 1600 x 900", unit=METERS,
+    **of_cameras(_cameras, _lens, _pose),
 )  # fmt: skip

@@ -10,25 +10,15 @@ from ..units import METERS
 from .parts.camchain import DISTORTIONS, bend_of
 from .parts.document import Document
 from .parts.fields import Fields
-from .parts.lens import Lens, matrix, one_of_several
-from .parts.placed import Placed, pose_in
-from .parts.program import ProgramFiles
+from .parts.lens import Lens, matrix
+from .parts.placed import pose_in
+from .parts.program import ProgramFiles, of_cameras
 
 
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
     cameras = document.entries.parts("cameras")
     return bool(cameras) and all(camera.has("focal_length") for camera in cameras)
-
-
-def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
-    return [one_of_several(camera.label, _lens, camera) for camera in _cameras(document)]
-
-
-def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
-    return [Placed(camera.label, "", None, pose_in(camera, "T_SC")) for camera in _cameras(document)]
 
 
 def _cameras(document: Document) -> list[Fields]:
@@ -47,5 +37,6 @@ def _lens(camera: Fields) -> Lens:
 PROGRAM = ProgramFiles(
     "OKVIS", "its settings as .yaml", looks,
     marks="cameras T_SC image_dimension focal_length principal_point distortion_type",
-    reads="pinhole with radialtangential, radialtangential8 or equidistant", read=read, poses=poses, unit=METERS,
+    reads="pinhole with radialtangential, radialtangential8 or equidistant", unit=METERS,
+    **of_cameras(_cameras, _lens, lambda camera: pose_in(camera, "T_SC")),
 )  # fmt: skip

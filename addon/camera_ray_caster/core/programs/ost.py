@@ -35,7 +35,7 @@ def read(document: Document) -> list[Lens]:
     entries = Fields(document, dict(sections))
     if entries.count_of("distortion") == 4:
         raise document.refusal("its distortion has 4 numbers, of a pinhole or of a fisheye: use the .yaml beside it")
-    return [of_matrix(document, entries, "camera matrix", "distortion", entries.sides("width", "height"))]
+    return [of_matrix(entries, "camera matrix", "distortion", entries.sides("width", "height"))]
 
 
 PROGRAM = ProgramFiles(

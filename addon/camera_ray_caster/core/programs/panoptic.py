@@ -12,10 +12,10 @@ import numpy as np
 from ..units import CENTIMETERS
 from .parts.document import Document
 from .parts.fields import Fields
-from .parts.lens import Lens, one_of_several
-from .parts.placed import Placed, inverted, of_rotation
+from .parts.lens import Lens
+from .parts.placed import inverted, of_rotation
 from .parts.plain import of_matrix
-from .parts.program import ProgramFiles
+from .parts.program import ProgramFiles, of_cameras
 
 
 def looks(document: Document) -> bool:
@@ -30,18 +30,8 @@ def _cameras(document: Document) -> list[Fields]:
     ]
 
 
-def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
-    return [one_of_several(camera.label, _lens, document, camera) for camera in _cameras(document)]
-
-
-def _lens(document: Document, camera: Fields) -> Lens:
-    return of_matrix(document, camera, "K", "distCoef", camera.size("resolution"))
-
-
-def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
-    return [Placed(camera.label, "", None, _pose(camera)) for camera in _cameras(document)]
+def _lens(camera: Fields) -> Lens:
+    return of_matrix(camera, "K", "distCoef", camera.size("resolution"))
 
 
 def _pose(camera: Fields) -> np.ndarray:
@@ -51,5 +41,5 @@ def _pose(camera: Fields) -> np.ndarray:
 
 PROGRAM = ProgramFiles(
     "CMU Panoptic", "calibration_*.json", looks, marks="calibDataSource cameras panel node K distCoef R t resolution",
-    reads="pinhole", read=read, poses=poses, unit=CENTIMETERS,
+    reads="pinhole", unit=CENTIMETERS, **of_cameras(_cameras, _lens, _pose),
 )  # fmt: skip

@@ -12,9 +12,9 @@ import numpy as np
 
 from .parts.document import Document
 from .parts.fields import Fields
-from .parts.lens import Lens, matrix, one_of_several
-from .parts.placed import Placed, checked
-from .parts.program import ProgramFiles
+from .parts.lens import Lens, matrix
+from .parts.placed import checked
+from .parts.program import ProgramFiles, of_cameras
 
 MODELS = {
     "FTHETA": ("OPENCV_FISHEYE", ("k1", "k2", "k3", "k4")),
@@ -32,11 +32,6 @@ def _cameras(document: Document) -> list[Fields]:
     return [camera.labeled(camera.text("id")) for camera in document.entries.parts("cameras")]
 
 
-def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
-    return [one_of_several(camera.label, _lens, camera) for camera in _cameras(document)]
-
-
 def _lens(camera: Fields) -> Lens:
     document = camera.document
     model, terms = MODELS[camera.word("type", MODELS)]
@@ -50,11 +45,6 @@ def _lens(camera: Fields) -> Lens:
     return Lens(camera.label, model, size | matrix(fx, -fy, cx, cy, 0.5) | dict(zip(terms, values, strict=False)))
 
 
-def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
-    return [Placed(camera.label, "", None, _pose(camera)) for camera in _cameras(document)]
-
-
 def _pose(camera: Fields) -> np.ndarray:
     camera.document.check()
     right, up, ahead, origin = (np.array(camera.numbers(name, 3)) for name in ("right", "up", "forward", "origin"))
@@ -66,5 +56,5 @@ def _pose(camera: Fields) -> np.ndarray:
 PROGRAM = ProgramFiles(
     "Surround360", "rigs of Surround360 and Facebook360 as .json", looks,
     marks="cameras origin forward up right principal focal resolution", reads="FTHETA, RECTILINEAR",
-    lost="edges of the field of view (fov); other types are refused", read=read, poses=poses,
+    lost="edges of the field of view (fov); other types are refused", **of_cameras(_cameras, _lens, _pose),
 )  # fmt: skip

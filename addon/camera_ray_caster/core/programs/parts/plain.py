@@ -11,6 +11,7 @@ Calibration.
 from __future__ import annotations
 
 from reprlib import repr as shortened
+from typing import cast
 
 from ...cameras.parts.calibration import LARGEST
 from ...cameras.parts.film import FARTHEST_PIXELS
@@ -97,13 +98,11 @@ def plain_lenses(document: Document) -> list[Lens] | None:
     return lenses
 
 
-def of_matrix(
-    document: Document, camera: Fields, matrix: str, distortion: str, size: dict, kind: str = "plumb_bob"
-) -> Lens:
+def of_matrix(camera: Fields, matrix: str, distortion: str, size: dict, kind: str = "plumb_bob") -> Lens:
     """Return the lens of entries that name a camera matrix and OpenCV's coefficients, of a picture's size."""
     plain = {"camera_matrix": camera.matrix(matrix, 9), "distortion_model": kind}
     plain["distortion_coefficients"] = camera.matrix(distortion, default=[0.0] * 4)
-    lens = plain_lens(document.part(plain))
+    lens = plain_lens(cast("Document", camera.document).part(plain))
     return lens._replace(name=camera.label, settings=lens.settings | size)
 
 

@@ -10,14 +10,15 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...records import InputError
 from ...units import BLENDER_UNITS, Unit
 from .document import Document
-from .lens import Lens, Models
+from .fields import Fields
+from .lens import Lens, Models, one_of_several
 from .placed import FROM_BLENDER, Placed, Rolling, inverted
 
 Content = str | bytes | np.ndarray | Iterator[str]
@@ -173,6 +174,24 @@ class ProgramFiles:
             return self.looks is not None and self.looks(document)
         except InputError:
             return False
+
+
+def of_cameras(
+    cameras: Callable[[Document], Iterable[Fields]],
+    lens: Callable[[Fields], Lens],
+    pose: Callable[[Fields], np.ndarray] | None = None,
+) -> dict[str, Any]:
+    """Return ``read``, and ``poses`` if there are any, of a program whose files have entries for each camera, labeled
+    by its name.
+    """
+
+    def read(document: Document) -> list[Lens]:
+        return [one_of_several(camera.label, lens, camera) for camera in cameras(document)]
+
+    def poses(document: Document) -> list[Placed]:
+        return [Placed(camera.label, "", None, pose(camera)) for camera in cameras(document)] if pose else []
+
+    return {"read": read} | ({"poses": poses} if pose else {})
 
 
 def by_lens(
