@@ -29,21 +29,19 @@ def coherent_order(origin: np.ndarray, direction: np.ndarray, reach: float) -> n
 class Packets:
     """Packets from the roots to single rays; the last ``rays`` of them are the rays. (3, n) and (n,) arrays.
 
-    Along each axis a box is entered through the side that its packet meets first, from the origin that is farthest from
-    it, and left from the nearest origin. Where the components of a packet's directions have both signs, 1 / direction
-    is unbounded, and the axis tells nothing.
+    Where a packet's directions have both signs along an axis, 1 / direction is unbounded, and the axis tells nothing.
     """
 
-    enter: np.ndarray
-    """Origins farthest from the sides that are met first."""
-    leave: np.ndarray
-    """Origins nearest to them."""
+    eye: np.ndarray | None
+    """(3, 1): the origin of all rays; None if there are several."""
+    low: np.ndarray
+    """The least components of the origins."""
+    high: np.ndarray
+    """The largest components."""
     least: np.ndarray
     """The least 1 / direction."""
     most: np.ndarray
     """The largest 1 / direction."""
-    ahead: np.ndarray
-    """bool: whether directions point along the axis, not against it."""
     wide: np.ndarray
     """(n,): the longest side of the box of the origins."""
     spread: np.ndarray
@@ -81,15 +79,14 @@ def packets_of(origin: np.ndarray, direction: np.ndarray) -> Packets:
     below = np.cumsum(sizes)  # the children of a level's packets are those of the next level
     firsts = [first + base for first, base in zip(starts[::-1], below, strict=False)] + [np.zeros(sizes[-1], np.intp)]
     low, high, least, most, left, right = (np.concatenate(part[::-1], axis=1) for part in zip(*parts, strict=True))
-    ahead = ~np.signbit(least)
-    mixed = ~ahead & ~np.signbit(most)
+    mixed = np.signbit(least) & ~np.signbit(most)
     least[mixed], most[mixed] = -np.inf, np.inf
     return Packets(
-        enter=np.where(ahead, high, low),
-        leave=np.where(ahead, low, high),
+        eye=origin[:, :1] if (origin == origin[:, :1]).all() else None,
+        low=low,
+        high=high,
         least=least,
         most=most,
-        ahead=ahead,
         wide=(high - low).max(axis=0),
         spread=(right - left).max(axis=0),
         first=np.concatenate(firsts),

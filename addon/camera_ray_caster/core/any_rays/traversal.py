@@ -56,6 +56,7 @@ class Traversal:
         self._tree, self._packets, self._start, self._ask = tree, packets, start, farthest
         self._farthest = farthest()
         self._first_ray = len(packets.count) - packets.rays
+        self._faces = tree.faces if packets.eye is None else tree.faces - packets.eye
 
     def pairs(self) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """Yield rays and the bodies that they may meet, (m,) indices each."""
@@ -83,12 +84,13 @@ class Traversal:
             if packets.size:
                 own = pairs.only(packets)
                 split[packets] |= SPLIT * self._width(own) > taken(self._size, own.node)
-            whole = pairs.only(np.flatnonzero(~split & (count == 0)))
-            both = (
-                self._divided(pairs.only(np.flatnonzero(split))),
-                self._below(whole.packet, taken(self._tree.row, whole.node)),
-            )
-            waiting.append(Pairs(*map(np.concatenate, zip(*both, strict=True))))
+            parts = [self._divided(pairs.only(np.flatnonzero(split)))]
+            whole = ~split & (count == 0)
+            for some in (np.flatnonzero(whole & is_ray), np.flatnonzero(whole & ~is_ray)):  # tests of rays are simpler
+                if some.size:
+                    own = pairs.only(some)
+                    parts.append(self._below(own.packet, taken(self._tree.row, own.node)))
+            waiting.append(Pairs(*map(np.concatenate, zip(*parts, strict=True))))
 
     @lazy
     def _size(self) -> np.ndarray:
@@ -101,7 +103,7 @@ class Traversal:
     def _width(self, pairs: Pairs) -> np.ndarray:
         """Return about how wide packets are where they pass nodes."""
         away = np.zeros(len(pairs.node))
-        for middle, origin in zip(self._middle, self._packets.enter, strict=True):
+        for middle, origin in zip(self._middle, self._packets.low, strict=True):
             np.maximum(away, np.abs(taken(middle, pairs.node) - taken(origin, pairs.packet)), out=away)
         return taken(self._packets.wide, pairs.packet) + taken(self._packets.spread, pairs.packet) * away
 
@@ -109,14 +111,14 @@ class Traversal:
         """Return the packets within packets that may meet the same nodes."""
         run, packet = counted(taken(self._packets.count, pairs.packet), taken(self._packets.first, pairs.packet))
         node = taken(pairs.node, run)
-        near, meets = self._met(packet, node, self._tree.faces, len(self._tree))
+        near, meets = self._met(packet, node, self._faces, len(self._tree))
         some = np.flatnonzero(meets)
         return Pairs(taken(packet, some), taken(node, some), taken(near, some))
 
     def _below(self, packet: np.ndarray, row: np.ndarray) -> Pairs:
         """Return which packets may meet which of the nodes in rows, (m,) each."""
         rows = len(self._tree) // FAN
-        near, meets = self._met(packet[:, None], row, self._tree.faces.reshape(3, -1, FAN), rows)
+        near, meets = self._met(packet[:, None], row, self._faces.reshape(3, -1, FAN), rows)
         meets &= self._tree.there.reshape(-1, FAN).take(row, axis=0, mode="wrap")
         some = np.flatnonzero(meets)
         run, slot = np.divmod(some, FAN)
@@ -131,19 +133,19 @@ class Traversal:
         near, far = np.array(self._start), taken(self._farthest, packet)
         alone = len(packet) > 0 and packet.min() >= self._first_ray
         for axis in range(3):
-            ahead = taken(packets.ahead[axis], packet).reshape(len(place))
-            behind = np.where(ahead, place + other, place)
-            enter = faces[axis].take(2 * place + other - behind, axis=0, mode="wrap")
-            leave = faces[axis].take(behind, axis=0, mode="wrap")
-            enter -= taken(packets.enter[axis], packet)
-            leave -= taken(packets.leave[axis], packet)
+            low = faces[axis].take(place, axis=0, mode="wrap")
+            high = faces[axis].take(place + other, axis=0, mode="wrap")
+            if packets.eye is None:
+                high -= taken(packets.low[axis], packet)
+                low -= taken((packets.low if alone else packets.high)[axis], packet)
             least = taken(packets.least[axis], packet)
-            if alone:  # one 1 / direction
-                enter *= least
-                leave *= least
-            else:
+            ends = [low * least, high * least]  # NaN, of sides that rays do not leave, tells nothing
+            if not alone:
                 most = taken(packets.most[axis], packet)
-                enter = np.fmin(enter * least, enter * most)
-                leave = np.fmax(leave * least, leave * most)
+                ends += [low * most, high * most]
+            enter, leave = np.minimum(ends[0], ends[1]), np.maximum(ends[0], ends[1])
+            for end in ends[2:]:
+                np.minimum(enter, end, out=enter)
+                np.maximum(leave, end, out=leave)
             near, far = np.fmax(near, enter), np.fmin(far, leave)
         return near, near - ROUNDED * np.abs(near) <= far + ROUNDED * np.abs(far)
