@@ -1,4 +1,4 @@
-"""One picture of six real lenses on the same scene: wide open and stopped down, ours and Cycles'."""
+"""One picture of eight real lenses on the same scene: wide open and stopped down, ours and Cycles'."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SCENE, SHEET = ROOT / "blend_scenes" / "real_lens.blend", ROOT / "docs" / "pictu
 
 LENSES = {
     "double_gauss_50mm": 36.0, "petzval_50mm": 36.0, "tessar_100mm": 90.0, "telephoto_127mm": 60.0,
-    "retrofocus_22mm": 36.0, "fisheye_170_5mm": 16.0,
+    "retrofocus_22mm": 36.0, "fisheye_170_5mm": 16.0, "fisheye_210_6.3mm": 26.0, "phone_4.2mm": 3.6,
 }  # fmt: skip
 """Lens of the library: width of the film in mm."""
 SCALE = 10.0

@@ -1,6 +1,6 @@
-"""Rays through spheres and planes with 60 digits, by quadratic equations and Snell's law: the witness of the trace."""
+"""Rays through spheres, aspheres and planes with 60 digits, by roots and Snell's law: the witness of the trace."""
 
-from mpmath import mp, mpf, sqrt
+from mpmath import findroot, mp, mpf, sqrt
 
 mp.dps = 60
 
@@ -10,7 +10,9 @@ def traced(surfaces, origin, direction):
     point, ahead = [mpf(part) for part in origin], [mpf(part) for part in direction]
     for surface in surfaces:
         z, curvature = mpf(surface.z), mpf(surface.curvature)
-        if curvature:
+        if surface.asphere:
+            point, normal = on_asphere(surface, point, ahead)
+        elif curvature:
             point = on_sphere(point, ahead, z + 1 / curvature, 1 / curvature)
             normal = [point[0] * curvature, point[1] * curvature, (point[2] - z) * curvature - 1]
         else:
@@ -19,6 +21,29 @@ def traced(surfaces, origin, direction):
         before, behind = mpf(surface.before), mpf(surface.behind)
         ahead = refracted(ahead, normal, before / behind)
     return point, ahead
+
+
+def on_asphere(surface, point, ahead):
+    """Where a ray meets a sphere with further powers of the radius, from where it meets the plane of the vertex, and
+    the unit normal there.
+    """
+    curvature = mpf(surface.curvature)
+
+    def height(x, y):
+        q = x * x + y * y
+        root = sqrt(1 - (1 + mpf(surface.conic)) * curvature**2 * q)
+        slope = curvature / root + sum(power * mpf(part) * q ** (mpf(power) / 2 - 1) for power, part in surface.asphere)
+        powers = sum(mpf(part) * q ** (mpf(power) / 2) for power, part in surface.asphere)
+        return mpf(surface.z) + curvature * q / (1 + root) + powers, slope
+
+    def at(t):
+        return [p + t * d for p, d in zip(point, ahead, strict=True)]
+
+    t = findroot(lambda t: at(t)[2] - height(*at(t)[:2])[0], (mpf(surface.z) - point[2]) / ahead[2])
+    x, y, z = at(t)
+    slope = height(x, y)[1]
+    size = sqrt(1 + slope * slope * (x * x + y * y))
+    return [x, y, z], [slope * x / size, slope * y / size, -1 / size]
 
 
 def on_sphere(point, ahead, middle, radius):

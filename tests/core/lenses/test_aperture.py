@@ -48,6 +48,7 @@ def noise(passing, samples):
     return 3 * ((1 / passing - 1) / samples) ** 0.5
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("falloff", [True, False])
 @pytest.mark.parametrize("vignetting", [True, False])
 def test_the_light_of_a_picture_is_what_passes_the_rims_and_falls_off(vignetting, falloff):
@@ -76,6 +77,7 @@ def passing(optics, origin, target, falloff):
     return np.isfinite(dx) * (np.abs(ahead[2]) / length) ** (4 if falloff else 0)
 
 
+@pytest.mark.full
 def test_light_beyond_the_last_chief_ray_is_that_of_the_rays_that_pass():
     """Chief rays of the Petzval lens end 20.8 mm from the axis, their polynomials at 21.0; a tenth of the light
     of the middle comes to 21.3.
@@ -91,6 +93,7 @@ def test_light_beyond_the_last_chief_ray_is_that_of_the_rays_that_pass():
     assert light[:, [0, -1]].mean() == pytest.approx(np.mean(edge) / middle, rel=noise(0.06, 6 * 512))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("blades", "ratio", "share"), [(0, 2.0, 0.99), (0, 0.5, 0.5), (5, 1.0, 0.99), (6, 0.7, 0.7)])
 def test_the_middle_of_a_white_wall_is_1_for_any_shape_of_the_stop(blades, ratio, share):
     """With ratio 0.5 the stop is twice as wide as the lens at f/2.8, whose rims then stop half of the light."""
@@ -152,6 +155,7 @@ def test_what_is_sharp_is_sought_in_as_few_pixels_as_with_a_thin_lens():
     assert real.blur(*ball, False) < thin.blur(*ball, True)
 
 
+@pytest.mark.full
 def test_red_green_and_blue_pass_the_glass_with_their_own_indices():
     """Each ray is that of a lens for its wavelength, with the film where it stands."""
     settings = {"use_dof": True, "aperture_fstop": 4.0, "focus_distance": 5.0}
@@ -175,6 +179,7 @@ def test_red_green_and_blue_pass_the_glass_with_their_own_indices():
         np.testing.assert_allclose(np.stack(ours)[:, mine], np.stack(theirs), rtol=0, atol=1e-15)
 
 
+@pytest.mark.full
 def test_colors_of_a_white_wall_are_white_and_files_without_dispersion_have_none():
     settings = {"use_dof": True, "focus_distance": 5.0, "lens_color": True}
     tessar = {"lens_file": "tessar_100mm", "aperture_fstop": 8.0, "sensor_width": 18.0}
