@@ -36,7 +36,7 @@ def saved(user, scenes, *states):
         assert every_handler() == handlers
         assert addon("ui.cast_operator").fraction() is None
         assert not addon("ui.lesson_operators")._waiting
-        assert not addon("view3d.lesson").pixels
+        assert not addon("view3d.lesson").clicked.pixels
         user.area().spaces.active.shading.type = "SOLID"
         yield from user.press(f"{BUTTON}verify(")
         yield from user.until(addon("output.reports").verified, "the camera is verified")
@@ -79,7 +79,7 @@ def a_pixel(user, scenes):
     yield from load(user, scenes, "toys")
     yield from user.press(f"{BUTTON}step_through(")
     yield from user.click(*place_of(user, 400, 200))
-    assert addon("view3d.lesson").pixels
+    assert addon("view3d.lesson").clicked.pixels
     return lambda: None
 
 

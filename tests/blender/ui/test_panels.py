@@ -104,7 +104,7 @@ def test_the_panels_say_how_right_the_hits_are(blender, scene):
     assert 0 < reports.latest().seconds["accuracy"] < sum(reports.latest().seconds.values())
     median, worst = (f"≤ {getattr(found, name)('relative_distance'):.0e}" for name in ("median", "worst"))
     assert f"Median {median} Worst {worst}" in drawn(blender, cast_panels.CastReport)
-    assert "384 rays at 1 shape in" in drawn(blender, cast_panels.SidebarCast)
+    assert "384 rays, 1 shape, " in drawn(blender, cast_panels.SidebarCast)
     assert f"Worst distance error: {worst}" in drawn(blender, render_panels.RenderPanel)
     scene.camera.location.z = -6  # it looks away from all there is
     blender.ops.camera_ray_caster.cast()
@@ -181,7 +181,7 @@ def test_results_are_shown_in_their_own_scene_only(blender, scene, how):
         ops = blender.ops.camera_ray_caster.select, blender.ops.camera_ray_caster.write_report
         return [
             *(panel.poll(blender.context) for panel in panels),
-            *(text in texts for text in ("rays at", "rays in", "passed")),
+            *(text in texts for text in ("rays, ", "rays in", "passed")),
             *(operator.poll() for operator in ops),
         ]
 

@@ -1,6 +1,5 @@
 """Labels and sentences fit the sidebar at its default width, by Blender's own font."""
 
-import blf
 import pytest
 
 from camera_ray_caster.blender.properties import groups
@@ -8,9 +7,9 @@ from camera_ray_caster.blender.ui import drawing, gallery_panels
 from camera_ray_caster.core.camera import pixel_time
 from camera_ray_caster.core.cameras import MODELS
 
-REGION = 280
+REGION = 292
 """Width of the default sidebar in pixels at interface scale 1."""
-CONTENT = 232
+CONTENT = 236
 """Width of its rows: without tabs and margins."""
 ICON, VALUE = 24, 64
 """What an icon or a tick box takes of a row, and what the value of a number field takes with its arrows."""
@@ -18,9 +17,7 @@ PICTURE = 80
 """Width of a name below a picture of the gallery."""
 
 
-def width(text):
-    blf.size(0, 11)  # the interface's font size, as Blender's default preferences have it
-    return blf.dimensions(0, text)[0]
+width = drawing.text_width
 
 
 def test_labels_fit_beside_their_values():
@@ -30,6 +27,11 @@ def test_labels_fit_beside_their_values():
     labels |= {entry.name for group in groups.CLASSES for entry in group.bl_rna.properties}
     assert len(labels) > 100
     assert {label: width(label) for label in labels if width(label) > CONTENT - VALUE} == {}
+    room = drawing.label_room(REGION)
+    assert 90 < room < CONTENT / 2
+    wide = {label for label in labels if width(label) > room}
+    assert "Interocular Distance" in wide, "it has no label beside its field: see draw_field"
+    assert len(wide) < 10
     ticks = [entry.name for entry in groups.SceneProperties.bl_rna.properties if entry.type == "BOOLEAN"]
     assert {name: width(name) for name in ticks if width(name) > CONTENT / 2 - ICON} == {}, "two stand in a row"
 

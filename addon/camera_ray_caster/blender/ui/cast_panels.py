@@ -44,7 +44,7 @@ class SidebarCast(Sidebar, bpy.types.Panel):
 def summary(report) -> str:
     """Return the number of rays and shapes of a cast, and its time."""
     shapes = f"{report.shapes:,} {'shape' if report.shapes == 1 else 'shapes'}"
-    return f"{report.rays:,} rays at {shapes} in {sum(report.seconds.values()):.3g} s"
+    return f"{report.rays:,} rays, {shapes}, {sum(report.seconds.values()):.3g} s"
 
 
 class SidebarPasses(Sidebar, bpy.types.Panel):
@@ -56,8 +56,8 @@ class SidebarPasses(Sidebar, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
-        """Draw the check boxes in as many columns as fit."""
-        grid = self.layout.grid_flow(columns=0, even_columns=True, align=True)
+        """Draw the check boxes in two columns."""
+        grid = self.layout.grid_flow(columns=2, even_columns=True, align=True)
         for entry in PASSES:
             grid.prop(entry.settings(context.scene, context.view_layer), entry.tick)
 

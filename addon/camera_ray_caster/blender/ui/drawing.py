@@ -2,10 +2,16 @@
 
 from textwrap import wrap
 
+import blf
+
 LETTER = 6.3
 """Approximate width of a letter in a panel, in pixels at interface scale 1."""
 FIELD_MARGIN = 20.0
 """Approximate margin on each side of a panel's fields, in pixels at interface scale 1."""
+FONT_SIZE, LABELS, BESIDE = 11.0, 0.4, 56.0
+"""Size of the interface's font, the part of a row that Blender gives to a label, and the width of a sidebar's tabs and
+margins.
+"""
 ICON = 65.0
 """Width that a panel's margins and an icon leave no letters for, in pixels at interface scale 1."""
 NARROW = 280
@@ -31,10 +37,13 @@ def put_labels(layout, context) -> None:
 
 
 def draw_field(layout, context, owner, name: str):
-    """Draw a property and return the layout of its field. Without ``use_property_split``, give the label the width that
-    it needs, up to 60 percent of the row.
+    """Draw a property and return the layout of its field. Without ``use_property_split``, or if its column is too
+    narrow for the label, give the label the width that it needs, up to 60 percent of the row.
     """
     kind = owner.bl_rna.properties[name]
+    if layout.use_property_split and kind.type != "BOOLEAN" and text_width(kind.name) > label_room(width_of(context)):
+        layout = layout.row()
+        layout.use_property_split = False
     if layout.use_property_split or kind.type in {"BOOLEAN", "FLOAT", "INT"}:  # Blender labels these
         row = layout.row(align=True)
         row.prop(owner, name)
@@ -45,6 +54,17 @@ def draw_field(layout, context, owner, name: str):
     row = row.row(align=True)
     row.prop(owner, name, text="")
     return row
+
+
+def text_width(text: str) -> float:
+    """Return the width of a text in a panel, in pixels at interface scale 1."""
+    blf.size(0, FONT_SIZE)
+    return blf.dimensions(0, text)[0]
+
+
+def label_room(width: float) -> float:
+    """Return the width of the column of labels in a sidebar of this width, in pixels at interface scale 1."""
+    return LABELS * (width - BESIDE)
 
 
 def draw_message(layout, context, text: str, icon: str = "INFO") -> None:
