@@ -121,7 +121,7 @@ def name_of(path):
 NAMES = {name_of(path) for path in MODULES}
 ROOMS_WITHOUT_PRONOUNS = (
     *("core/annotations", "core/camera", "core/clouds", "core/errors", "core/exports", "core/faces", "core/lesson"),
-    *("core/library", "core/materials", "core/maths", "core/report", "core/sets", "core/shaders"),
+    *("core/library", "core/materials", "core/maths", "core/motion", "core/report", "core/sets", "core/shaders"),
     *("core/programs", "core/text_forms", "core/web"),
     *("blender/cycles", "blender/faces", "blender/output", "blender/presets", "blender/process", "blender/properties"),
     *("blender/read", "blender/terminal", "blender/verification", "../../scripts"),

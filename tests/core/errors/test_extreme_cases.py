@@ -149,7 +149,7 @@ def test_stiff_motion_is_resolved_or_said_not_to_be(turns, why):
         return camera, shapes_of([(PLANE, (0, 0, -5), turned(frame) @ np.diag([2.0, 0.2, 1.0]))])
 
     camera = Case("", "", [], {"resolution_x": 64, "resolution_y": 64}).camera
-    motion = resolve(evaluate, 0.0, 1.0, tolerance=0.05, most=2000)
+    motion = resolve(evaluate, 0.0, 1.0, tolerance=0.05, limit=2000)
     if abs(turns) > 1000:
         assert motion.unresolved, why
         return

@@ -26,14 +26,14 @@ LIGHT = "lights", "world_color", "background"
 """What lights all shapes and stands behind them: in the combined pass alone."""
 
 
-def rows_of(shapes: Shapes, some: np.ndarray) -> Shapes:
+def rows_of(shapes: Shapes, rows: np.ndarray) -> Shapes:
     """Return some of the shapes, by index, without their timeline."""
     each = {name: getattr(shapes, name) for name in BY_SHAPE}
-    kept = {name: values[some] if len(values) else values for name, values in each.items()}
-    slots = None if shapes.slots is None else replace(shapes.slots, first=shapes.slots.first[some])
-    used, place = np.unique(kept["mesh"], return_inverse=True)
+    kept = {name: values[rows] if len(values) else values for name, values in each.items()}
+    slots = None if shapes.slots is None else replace(shapes.slots, first=shapes.slots.first[rows])
+    used, numbers = np.unique(kept["mesh"], return_inverse=True)
     first = np.count_nonzero(used < 0)
-    meshes, kept["mesh"] = tuple(shapes.meshes[k] for k in used[first:]), (place - first).astype(np.int32)
+    meshes, kept["mesh"] = tuple(shapes.meshes[k] for k in used[first:]), (numbers - first).astype(np.int32)
     return replace(shapes, meshes=meshes, slots=slots, timeline=ONE_TIME, **kept)
 
 
@@ -64,9 +64,9 @@ def light_changes(motion: Motion) -> bool:
     return not all(same(getattr(first, name), getattr(other, name)) for other in others for name in LIGHT)
 
 
-def of_rows(motion: Motion, some: np.ndarray) -> Motion:
+def of_rows(motion: Motion, rows: np.ndarray) -> Motion:
     """Return the motion of some of the shapes, by ascending index."""
-    states = {frame: (camera, rows_of(shapes, some)) for frame, (camera, shapes) in motion.states.items()}
+    states = {frame: (camera, rows_of(shapes, rows)) for frame, (camera, shapes) in motion.states.items()}
     intervals = tuple(TimeInterval.of(states, interval.frames) for interval in motion.intervals)
     return replace(motion, states=states, intervals=intervals)
 
@@ -76,8 +76,8 @@ def place_at(motion: Motion, row: int, frames: np.ndarray) -> tuple[np.ndarray, 
     same shapes.
     """
     center, axes = np.empty((len(frames), 3)), np.empty((len(frames), 3, 3))
-    for interval, some in motion.parts(frames):
-        center[some], axes[some] = interval.place_at(row, frames[some])
+    for interval, within in motion.parts(frames):
+        center[within], axes[within] = interval.place_at(row, frames[within])
     return center, axes
 
 
@@ -86,6 +86,6 @@ def centers_at(motion: Motion, rows: slice, frames: np.ndarray) -> np.ndarray:
     """
     count = len(next(iter(motion.states.values()))[1].center[rows])
     centers = np.empty((count, len(frames), 3))
-    for interval, some in motion.parts(frames):
-        centers[:, some] = interval.centers_at(rows, frames[some])
+    for interval, within in motion.parts(frames):
+        centers[:, within] = interval.centers_at(rows, frames[within])
     return centers

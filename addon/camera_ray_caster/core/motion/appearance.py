@@ -16,15 +16,15 @@ INTERPOLATED = "color", "slots", "lights", "world_color", "uv"
 
 def same_indices(before: Shapes, after: Shapes) -> bool:
     """Whether two evaluations of the same shapes have the same indices, materials and lights of the same kinds."""
-    return all(np.array_equal(one, other) for one, other in zip(_indices(before), _indices(after), strict=True))
+    return all(np.array_equal(first, second) for first, second in zip(_indices(before), _indices(after), strict=True))
 
 
 def appearance(shapes: Shapes, evaluations: Sequence[Shapes], weights: Sequence[float]) -> Shapes:
     """Return shapes with interpolated colors and lights, or with their own if indices differ between evaluations."""
     if not all(same_indices(evaluations[0], other) for other in evaluations[1:]):
         return shapes
-    found = mixed([tuple(getattr(one, name) for name in INTERPOLATED) for one in evaluations], weights)
-    return replace(shapes, **dict(zip(INTERPOLATED, found, strict=True)))
+    means = mixed([tuple(getattr(evaluation, name) for name in INTERPOLATED) for evaluation in evaluations], weights)
+    return replace(shapes, **dict(zip(INTERPOLATED, means, strict=True)))
 
 
 def difference(shapes: Shapes, truth: Shapes, points: np.ndarray) -> float:
@@ -37,14 +37,14 @@ def difference(shapes: Shapes, truth: Shapes, points: np.ndarray) -> float:
     pairs = [*zip(_colors(shapes), _colors(truth), strict=True)]
     pairs.append((shapes.lights.color / strongest, truth.lights.color / strongest))
     pairs += [
-        (one.uv, other.uv)
-        for one, other in zip(shapes.meshes, truth.meshes, strict=True)
-        if one.uv is not None and other.uv is not None and one.uv.shape == other.uv.shape
+        (mesh.uv, true_mesh.uv)
+        for mesh, true_mesh in zip(shapes.meshes, truth.meshes, strict=True)
+        if mesh.uv is not None and true_mesh.uv is not None and mesh.uv.shape == true_mesh.uv.shape
     ]
-    light, true_light = (_light(one.lights, points) for one in (shapes, truth))
+    light, true_light = (_light(record.lights, points) for record in (shapes, truth))
     all_light = np.maximum(np.linalg.norm(true_light, axis=-1).sum(axis=0), np.finfo(float).tiny)
     pairs.append((light / all_light[:, None], true_light / all_light[:, None]))
-    return max(float(np.abs(np.subtract(one, other)).max(initial=0.0)) for one, other in pairs)
+    return max(float(np.abs(np.subtract(value, true_value)).max(initial=0.0)) for value, true_value in pairs)
 
 
 def _indices(shapes: Shapes) -> tuple:

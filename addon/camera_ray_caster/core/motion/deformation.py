@@ -21,8 +21,9 @@ MOST_VERTICES = 4096
 def alike(before: Sequence[Mesh], after: Sequence[Mesh]) -> bool:
     """Whether two lists of meshes have the same triangles, mesh by mesh, so that only their vertices may differ."""
     return len(before) == len(after) and all(
-        one is other or (one.vertices.shape == other.vertices.shape and all(_same(one, other, name) for name in FIXED))
-        for one, other in zip(before, after, strict=True)
+        first is second
+        or (first.vertices.shape == second.vertices.shape and all(_same(first, second, name) for name in FIXED))
+        for first, second in zip(before, after, strict=True)
     )
 
 
@@ -43,7 +44,7 @@ def _corners(mesh: Mesh) -> np.ndarray:
 def deformed(shapes: Shapes, evaluations: Sequence[Shapes], weights: Sequence[float]) -> Shapes:
     """Return shapes with their meshes interpolated between evaluations; the weights have the sum 1."""
     meshes = list(shapes.meshes)
-    for k, forms in enumerate(zip(*(one.meshes for one in evaluations), strict=True)):
+    for k, forms in enumerate(zip(*(evaluation.meshes for evaluation in evaluations), strict=True)):
         if all(_same(forms[0], other, name) for other in forms[1:] for name in ("vertices", "normals", "uv")):
             continue
         middle = mean([form.middle for form in forms], weights)  # which the center of the shape is the image of
@@ -65,19 +66,19 @@ def vertices(shapes: Shapes, rows: np.ndarray) -> np.ndarray:
     places = [np.zeros((3, 0))]
     for row in rows.tolist():
         mesh = shapes.meshes[shapes.mesh[row]]
-        some = mesh.vertices[:, :: -(-mesh.vertices.shape[1] // MOST_VERTICES)] - mesh.middle[:, None]
-        places.append(shapes.axes[row] @ some + shapes.center[row][:, None])
+        sampled = mesh.vertices[:, :: -(-mesh.vertices.shape[1] // MOST_VERTICES)] - mesh.middle[:, None]
+        places.append(shapes.axes[row] @ sampled + shapes.center[row][:, None])
     return np.concatenate(places, axis=1).T
 
 
 def changed(before: Shapes, after: Shapes) -> np.ndarray:
     """Return the rows of the shapes whose meshes differ between two evaluations with ``alike`` meshes."""
-    others = [k for k, (one, other) in enumerate(zip(before.meshes, after.meshes, strict=True)) if one is not other]
-    return np.flatnonzero(np.isin(before.mesh, others))
+    pairs = enumerate(zip(before.meshes, after.meshes, strict=True))
+    return np.flatnonzero(np.isin(before.mesh, [k for k, (first, second) in pairs if first is not second]))
 
 
-def _same(one: Mesh, other: Mesh, name: str) -> bool:
-    first, second = getattr(one, name), getattr(other, name)
+def _same(mesh: Mesh, other: Mesh, name: str) -> bool:
+    first, second = getattr(mesh, name), getattr(other, name)
     return first is second or (first is not None and second is not None and np.array_equal(first, second))
 
 

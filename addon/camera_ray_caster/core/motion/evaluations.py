@@ -79,17 +79,17 @@ class Motion:
     def parts(self, frames: np.ndarray) -> Iterator[tuple[TimeInterval, np.ndarray]]:
         """Yield intervals and the indices of the frames within."""
         starts = [interval.frames[0] for interval in self.intervals]
-        which = np.maximum(np.searchsorted(starts, frames, side="right") - 1, 0)
-        for k in np.unique(which).tolist():
-            yield self.intervals[k], np.flatnonzero(which == k)
+        interval_of = np.maximum(np.searchsorted(starts, frames, side="right") - 1, 0)
+        for k in np.unique(interval_of).tolist():
+            yield self.intervals[k], np.flatnonzero(interval_of == k)
 
     def poses_at(self, frames: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
         """Return the eyes (n, 3) and bases (n, 3, 3) of the camera at frames (n,); None if its model changes."""
         if not all(same(camera.model, other.model) for (camera, _), (other, _) in pairwise(self.states.values())):
             return None
         eyes, bases = np.empty((len(frames), 3)), np.empty((len(frames), 3, 3))
-        for interval, some in self.parts(frames):
-            eyes[some], bases[some] = interval.poses_at(frames[some])
+        for interval, within in self.parts(frames):
+            eyes[within], bases[within] = interval.poses_at(frames[within])
         return eyes, bases
 
     def shapes_at(self, frame: float) -> Shapes:
@@ -155,14 +155,14 @@ def resolve(
     first: float,
     last: float,
     tolerance: float,
-    most: int,
+    limit: int,
     keys: Iterable[float] = (),
 ) -> Motion:
     """Evaluate a scene at as few frames as keep the motion between them within ``tolerance`` pixels.
 
-    ``evaluate(frame)`` returns camera and shapes; it is called at most ``most`` times. See ``resolving``.
+    ``evaluate(frame)`` returns camera and shapes; it is called at most ``limit`` times. See ``resolving``.
     """
-    steps, state = resolving(first, last, tolerance, most, keys), None
+    steps, state = resolving(first, last, tolerance, limit, keys), None
     while True:
         try:
             state = evaluate(steps.send(state))
@@ -171,12 +171,12 @@ def resolve(
 
 
 def resolving(
-    first: float, last: float, tolerance: float, most: int, keys: Iterable[float]
+    first: float, last: float, tolerance: float, limit: int, keys: Iterable[float]
 ) -> Generator[float, State | None, Motion]:
     """Yield the frames that ``resolve`` evaluates, receive their states, and return the motion.
 
     Whole frames, since cuts lie
-    there, and ``keys``, the frames with keys, are evaluated first; if these are more than a quarter of ``most``, those
+    there, and ``keys``, the frames with keys, are evaluated first; if these are more than a quarter of ``limit``, those
     with keys only, or else whole frames only, or else evenly spaced ones of both. Then intervals are tested, the
     longest first. Those that remain when the budget is used up are reported as unresolved.
     """
@@ -185,17 +185,18 @@ def resolving(
     def know(*frames: float) -> Generator[float, State | None, None]:
         for frame in frames:
             if frame not in states:
-                found = yield frame
-                assert found is not None
-                states[frame] = with_lens_of(next(iter(states.values()), found), found)
+                state = yield frame
+                assert state is not None
+                states[frame] = with_lens_of(next(iter(states.values()), state), state)
 
     if first == last:
         yield from know(first)
         return Motion((TimeInterval.of(states, (first,)),), states, tolerance, 0.0, ())
     whole = np.arange(np.floor(first) + 1, np.ceil(last)).tolist()
     keyed = sorted({float(frame) for frame in keys if first < frame < last})
-    both, few = sorted({*whole, *keyed}), max(1, most // 4)
-    at_once = next((some for some in (both, keyed, whole) if len(some) <= few), both[:: -(-len(both) // few) or 1])
+    known_frames, few = sorted({*whole, *keyed}), max(1, limit // 4)
+    evenly = known_frames[:: -(-len(known_frames) // few) or 1]
+    at_once = next((frames for frames in (known_frames, keyed, whole) if len(frames) <= few), evenly)
     ends = [first, *at_once, last]
     yield from know(*ends)
     waiting = list(pairwise(ends))
@@ -204,13 +205,13 @@ def resolving(
     while waiting:
         waiting.sort(key=lambda ends: ends[1] - ends[0])
         a, b = waiting.pop()
-        p, q = (a + (b - a) * place for place in PROBES)
+        p, q = (a + (b - a) * share for share in PROBES)
         is_moment = b - a <= SHORTEST
         is_step = not _continuous(states[a], states[b])
         if is_step and is_moment:
             done.append((a, b))
             continue
-        if len(states) + (p not in states) + (q not in states) > most or not a < p < q < b:
+        if len(states) + (p not in states) + (q not in states) > limit or not a < p < q < b:
             unresolved.append((a, b))
             done.append((a, b))
             continue
@@ -219,7 +220,7 @@ def resolving(
             (TimeInterval.of(states, others).at(probe), states[probe])
             for probe, others in ((p, (a, q, b)), (q, (a, p, b)))
         ]
-        off, change = (max(error(*both) for both in probed) for error in (apart, _change))
+        off, change = (max(error(*pair) for pair in probed) for error in (apart, _change))
         steps = [(states[early], states[late]) for early, late in pairwise((a, p, q, b))]
         turn = max(_turn(*step) for step in steps)
         moves = [apart(*step) for step in steps] if off > tolerance else []
@@ -231,7 +232,7 @@ def resolving(
         if is_step or off > tolerance or turn > WIDEST_TURN or (change > APPEARANCE and not is_moment):
             cuts = [a, p, q, b]
             beside = b - SHORTEST
-            if is_jump and moves[-1] > tolerance and b in keyed and beside > q and len(states) < most:
+            if is_jump and moves[-1] > tolerance and b in keyed and beside > q and len(states) < limit:
                 yield from know(beside)  # a key may begin with a jump
                 cuts.insert(3, beside)
             waiting += pairwise(cuts)
@@ -249,8 +250,8 @@ def resolving(
 def measured(motion: Motion, evaluate: Callable[[float], State], frames) -> Motion:
     """Return a motion with its errors measured at some frames: the interpolated against the evaluated scene."""
     first = next(iter(motion.states.values()))
-    both = [(motion.at(frame), with_lens_of(first, evaluate(frame))) for frame in frames]
-    off, change = (max((error(*pair) for pair in both), default=0.0) for error in (apart, _change))
+    pairs = [(motion.at(frame), with_lens_of(first, evaluate(frame))) for frame in frames]
+    off, change = (max((error(*pair) for pair in pairs), default=0.0) for error in (apart, _change))
     return replace(motion, measured=off, appearance=(motion.appearance[0], change))
 
 

@@ -58,8 +58,8 @@ class TimeInterval:
     def centers_at(self, rows: slice, frames: np.ndarray) -> np.ndarray:
         """Return the centers of some shapes at frames (n,), (shapes, n, 3), but for rounding at evaluations."""
         weights = [weight[:, None] for weight in self.weights(frames)]
-        found = mean([shapes.center[rows, None] for _, shapes in self.states], weights)
-        return np.broadcast_to(found, (len(found), len(frames), 3))
+        centers = mean([shapes.center[rows, None] for _, shapes in self.states], weights)
+        return np.broadcast_to(centers, (len(centers), len(frames), 3))
 
     def place_at(self, row: int, frames: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the centers (n, 3) and the axes (n, 3, 3) of one shape at frames (n,), those of ``shapes_at``."""
@@ -80,7 +80,7 @@ class TimeInterval:
         if frame in self.frames or self._shape_axes is None:
             return last
         weights = self._weights(frame)
-        center = mean([one.center for one in shapes], weights)
+        center = mean([evaluation.center for evaluation in shapes], weights)
         moved = replace(last, center=center, axes=self._shape_axes.at(weights))
         return deformed(appearance(moved, shapes, weights), shapes, weights)
 
@@ -109,7 +109,7 @@ class TimeInterval:
         shapes = [shapes for _, shapes in self.states]
         if not all(matched(shapes[0], other) for other in shapes[1:]):
             return None
-        return Turning.of([one.axes for one in shapes])
+        return Turning.of([evaluation.axes for evaluation in shapes])
 
 
 @dataclass(frozen=True)

@@ -38,17 +38,17 @@ def apart(state: State, truth: State) -> float:
     shapes, true_shapes = state[1], truth[1]
     if len(shapes) != len(true_shapes):
         return np.inf
-    camera, true_camera = (replace(one[0], pixel_time=None) for one in (state, truth))
+    camera, true_camera = (replace(state_of[0], pixel_time=None) for state_of in (state, truth))
     deforming = changed(shapes, true_shapes) if alike(shapes.meshes, true_shapes.meshes) else np.zeros(0, int)
     size = np.array(true_camera.raster.size)
     with np.errstate(all="ignore"):
         origins, directions = rays = _rays(true_camera)
         local = _landmarks(true_shapes, *rays)
         here, there = (
-            one.project(np.concatenate((
-                _places(_boxed(own), local).reshape(-1, 3), vertices(own, deforming), origins + AHEAD * directions
+            eye.project(np.concatenate((
+                _places(_boxed(scene), local).reshape(-1, 3), vertices(scene, deforming), origins + AHEAD * directions
             )))
-            for one, own in ((camera, shapes), (true_camera, true_shapes))
+            for eye, scene in ((camera, shapes), (true_camera, true_shapes))
         )  # fmt: skip
     counts = (there >= -size).all(axis=-1) & (there <= 2 * size).all(axis=-1)
     ends = np.hypot(*(camera.model.outline - true_camera.model.outline).T)

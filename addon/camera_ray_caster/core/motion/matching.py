@@ -18,30 +18,30 @@ def rows_in(before: Shapes, after: Shapes) -> np.ndarray:
     """
     if matched(before, after):
         return np.arange(len(before))
-    own, other = _numbers(before, after)
-    most = max(own.max(initial=-1), other.max(initial=-1)) + 1
-    counts, other_counts = (np.bincount(one, minlength=most) for one in (own, other))
-    there = np.flatnonzero((counts == other_counts)[own])
+    numbers, other_numbers = _numbers(before, after)
+    count = max(numbers.max(initial=-1), other_numbers.max(initial=-1)) + 1
+    counts, other_counts = (np.bincount(array, minlength=count) for array in (numbers, other_numbers))
+    there = np.flatnonzero((counts == other_counts)[numbers])
     rows = np.full(len(before), -1)
-    here = there[np.argsort(own[there], kind="stable")]
-    found = np.flatnonzero((counts == other_counts)[other])
-    rows[here] = found[np.argsort(other[found], kind="stable")]
-    own = np.flatnonzero(rows >= 0)
+    here = there[np.argsort(numbers[there], kind="stable")]
+    matches = np.flatnonzero((counts == other_counts)[other_numbers])
+    rows[here] = matches[np.argsort(other_numbers[matches], kind="stable")]
+    shared = np.flatnonzero(rows >= 0)
     is_other = np.zeros(len(before), bool)
-    is_other[own] = before.kind[own] != after.kind[rows[own]]
+    is_other[shared] = before.kind[shared] != after.kind[rows[shared]]
     meshes = np.flatnonzero((rows >= 0) & ~is_other & (before.kind == MESH))
     pairs = np.stack((before.mesh[meshes], after.mesh[rows[meshes]])) if meshes.size else np.zeros((2, 0), int)
-    for one, another in np.unique(pairs, axis=1).T:
-        if not same_faces(before.meshes[one], after.meshes[another]):
-            is_other[meshes[(pairs == [[one], [another]]).all(axis=0)]] = True
+    for mesh_before, mesh_after in np.unique(pairs, axis=1).T:
+        if not same_faces(before.meshes[mesh_before], after.meshes[mesh_after]):
+            is_other[meshes[(pairs == [[mesh_before], [mesh_after]]).all(axis=0)]] = True
     rows[is_other] = -1
     return rows
 
 
 def _numbers(before: Shapes, after: Shapes) -> list[np.ndarray]:
     """Return two arrays of numbers that are equal for shapes with the same identity, or the same name without one."""
-    if all(len(one.identity) == len(one) for one in (before, after)):
+    if all(len(shapes.identity) == len(shapes) for shapes in (before, after)):
         _, numbers = np.unique(np.concatenate((before.identity, after.identity)), return_inverse=True)
         return np.split(numbers, [len(before)])
     known = {name: number for number, name in enumerate(dict.fromkeys((*before.names, *after.names)))}
-    return [np.array([known[name] for name in one.names], int)[one.name_index] for one in (before, after)]
+    return [np.array([known[name] for name in shapes.names], int)[shapes.name_index] for shapes in (before, after)]

@@ -16,24 +16,24 @@ def mixed(values: Sequence, weights: Sequence[float]):
     if all(same(first, value) for value in values[1:]):
         return first
     if is_dataclass(first) and not isinstance(first, type) and all(type(value) is type(first) for value in values):
-        names = [part.name for part in fields(first)]
+        names = [field.name for field in fields(first)]
         return replace(first, **{name: mixed([getattr(value, name) for value in values], weights) for name in names})
     if isinstance(first, tuple) and all(isinstance(value, tuple) and len(value) == len(first) for value in values):
         return tuple(mixed(entries, weights) for entries in zip(*values, strict=True))
     return mean(values, weights) if isinstance(first, float | np.ndarray) else first
 
 
-def same(one, other) -> bool:
+def same(first, second) -> bool:
     """Whether two records have the same type and the same values."""
-    if one is other:
+    if first is second:
         return True
-    if is_dataclass(one):
-        return type(one) is type(other) and all(
-            same(getattr(one, part.name), getattr(other, part.name)) for part in fields(one)
+    if is_dataclass(first):
+        return type(first) is type(second) and all(
+            same(getattr(first, field.name), getattr(second, field.name)) for field in fields(first)
         )
-    if isinstance(one, tuple) and isinstance(other, tuple):
-        return len(one) == len(other) and all(map(same, one, other))
-    return np.array_equal(one, other)
+    if isinstance(first, tuple) and isinstance(second, tuple):
+        return len(first) == len(second) and all(map(same, first, second))
+    return np.array_equal(first, second)
 
 
 def mean(values: Sequence, weights: Sequence) -> np.ndarray:

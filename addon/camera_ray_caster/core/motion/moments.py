@@ -14,7 +14,7 @@ def check_rows(shapes: Shapes) -> None:
     """Raise InputError if a shape index means another shape at the time of another pixel."""
     for frame, other in _others(shapes):
         if not same_rows(shapes, other):
-            known, here = ({one.names[k] for k in one.name_index.tolist()} for one in (shapes, other))
+            known, here = ({then.names[k] for k in then.name_index.tolist()} for then in (shapes, other))
             names = ", ".join(map(repr, sorted(known ^ here))) or "instances"
             raise InputError(
                 "shapes are numbered only if they are the same at the times of all pixels, and frame "

@@ -21,7 +21,10 @@ def bends(forms: Sequence[Mesh]) -> bool:
     return all(
         alike([first], [other])
         and [name for name, _ in other.layers] == [name for name, _ in first.layers]
-        and all(np.array_equal(one, now) for (_, one), (_, now) in zip(first.layers, other.layers, strict=True))
+        and all(
+            np.array_equal(layer, other_layer)
+            for (_, layer), (_, other_layer) in zip(first.layers, other.layers, strict=True)
+        )
         and all(np.shape(getattr(first, name)) == np.shape(getattr(other, name)) for name in LOOPS)
         for other in others
     )
@@ -34,28 +37,28 @@ def triangles_at(motion: Motion, row: int, number: np.ndarray, frames: np.ndarra
     middle, places = np.empty((3, len(number))), np.empty((3, 3, len(number)))
     at_loops = {name: np.empty((3, len(number), getattr(mesh, name).shape[1]))
                 for name in LOOPS if getattr(mesh, name) is not None}  # fmt: skip
-    for interval, some in motion.parts(frames):
+    for interval, within in motion.parts(frames):
         forms = [mesh_of(shapes, row) for _, shapes in interval.states]
-        weights, corners = interval.weights(frames[some]), mesh.triangles[:, number[some]]
-        middle[:, some] = mean([form.middle[:, None] for form in forms], weights)
-        places[..., some] = mean([form.vertices[:, corners] - form.middle[:, None, None] for form in forms], weights)
-        places[..., some] += middle[:, None, some]
-        for name, found in at_loops.items():
-            values = [getattr(form, name)[loops[:, some]] for form in forms]
+        weights, corners = interval.weights(frames[within]), mesh.triangles[:, number[within]]
+        middle[:, within] = mean([form.middle[:, None] for form in forms], weights)
+        places[..., within] = mean([form.vertices[:, corners] - form.middle[:, None, None] for form in forms], weights)
+        places[..., within] += middle[:, None, within]
+        for name, values_of in at_loops.items():
+            values = [getattr(form, name)[loops[:, within]] for form in forms]
             between = np.broadcast_to(
                 mean(values, [weight[:, None].astype(values[0].dtype) for weight in weights]), values[0].shape
             )
-            found[:, some] = unit(between) if name == "normals" else between
+            values_of[:, within] = unit(between) if name == "normals" else between
         for frame, form in zip(interval.frames, forms, strict=True):
-            now = some[frames[some] == frame]
+            now = within[frames[within] == frame]
             middle[:, now] = form.middle[:, None]
             places[..., now] = form.vertices[:, mesh.triangles[:, number[now]]]
-            for name, found in at_loops.items():
-                found[:, now] = getattr(form, name)[loops[:, now]]
+            for name, values_of in at_loops.items():
+                values_of[:, now] = getattr(form, name)[loops[:, now]]
     each = np.arange(3 * len(number), dtype=np.int32).reshape(3, -1)
     return LooseTriangles(
         places.reshape(3, -1), each, mesh.polygon[number], None if mesh.loops is None else each,
-        **{name: found.reshape(-1, found.shape[2]) for name, found in at_loops.items()},
+        **{name: values_of.reshape(-1, values_of.shape[2]) for name, values_of in at_loops.items()},
         slot=None if mesh.slot is None else mesh.slot[number],
         layers=tuple((name, values[:, number]) for name, values in mesh.layers),
         middle_of=middle, outer=mesh.is_outer[:, number],
