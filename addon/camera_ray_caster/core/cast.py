@@ -98,51 +98,21 @@ def cast(
     else:
         check_reusable(into, passes, shape, dtype)
     check_passes(scene.camera, passes)
-    request = replace(request, others=pictures(scene, passes))
-    moving = scene.at_rest()
-    time = moving.camera.pixel_time
-    by_beam = isinstance(time, SweepTime)
-    middle = moving.at(None if time is None else (time.first + time.last) / 2)
-    whole = make_plan(middle.camera, middle.shapes, request)
+    work = _Work(scene, replace(request, others=pictures(scene, passes)), samples, threads, progress)
     images = Images({name: PASSES[name].empty(shape, dtype) for name in passes}) if into is None else into
     images.keep(passes)
-    images.camera, images.shapes, images.plan = scene.camera, scene.shapes, whole
-    sampled = ("combined",) if samples > 1 and "combined" in passes and not by_beam else ()
-    parts = [(replace(request, passes=tuple(name for name in passes if name not in sampled)), 1)]
-    parts += [(replace(request, passes=sampled, sampled=True), samples)] if sampled else []
-    plans: dict[Request, Plan] = {}
-    if time is None:
-        plans = {part: whole if count == 1 else make_plan(moving.camera, moving.shapes, part) for part, count in parts}
-        tiles = list(shares(plans[parts[-1][0]], threads, parts[-1][1]))
-    else:
-        tiles = list(sweep_tiles(shape) if by_beam else listening(moments(moving.camera, time), progress))
-    search = search_for(whole) if time is None else nearest_hits
+    images.camera, images.shapes, images.plan = scene.camera, scene.shapes, work.plan
+    images.rays = shape[0] * shape[1] * work.rays
     images.seconds = {"plan": perf_counter() - started}
-    rays = sum(count for part, count in parts if part.passes)
-    images.rays = shape[0] * shape[1] * rays
-    effort = Effort(len(tiles) * rays)
-    show = preview if "combined" in passes and not by_beam else None
-    previews = Previews(whole, time, samples if sampled else 1, show)
-    last = previews.spans[-1]
-    open_tiles = list(tiles)
+    effort = Effort(len(work.tiles) * work.rays)
+    show = preview if "combined" in passes and not work.by_beam else None
+    previews = Previews(work.plan, work.time, work.samples, show)
+    whole_rows = work.time is None or work.by_beam  # else a row may have pixels of many times
+    last, open_tiles, write = previews.spans[-1], list(work.tiles), 0.0
 
     def run(job: tuple[range, Tile], scratch: Scratch) -> np.ndarray:
         span, tile = job
-        if by_beam:
-            return cast_sweep(moving, tile, images, effort)
-        seconds = np.zeros(len(TIMED_STEPS))
-        then = moving.at(tile.frame)
-        with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
-            for part, _ in parts:
-                if part.passes and (part.sampled or span is last):
-                    plan = plans.get(part) or make_plan(then.camera, then.shapes, part)
-                    outs = {name: images[name] for name in part.passes}
-                    numbers = span if part.sampled else None
-                    seconds += cast_tile(plan, search, tile, numbers, outs, scratch, effort, previews.sums)
-        return seconds
-
-    write = 0.0
-    whole_rows = time is None or by_beam  # else a row may have pixels of many times
+        return work.cast(tile, span, span is last, images, scratch, effort, previews.sums)
 
     def tell(rows: slice) -> None:
         nonlocal write
@@ -157,24 +127,19 @@ def cast(
             open_tiles.remove(tile)
             tell(tile.rows)
 
-    began = perf_counter()
-    others = round(whole.work.sum() / len(tiles) / tuning.SERIAL_WORK)  # may hold the interpreter in turn
-    is_small = whole.work.sum() * samples < tuning.SERIAL_WORK
-    workers = min(threads, 1 + others)
-
     def meanwhile() -> None:
-        previews.look(effort, workers, [tile.rows for tile in open_tiles], progress)
+        previews.look(effort, work.threads, [tile.rows for tile in open_tiles], progress)
 
     def rounds() -> Iterator[list[tuple[range, Tile]]]:
         nonlocal write
-        for span, some in previews.rounds(tiles):
+        for span, some in previews.rounds(work.tiles):
             yield [(span, tile) for tile in some]
             since = perf_counter()
             previews.show(images, span, some)
             write += perf_counter() - since
 
-    alone = len(tiles) == 1 and bool(is_small)
-    busy = in_threads(run, rounds(), workers, effort, progress, end, alone, meanwhile)
+    began = perf_counter()
+    busy = in_threads(run, rounds(), work.threads, effort, progress, end, work.is_small, meanwhile)
     if not whole_rows:
         tell(slice(0, shape[0]))
     share = (perf_counter() - began - write) / max(busy.sum(), np.finfo(float).tiny)
@@ -182,3 +147,54 @@ def cast(
     if finished is not None:
         images.seconds["write"] = write
     return images
+
+
+class _Work:
+    """The tiles of a picture, and what is cast of each: rays, search, hits, passes."""
+
+    def __init__(self, scene: Scene, request: Request, samples: int, threads: int, progress):
+        self._scene = scene = scene.at_rest()
+        time = self.time = scene.camera.pixel_time
+        self.by_beam = isinstance(time, SweepTime)
+        """Whether each pixel has a ray with a time of its own."""
+        middle = scene.at(None if time is None else (time.first + time.last) / 2)
+        self.plan = make_plan(middle.camera, middle.shapes, request)
+        """The plan of the chief rays, at the middle of the pixels' times."""
+        sampled = ("combined",) if samples > 1 and "combined" in request.passes and not self.by_beam else ()
+        self.samples = samples if sampled else 1
+        chief = replace(request, passes=tuple(name for name in request.passes if name not in sampled))
+        self._requests = [(chief, 1)] if chief.passes or not sampled else []
+        self._requests += [(replace(request, passes=sampled, sampled=True), samples)] if sampled else []
+        self.rays = sum(count for part, count in self._requests if part.passes)
+        """Number of rays per pixel."""
+        self._plans: dict[Request, Plan] = {}
+        self._search = search_for(self.plan) if time is None else nearest_hits
+        if time is None:
+            for part, count in self._requests:
+                self._plans[part] = self.plan if count == 1 else make_plan(scene.camera, scene.shapes, part)
+            self.tiles = list(shares(self._plans[self._requests[-1][0]], threads, self._requests[-1][1]))
+        elif self.by_beam:
+            self.tiles = list(sweep_tiles(scene.camera.raster.shape))
+        else:
+            self.tiles = list(listening(moments(scene.camera, time), progress))
+        amount = self.plan.work.sum()
+        self.is_small = len(self.tiles) == 1 and bool(amount * samples < tuning.SERIAL_WORK)
+        """Whether it takes less than the start of a thread would pay for."""
+        others = round(amount / len(self.tiles) / tuning.SERIAL_WORK)  # may hold the interpreter in turn
+        self.threads = min(threads, 1 + others)
+
+    def cast(self, tile: Tile, samples: range, is_last: bool, images, scratch: Scratch, effort: Effort, sums):
+        """Cast some samples of a tile, and with the last ones the passes of its chief rays, into images; return the
+        seconds of TIMED_STEPS.
+        """
+        if self.by_beam:
+            return cast_sweep(self._scene, tile, images, effort)
+        seconds, then = np.zeros(len(TIMED_STEPS)), self._scene.at(tile.frame)
+        with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
+            for part, _ in self._requests:
+                if part.passes and (part.sampled or is_last):
+                    plan = self._plans.get(part) or make_plan(then.camera, then.shapes, part)
+                    outs = {name: images[name] for name in part.passes}
+                    numbers = samples if part.sampled else None
+                    seconds += cast_tile(plan, self._search, tile, numbers, outs, scratch, effort, sums)
+        return seconds
