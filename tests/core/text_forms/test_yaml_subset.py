@@ -8,10 +8,16 @@ import yaml
 
 from camera_ray_caster.core.records import InputError
 from camera_ray_caster.core.text_forms import content
-from camera_ray_caster.core.text_forms.content import entries_of, text_of
+from camera_ray_caster.core.text_forms.content import content_of, decoded, entries_of
 from camera_ray_caster.core.text_forms.yaml_subset import DEEPEST, YamlError, parse
 
 MEGABYTE = 1 << 20
+
+
+def text_of(path):
+    """The text of a file."""
+    return decoded(content_of(path), path)
+
 
 KALIBR = """cam0:
   cam_overlaps: [1]

@@ -7,14 +7,13 @@ Reference: The EuRoC MAV dataset, Data format.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-
 from ..maths.rotations import quaternion
 from ..units import METERS
 from .parts.document import Document
-from .parts.program import CameraRecord, FileWriter, ProgramFiles
+from .parts.program import CameraRecord, FileWriter, ProgramFiles, line_by_line
 from .parts.trajectory import columns_of, has_commas_in, placed_in_lines
 
+ENDING = "_euroc.csv"
 HEAD = "#timestamp [ns],p_x,p_y,p_z,q_w,q_x,q_y,q_z\n"
 
 
@@ -23,23 +22,16 @@ def looks(document: Document) -> bool:
     return has_commas_in(document) and columns_of(document) is not None
 
 
-def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
-    """See FileWriter. One file per camera."""
-    for name in dict.fromkeys(record.name for record in records):
-        lines = [_line(record) for record in records if record.name == name]
-        yield f"{name}_euroc.csv", HEAD + "".join(lines)
-
-
 def _line(record: CameraRecord) -> str:
     numbers = (*record.pose[:3, 3].tolist(), *quaternion(record.pose[:3, :3]).tolist())
-    return ",".join((str(round(record.seconds * 1e9)), *map(repr, numbers))) + "\n"
+    return ",".join((str(round(record.seconds * 1e9)), *map(repr, numbers)))
 
 
 PROGRAM = ProgramFiles(
     "EuRoC trajectories", ".csv", looks, lost="lenses", poses=placed_in_lines, unit=METERS,
     columns="at least 8 apart by commas",
     export=FileWriter(
-        "euroc", "EuRoC Trajectory", "<camera>_euroc.csv: nanoseconds, places and quaternions of any camera", write,
-        ending="_euroc.csv",
+        "euroc", "EuRoC Trajectory", "<camera>_euroc.csv: nanoseconds, places and quaternions of any camera",
+        line_by_line(ENDING, _line, HEAD), ending=ENDING,
     ),
 )  # fmt: skip

@@ -13,7 +13,6 @@ development kits of KITTI's raw data and odometry; KITTI-360 documentation.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
 from functools import partial
 
 import numpy as np
@@ -23,12 +22,13 @@ from .parts.document import Document
 from .parts.lens import Lens, numbers_of, one_of_several
 from .parts.placed import Placed, checked, inverted, pose_of
 from .parts.plain import plain_lens
-from .parts.program import CameraRecord, FileWriter, ProgramFiles
+from .parts.program import CameraRecord, FileWriter, ProgramFiles, line_by_line
 
 LINE = re.compile(r"^(P\d|[SKDRT]_\d\d|[SRP]_rect_\d\d):[ \t]+(\S+[ \t]+[^\s#].*)$", re.MULTILINE)
 """A line of a name and two words or more: one number named P1 is a coefficient of other formats."""
 LENS = re.compile(r"P\d|K_\d\d|P_rect_\d\d")
 """Names of the matrices that are lenses."""
+ENDING = "_kitti.txt"
 REFERENCE = "R_rect_00"
 POSE = 12
 """Numbers of a line of poses."""
@@ -109,11 +109,8 @@ def _numbers(document: Document, lines: dict[str, list[str]], name: str, count: 
     return document.numbers(lines.get(name), name, count)
 
 
-def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
-    """See FileWriter. One file per camera, the rows of a matrix for each frame."""
-    for name in dict.fromkeys(record.name for record in records):
-        rows = [record.pose[:3].ravel().tolist() for record in records if record.name == name]
-        yield f"{name}_kitti.txt", "".join(" ".join(map(repr, row)) + "\n" for row in rows)
+def _line(record: CameraRecord) -> str:
+    return " ".join(map(repr, record.pose[:3].ravel().tolist()))
 
 
 PROGRAM = ProgramFiles(
@@ -122,7 +119,7 @@ PROGRAM = ProgramFiles(
     lost="of calib.txt the size of the pictures; of poses lenses and times", read=read, poses=poses, unit=METERS,
     columns="12",
     export=FileWriter(
-        "kitti", "KITTI Poses", "<camera>_kitti.txt: a matrix for each frame, of any camera", write,
-        ending="_kitti.txt",
+        "kitti", "KITTI Poses", "<camera>_kitti.txt: a matrix for each frame, of any camera",
+        line_by_line(ENDING, _line), ending=ENDING,
     ),
 )  # fmt: skip

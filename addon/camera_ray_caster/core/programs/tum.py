@@ -8,14 +8,13 @@ Reference: TUM RGB-D benchmark, File Formats.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-
 from ..maths.rotations import quaternion
 from ..units import METERS
 from .parts.document import Document
-from .parts.program import CameraRecord, FileWriter, ProgramFiles
+from .parts.program import CameraRecord, FileWriter, ProgramFiles, line_by_line
 from .parts.trajectory import columns_of, has_commas_in, placed_in_lines
 
+ENDING = "_tum.txt"
 HEAD = "# timestamp tx ty tz qx qy qz qw\n"
 
 
@@ -24,23 +23,16 @@ def looks(document: Document) -> bool:
     return columns_of(document) is not None and not has_commas_in(document)
 
 
-def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
-    """See FileWriter. One file per camera."""
-    for name in dict.fromkeys(record.name for record in records):
-        lines = [_line(record) for record in records if record.name == name]
-        yield f"{name}_tum.txt", HEAD + "".join(lines)
-
-
 def _line(record: CameraRecord) -> str:
     w, *vector = quaternion(record.pose[:3, :3]).tolist()
-    return " ".join(map(repr, (record.seconds, *record.pose[:3, 3].tolist(), *vector, w))) + "\n"
+    return " ".join(map(repr, (record.seconds, *record.pose[:3, 3].tolist(), *vector, w)))
 
 
 PROGRAM = ProgramFiles(
     "TUM", "trajectories .txt", looks, lost="lenses", poses=placed_in_lines, unit=METERS,
     columns="8, the last 4 a quaternion (TartanAir 7)",
     export=FileWriter(
-        "tum", "TUM Trajectory", "<camera>_tum.txt: seconds, places and quaternions of any camera", write,
-        ending="_tum.txt",
+        "tum", "TUM Trajectory", "<camera>_tum.txt: seconds, places and quaternions of any camera",
+        line_by_line(ENDING, _line, HEAD), ending=ENDING,
     ),
 )  # fmt: skip

@@ -224,11 +224,6 @@ def decoded(content: bytes, path: str) -> str:
     return text
 
 
-def text_of(path: str) -> str:
-    """Return the text of a file; see ``content_of`` and ``decoded``."""
-    return decoded(content_of(path), path)
-
-
 def flat(value, name: str, path: str):
     """Return a matrix, given as OpenCV's mapping or as nested lists, as a flat list; anything else unchanged.
 

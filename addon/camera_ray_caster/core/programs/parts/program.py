@@ -209,6 +209,17 @@ def by_lens(
             yield from ((record.stem, lens, [record]) for record, lens in with_texts)
 
 
+def line_by_line(ending: str, line: Callable[[CameraRecord], str], head: str = "") -> Callable:
+    """Return ``FileWriter.files`` of trajectories: a file for each camera, with a line for each frame."""
+
+    def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
+        for name in dict.fromkeys(record.name for record in records):
+            lines = [f"{line(record)}\n" for record in records if record.name == name]
+            yield f"{name}{ending}", head + "".join(lines)
+
+    return write
+
+
 def in_words(names: Iterable[str]) -> str:
     """Return names as a list in a sentence."""
     *before, last = names
