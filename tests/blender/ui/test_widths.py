@@ -32,6 +32,7 @@ def test_labels_fit_beside_their_values():
     wide = {label for label in labels if width(label) > room}
     assert "Interocular Distance" in wide, "it has no label beside its field: see draw_field"
     assert len(wide) < 10
+    assert width("Natural Falloff") < drawing.label_room(REGION, is_tick=True) < width("Chromatic Aberration"), "cut"
     ticks = [entry.name for entry in groups.SceneProperties.bl_rna.properties if entry.type == "BOOLEAN"]
     assert {name: width(name) for name in ticks if width(name) > CONTENT / 2 - ICON} == {}, "two stand in a row"
 

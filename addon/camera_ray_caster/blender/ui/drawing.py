@@ -12,6 +12,8 @@ FONT_SIZE, LABELS, BESIDE = 11.0, 0.4, 56.0
 """Size of the interface's font, the part of a row that Blender gives to a label, and the width of a sidebar's tabs and
 margins.
 """
+TICK = 36.0
+"""Width of a tick box with its margins, in pixels at interface scale 1."""
 ICON = 65.0
 """Width that a panel's margins and an icon leave no letters for, in pixels at interface scale 1."""
 NARROW = 280
@@ -41,7 +43,8 @@ def draw_field(layout, context, owner, name: str):
     narrow for the label, give the label the width that it needs, up to 60 percent of the row.
     """
     kind = owner.bl_rna.properties[name]
-    if layout.use_property_split and kind.type != "BOOLEAN" and text_width(kind.name) > label_room(width_of(context)):
+    room = label_room(width_of(context), kind.type == "BOOLEAN")
+    if layout.use_property_split and text_width(kind.name) > room:
         layout = layout.row()
         layout.use_property_split = False
     if layout.use_property_split or kind.type in {"BOOLEAN", "FLOAT", "INT"}:  # Blender labels these
@@ -62,9 +65,11 @@ def text_width(text: str) -> float:
     return blf.dimensions(0, text)[0]
 
 
-def label_room(width: float) -> float:
-    """Return the width of the column of labels in a sidebar of this width, in pixels at interface scale 1."""
-    return LABELS * (width - BESIDE)
+def label_room(width: float, is_tick: bool = False) -> float:
+    """Return the width of the column of labels in a sidebar of this width, or what a tick box leaves of the column of
+    fields, in pixels at interface scale 1.
+    """
+    return (1 - LABELS) * (width - BESIDE) - TICK if is_tick else LABELS * (width - BESIDE)
 
 
 def draw_message(layout, context, text: str, icon: str = "INFO") -> None:
