@@ -123,8 +123,8 @@ ROOMS_WITHOUT_PRONOUNS = (
     *("core/annotations", "core/camera", "core/clouds", "core/errors", "core/exports", "core/faces", "core/lesson"),
     *("core/library", "core/materials", "core/maths", "core/motion", "core/report", "core/sets", "core/shaders"),
     *("core/programs", "core/text_forms", "core/web"),
-    *("blender/cycles", "blender/faces", "blender/output", "blender/presets", "blender/process", "blender/properties"),
-    *("blender/read", "blender/terminal", "blender/verification", "../../scripts"),
+    *("blender/cycles", "blender/engine", "blender/faces", "blender/output", "blender/presets", "blender/process"),
+    *("blender/properties", "blender/read", "blender/terminal", "blender/verification", "blender/view3d", "../../scripts"),
 )
 PRONOUNS = {*"one found own part place said told given rest it them what most more some which both".split()}  # noqa: SIM905
 DEFINITIONS = ast.FunctionDef | ast.ClassDef

@@ -41,7 +41,7 @@ def _missing(scene, layer, passes: Collection[RenderPass]) -> Iterator[str]:
 
 def _read(node, scene, layer: str) -> list[str]:
     """Return the names of the passes of a view layer that a node reads."""
-    used = [one.name for one in node.outputs if any(not link.is_muted for link in one.links)]
+    used = [output.name for output in node.outputs if any(not link.is_muted for link in output.links)]
     if node.type == "R_LAYERS" and node.scene == scene and node.layer == layer:
         return used
     if node.type == "CRYPTOMATTE_V2" and node.source == "RENDER" and node.scene == scene:

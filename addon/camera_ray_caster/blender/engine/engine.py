@@ -114,9 +114,9 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         except InputError as error:
             self.report({"ERROR"}, str(error) if bpy.app.background else in_labels(str(error)))
         except (MemoryError, RuntimeError, OSError) as error:
-            if not (said := exhausted(error)):
+            if not (problem := exhausted(error)):
                 raise
-            self.report({"ERROR"}, said)
+            self.report({"ERROR"}, problem)
         else:
             self.keep(report, depsgraph.view_layer_eval.name, source)
 
@@ -154,24 +154,24 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         self.doing = layer, f"Casting rays {view}".rstrip()
         self.update_stats(*self.doing)
         keys = [entry.key for entry in wanted]
-        given, made_by = {}, {"engine": self.bl_idname, "samples": depsgraph.scene_eval.camera_ray_caster.samples}
+        rendered, made_by = {}, {"engine": self.bl_idname, "samples": depsgraph.scene_eval.camera_ray_caster.samples}
         call = self.call or RenderCall()
         if call.picture is not None and "combined" in keys:
-            given, made_by = {"combined": call.picture.pixels[layer, view]}, call.picture.made_by
+            rendered, made_by = {"combined": call.picture.pixels[layer, view]}, call.picture.made_by
 
         def store(images: Images, rows: slice) -> None:
-            found = images | given
-            self.store({entry.label: (entry.key, found[entry.key]) for entry in wanted}, rows, layer, view)
+            pictures = images | rendered
+            self.store({entry.label: (entry.key, pictures[entry.key]) for entry in wanted}, rows, layer, view)
 
         def show(combined: np.ndarray, rows: slice, _: int) -> None:
             self.store({PASSES[0].label: ("combined", combined)}, rows, layer, view)
 
         images, report = run(
-            depsgraph, self.camera_override, [key for key in keys if key not in given], self.advance, store,
+            depsgraph, self.camera_override, [key for key in keys if key not in rendered], self.advance, store,
             call.spare.pop((layer, view), None), None if bpy.app.background else show,
             visit=partial(self.visit, depsgraph), view=view, eye=partial(self.eye, view=view),
         )  # fmt: skip
-        images |= given
+        images |= rendered
         if call.images is not None:
             call.images[layer, view] = images
         views = {}
@@ -194,8 +194,8 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
                 self.end_result(result, cancel=True)
                 raise Cancelled
             for label, (key, image) in passes.items():
-                found = result.layers[0].passes.find_by_name(label, view)
-                found.rect.foreach_set(stored(key, image[band]))
+                render_pass = result.layers[0].passes.find_by_name(label, view)
+                render_pass.rect.foreach_set(stored(key, image[band]))
             self.end_result(result)
 
     def visit(self, depsgraph, frame: float):

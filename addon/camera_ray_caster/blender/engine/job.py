@@ -70,26 +70,26 @@ class Job:
         started = perf_counter()
         eye = eye or partial(eye_record, view=view)
         scene_read = partial(scene_at, eye=eye, has_colors=not passes or has_colors(passes))
-        found = scene_read(camera_object, depsgraph)
+        record = scene_read(camera_object, depsgraph)
         read = perf_counter()
-        findings = findings_of_picture(found.camera, camera_object, depsgraph, view)
+        findings = findings_of_picture(record.camera, camera_object, depsgraph, view)
         verified = perf_counter()
         frame, layer = frame_of(scene), depsgraph.view_layer_eval.name
         several = sum(layer.use for layer in scene.view_layers) > 1
         settings = scene.camera_ray_caster
         shading, samples = settings.shading, settings.samples
-        if found.camera.pixel_time is not None or frames_of(passes):
+        if record.camera.pixel_time is not None or frames_of(passes):
             visit = visit or partial(go_to, depsgraph.scene)
             try:
-                found = with_other_frames(found, depsgraph, camera_object, frame, passes, visit, scene_read)
+                record = with_other_frames(record, depsgraph, camera_object, frame, passes, visit, scene_read)
             finally:
                 visit(frame)
         moved = perf_counter()
-        if clips := movie_clips.notes(scene, camera_object, found.camera.model.group):
-            found = replace(found, shapes=replace(found.shapes, notes=(*found.shapes.notes, *clips)))
+        if clips := movie_clips.notes(scene, camera_object, record.camera.model.group):
+            record = replace(record, shapes=replace(record.shapes, notes=(*record.shapes.notes, *clips)))
         return cls(
-            camera=found.camera,
-            shapes=found.shapes,
+            camera=record.camera,
+            shapes=record.shapes,
             passes=passes,
             shading=shading,
             samples=samples,
@@ -97,7 +97,7 @@ class Job:
             seconds={"read": read - started + moved - verified, "verify": verified - read},
             frame=frame,
             layer=layer,
-            stored=found.camera.raster.picture_size[::-1],
+            stored=record.camera.raster.picture_size[::-1],
             host={
                 "blender": bpy.app.version_string,
                 "meters": meters_of(scene),

@@ -28,20 +28,20 @@ _drawn: list[tuple[Camera, dict]] = []
 """The camera of the latest drawing, and its batches."""
 
 
-def parts_of_paths(camera: Camera, one: Lesson) -> Iterator[tuple[str, np.ndarray, tuple, float]]:
+def parts_of_paths(camera: Camera, steps: Lesson) -> Iterator[tuple[str, np.ndarray, tuple, float]]:
     """Yield (kind of shader, points, color, width) of a pixel's chief ray and fan from the film through a real lens;
     rays that pass go on to where the chief ray ends.
     """
     if not isinstance(camera.model, RealLens):
         return
-    x, y = (place + 0.5 for place in one.seen.pixel)
+    x, y = (coordinate + 0.5 for coordinate in steps.seen.pixel)
     for path, color, width in (*((path, FAN, 1.0) for path in fan_of(camera.model, x, y)),
                                (chief_path(camera.model, x, y), CHIEF, 2.5)):  # fmt: skip
         points = path.points
         if path.direction is None:
             color = STOPPED
-        elif np.isfinite(one.seen.distance):
-            points = np.concatenate((points, [points[-1] + one.seen.distance * path.direction]))
+        elif np.isfinite(steps.seen.distance):
+            points = np.concatenate((points, [points[-1] + steps.seen.distance * path.direction]))
         line = in_world(camera, points)
         yield "POLYLINE", np.stack((line[:-1], line[1:]), axis=1), color, width
 

@@ -66,13 +66,13 @@ def draw() -> None:
     context = bpy.context
     if not (clicked.pixels and context.space_data.overlay.show_overlays) or picture_frame(context) is not None:
         return
-    found, scale = lessons(context), context.preferences.system.ui_scale
-    size = context.scene.camera.data.display_size if found else 0.0
+    explained, scale = lessons(context), context.preferences.system.ui_scale
+    size = context.scene.camera.data.display_size if explained else 0.0
     gpu.state.blend_set("ALPHA")
     gpu.state.depth_test_set("NONE")
-    for one in found.values():
+    for steps in explained.values():
         camera = cached_scene(context).camera
-        for kind, points, color, width in (*parts_of_paths(camera, one), *_parts(camera, one, size)):
+        for kind, points, color, width in (*parts_of_paths(camera, steps), *_parts(camera, steps, size)):
             if np.isfinite(points).all():
                 draw_batch(batch_of(kind, points), kind, color, width * scale)
     gpu.state.blend_set("NONE")
@@ -83,30 +83,30 @@ def draw_glass() -> None:
     draw_lens(bpy.context, bool(clicked.pixels))
 
 
-def _parts(camera, one: Lesson, size: float):
+def _parts(camera, steps: Lesson, size: float):
     """Yield (kind of shader, points, color, width) of each part drawn for a pixel."""
-    yield "POLYLINE", pixel_outline(camera, size, *one.seen.pixel), RAY, WIDTH
-    origin, direction = one.seen.origin, one.seen.direction
-    end = one.seen.distance if np.isfinite(one.seen.distance) else FAR * size
+    yield "POLYLINE", pixel_outline(camera, size, *steps.seen.pixel), RAY, WIDTH
+    origin, direction = steps.seen.origin, steps.seen.direction
+    end = steps.seen.distance if np.isfinite(steps.seen.distance) else FAR * size
     yield "POLYLINE", [origin, origin + end * direction], RAY, WIDTH
-    others = [place.t for meeting in one.met for place in meeting.places if 0 <= place.t != end]
+    others = [crossing.t for meeting in steps.met for crossing in meeting.places if 0 <= crossing.t != end]
     if others:
         yield "POLYLINE", [origin + end * direction, origin + max(others) * direction], OTHERS, WIDTH / 2
         yield "POINT", [origin + t * direction for t in others], OTHERS, POINT * 0.75
-    if one.point is None:
+    if steps.point is None:
         yield "POINT", [origin + end * direction], RAY, POINT
     else:
-        yield "POLYLINE", [one.point, one.point + size * one.normal], NORMAL, WIDTH
-        yield "POINT", [one.point], SEEN, POINT
+        yield "POLYLINE", [steps.point, steps.point + size * steps.normal], NORMAL, WIDTH
+        yield "POINT", [steps.point], SEEN, POINT
 
 
-def draw_in_picture(context, frame, found) -> None:
+def draw_in_picture(context, frame, explained) -> None:
     """Draw the points and the normals of the pixels in a view through the camera, and nothing outside of its frame."""
     camera, scale = cached_scene(context).camera, context.preferences.system.ui_scale
     gpu.state.blend_set("ALPHA")
     with in_pixels(frame, camera.raster):
-        for one in found.values():
-            for kind, points, color, width in _parts(camera, one, context.scene.camera.data.display_size):
+        for steps in explained.values():
+            for kind, points, color, width in _parts(camera, steps, context.scene.camera.data.display_size):
                 if color not in (SEEN, NORMAL) or not np.isfinite(points).all():
                     continue  # a ray is a point in its camera's picture
                 shown = lines_in_picture(camera, points) if kind == "POLYLINE" else points_in_picture(camera, points)
@@ -132,22 +132,22 @@ def draw_held(*_) -> None:
 def _draw_marks(context, shown) -> None:
     """Draw a frame around each of some pixels in the picture of the context's region."""
     every = lessons(context) if shown and context.space_data.overlay.show_overlays else {}
-    found = {pixel: one for pixel, one in every.items() if pixel in shown}
-    if not found:
+    explained = {pixel: steps for pixel, steps in every.items() if pixel in shown}
+    if not explained:
         return
     frame = frame_in(context, cached_scene(context).camera.raster)
-    place = context.window_manager.camera_ray_caster_place
-    if place.lecture and clicked.pixels[-1] in found and (frame is not None or context.area.type == "VIEW_3D"):
-        write_step(context, found[clicked.pixels[-1]], place.step)
+    settings = context.window_manager.camera_ray_caster_place
+    if settings.lecture and clicked.pixels[-1] in explained and (frame is not None or context.area.type == "VIEW_3D"):
+        write_step(context, explained[clicked.pixels[-1]], settings.step)
     if frame is None:
         return
     raster, scale = cached_scene(context).camera.raster, context.preferences.system.ui_scale
     if context.area.type == "VIEW_3D":
-        draw_in_picture(context, frame, found)
+        draw_in_picture(context, frame, explained)
     corner, far = np.array(frame[:2]), np.array(frame[2:])
     side = (far - corner) / (raster.width, raster.height)
     blf.size(0, TEXT * scale)
-    for pixel in found:
+    for pixel in explained:
         middle, half = corner + (np.array(pixel) + 0.5) * side, np.maximum(side / 2, MARK * scale)
         x, y = np.transpose([middle - half, middle + half])
         square = batch_of("POLYLINE", np.stack((x[[0, 1, 1, 1, 1, 0, 0, 0]], y[[0, 0, 0, 1, 1, 1, 1, 0]]), axis=-1))

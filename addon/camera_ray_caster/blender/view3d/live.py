@@ -110,8 +110,8 @@ def _drawn(draw: Callable) -> None:
         _state["busy"] = False
 
 
-def _draw_changed(*given) -> None:
-    if draw_picture_anew(*given):
+def _draw_changed(*arguments) -> None:
+    if draw_picture_anew(*arguments):
         for draw_over in _state["over"]:
             draw_over()
         _later(settle, SETTLED)

@@ -68,7 +68,7 @@ def draw_picture(context, view: LiveView, camera: Camera, frame, is_anew: bool =
     lens = type(camera.model), repr(camera.settings), camera.raster.size, camera.pose.basis.tobytes(), view.camera[0][1]
     _draw_directions(camera, view, (lens, frame, context.region.width, context.region.height))
     draw_warp(
-        view.directions[1], [one.texture_color for one in view.buffers], view.faces[1],
+        view.directions[1], [buffer.texture_color for buffer in view.buffers], view.faces[1],
         turn_of(camera).T @ camera.pose.basis, _grounds(context), _inside(context, frame), is_anew,
     )  # fmt: skip
     _draw_frame(context, frame)
@@ -78,15 +78,15 @@ def draw_picture_anew(context, view: LiveView, camera: Camera, frame) -> bool:
     """Draw the faces of a region and its picture if something has changed; return whether it has."""
     region, (left, bottom, right, top) = context.region, frame
     x, y = camera.raster.width / (right - left), camera.raster.height / (top - bottom)
-    part = (
+    region_seen = (
         max(0.0, -left * x), max(0.0, -bottom * y), min(camera.raster.width, (region.width - left) * x),
         min(camera.raster.height, (region.height - bottom) * y),
     )  # fmt: skip
-    if not (part[0] < part[2] and part[1] < part[3]):
+    if not (region_seen[0] < region_seen[2] and region_seen[1] < region_seen[3]):
         return False
-    key = view.directions[0], part
+    key = view.directions[0], region_seen
     if view.faces[0] != key:
-        view.faces = key, faces_of(camera, min(x, y), LARGEST_FACE, part)
+        view.faces = key, faces_of(camera, min(x, y), LARGEST_FACE, region_seen)
         view.buffers = [gpu.types.GPUOffScreen(*face.size, format="RGBA8") for face in view.faces[1]]
         view.drawn = None
     seen = view.changes, camera.pose.eye.tobytes(), *_looks(context)
@@ -159,23 +159,23 @@ def _directions(camera: Camera, frame, width: int, height: int) -> np.ndarray:
     y = (np.arange(height) + 0.5 - bottom) / (top - bottom) * h
     columns, rows = np.flatnonzero(abs(2 * x / w - 1) <= 1), np.flatnonzero(abs(2 * y / h - 1) <= 1)
     rays = camera.rays_at(x[columns], y[rows, None])
-    found = np.zeros((height, width, 4), np.float32)
+    vectors = np.zeros((height, width, 4), np.float32)
     local = np.append(rays.directions @ np.linalg.inv(camera.pose.basis).T, np.ones((*rays.valid.shape, 1)), axis=-1)
-    found[np.ix_(rows, columns)] = np.where(rays.valid[..., None], local, 0.0)
-    return found
+    vectors[np.ix_(rows, columns)] = np.where(rays.valid[..., None], local, 0.0)
+    return vectors
 
 
 def _looks(context) -> tuple:
     """Return what of the window, besides evaluated data, the faces depend on."""
     space, scene, active = context.space_data, context.scene, context.view_layer.objects.active
-    own = [
-        tuple(getattr(part, prop.identifier)) if getattr(prop, "is_array", False) else getattr(part, prop.identifier)
-        for part in (space.shading, space.overlay) for prop in part.bl_rna.properties
+    settings = [
+        tuple(getattr(owner, prop.identifier)) if getattr(prop, "is_array", False) else getattr(owner, prop.identifier)
+        for owner in (space.shading, space.overlay) for prop in owner.bl_rna.properties
         if prop.type in ("BOOLEAN", "INT", "FLOAT", "ENUM")
     ]  # fmt: skip
     view = scene.view_settings
     return (
-        own, [item.as_pointer() for item in context.selected_objects], context.mode,
+        settings, [item.as_pointer() for item in context.selected_objects], context.mode,
         active and active.name_full, tuple(scene.cursor.location), scene.render.engine,
         space.local_view is not None, view.view_transform, view.exposure, view.gamma, view.look,
         [getattr(space, f"show_object_viewport_{kind}") for kind in ("mesh", "light", "camera", "empty", "curve")],
@@ -231,7 +231,7 @@ def _draw_frame(context, frame) -> None:
         return
     left, bottom, right, top = frame
     corners = [(left, bottom), (right, bottom), (right, top), (left, top)]
-    lines = [(corners[place], corners[(place + 1) % 4]) for place in range(4)]
+    lines = [(corners[k], corners[(k + 1) % 4]) for k in range(4)]
     color = (*context.preferences.themes[0].view_3d.wire[:3], 1.0)
     with gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
         gpu.matrix.load_identity()

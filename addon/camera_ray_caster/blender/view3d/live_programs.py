@@ -105,8 +105,8 @@ def _warp_program():
     info.typedef_source(FACES)
     info.uniform_buf(0, "Faces", "faces")
     info.push_constant("BOOL", "srgbTarget")
-    for place in range(MOST_FACES):
-        info.sampler(place, "FLOAT_2D", f"face_{place}")
+    for k in range(MOST_FACES):
+        info.sampler(k, "FLOAT_2D", f"face_{k}")
     info.sampler(MOST_FACES, "FLOAT_2D", "directions")
     info.fragment_source(WARP)
     return _made(info)
@@ -162,11 +162,11 @@ def draw_warp(
     right, top of what is shown, in pixels. is_only_inside: whether nothing is drawn around that.
     """
     values = np.zeros((33, 4), np.float32)
-    for place, face in enumerate(faces):
+    for k, face in enumerate(faces):
         left, right, bottom, top = face.window
-        values[3 * place : 3 * place + 3, :3] = face.axes @ basis
-        values[18 + place] = left, bottom, right, top
-        values[27 + place, :2] = (right - left) / face.size[0], (top - bottom) / face.size[1]
+        values[3 * k : 3 * k + 3, :3] = face.axes @ basis
+        values[18 + k] = left, bottom, right, top
+        values[27 + k, :2] = (right - left) / face.size[0], (top - bottom) / face.size[1]
     values[24], values[25], values[26] = (*colors[0], len(faces)), (*colors[1], float(is_only_inside)), inside
     shader, batch = _warp_program()
     gpu.state.blend_set("NONE")
@@ -174,7 +174,7 @@ def draw_warp(
     shader.bind()
     block = _buffer(values)  # alive until it is drawn
     shader.uniform_block("faces", block)
-    for place in range(MOST_FACES):
-        shader.uniform_sampler(f"face_{place}", textures[place] if place < len(textures) else directions)
+    for k in range(MOST_FACES):
+        shader.uniform_sampler(f"face_{k}", textures[k] if k < len(textures) else directions)
     shader.uniform_sampler("directions", directions)
     batch.draw(shader)

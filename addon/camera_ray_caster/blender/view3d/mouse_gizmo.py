@@ -39,8 +39,8 @@ class RayUnderMouse(bpy.types.Gizmo):
         if not (0 <= x < 1 and 0 <= y < 1):
             return
         raster = scene.camera.raster
-        found = probe(scene.camera, scene.shapes, int(x * raster.width), int(y * raster.height))
-        _write(context, self.mouse, _lines(context, found))
+        seen = probe(scene.camera, scene.shapes, int(x * raster.width), int(y * raster.height))
+        _write(context, self.mouse, _lines(context, seen))
 
 
 class RayUnderMouseGroup(bpy.types.GizmoGroup):
@@ -64,30 +64,30 @@ class RayUnderMouseGroup(bpy.types.GizmoGroup):
         self.gizmos.new(RayUnderMouse.bl_idname)
 
 
-def _lines(context, found: Probe) -> list[tuple[str, str]]:
+def _lines(context, seen: Probe) -> list[tuple[str, str]]:
     lines = [
-        ("Pixel", f"{found.pixel[0]}, {found.pixel[1]} from the bottom left"),
-        ("View", f"{found.view[0]:z.4f}, {found.view[1]:z.4f}"),
+        ("Pixel", f"{seen.pixel[0]}, {seen.pixel[1]} from the bottom left"),
+        ("View", f"{seen.view[0]:z.4f}, {seen.view[1]:z.4f}"),
     ]
-    if math.isnan(found.direction[0]):
+    if math.isnan(seen.direction[0]):
         return [*lines, ("Ray", "none: the camera sees nothing here")]
-    lines.append(("Direction", ", ".join(f"{component:z.4f}" for component in found.direction)))
-    if math.isinf(found.distance):
+    lines.append(("Direction", ", ".join(f"{component:z.4f}" for component in seen.direction)))
+    if math.isinf(seen.distance):
         return [*lines, ("Hit", "nothing")]
-    return [*lines, ("Hit", found.name), ("Distance", length(context, found.distance))]
+    return [*lines, ("Hit", seen.name), ("Distance", length(context, seen.distance))]
 
 
 def _write(context, mouse, lines) -> None:
     """Write lines next to the mouse, on the side where they fit, and not past the left edge."""
     margin, (left, right) = TEXT_DISTANCE * context.preferences.system.ui_scale, text.uncovered(context)
 
-    def place(width, height):
+    def corner(width, height):
         x = mouse[0] + 2 * margin
         if x + width + margin > right:
             x = max(mouse[0] - 2 * margin - width, left + margin)
         return x, max(mouse[1] - margin, height + margin)
 
-    text.write(context, lines, place)
+    text.write(context, lines, corner)
 
 
 CLASSES = (RayUnderMouse, RayUnderMouseGroup)

@@ -27,7 +27,9 @@ def draw() -> None:
     sentences = list(_sentences(context))
     if sentences:
         margin, (left, right) = EDGE_DISTANCE * context.preferences.system.ui_scale, text.uncovered(context)
-        lines = [("", line) for one in sentences for line in text.wrapped(context, one, right - left - 2 * margin)]
+        lines = [
+            ("", line) for sentence in sentences for line in text.wrapped(context, sentence, right - left - 2 * margin)
+        ]
         text.write(context, lines, lambda width, height: ((left + right - width) / 2, height + margin))
 
 

@@ -130,10 +130,10 @@ def _name_axes(context, camera) -> None:
     blf.enable(0, blf.SHADOW)
     blf.shadow(0, 5, 0.0, 0.0, 0.0, 1.0)
     for name, way, color in zip("euvw", (0 * u, u, v, -z), ((1.0, 1.0, 1.0, 1.0), *AXES), strict=True):
-        place = location_3d_to_region_2d(context.region, context.region_data, eye + size * way)
-        if place is not None:
+        position = location_3d_to_region_2d(context.region, context.region_data, eye + size * way)
+        if position is not None:
             blf.color(0, *color)
-            blf.position(0, place.x + TEXT / 3, place.y + TEXT / 3, 0)
+            blf.position(0, position.x + TEXT / 3, position.y + TEXT / 3, 0)
             blf.draw(0, name)
     blf.disable(0, blf.SHADOW)
 

@@ -88,9 +88,11 @@ def _batch(scene: CachedScene, by: str, seconds: float | None):
             _drawn[:] = [(scene, None), ((), None)]
     cloud = _drawn[0][1]
     if cloud is not None and _drawn[1][0] != (by, seconds):
-        some = points_by_now(cloud, camera, seconds)
-        content = {"pos": cloud.world[some].astype(np.float32), "color": colors_of(cloud, by)[some]}
-        batch = batch_for_shader(gpu.shader.from_builtin("POINT_FLAT_COLOR"), "POINTS", content) if some.any() else None
+        is_seen = points_by_now(cloud, camera, seconds)
+        content = {"pos": cloud.world[is_seen].astype(np.float32), "color": colors_of(cloud, by)[is_seen]}
+        batch = (
+            batch_for_shader(gpu.shader.from_builtin("POINT_FLAT_COLOR"), "POINTS", content) if is_seen.any() else None
+        )
         _drawn[1] = (by, seconds), batch
     return _drawn[1][1]
 

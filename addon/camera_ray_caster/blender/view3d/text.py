@@ -17,7 +17,7 @@ SIZE = 12
 def write(
     context,
     lines: Sequence[tuple[str, str]],
-    place: Callable[[float, float], tuple[float, float]],
+    corner_for: Callable[[float, float], tuple[float, float]],
     size: float | None = None,
     corner: tuple[float, float] | None = None,
 ) -> None:
@@ -30,7 +30,7 @@ def write(
     longest = max(_width(name) for name, _ in lines)
     names = longest + size if longest else 0.0
     width, step = names + max(_width(text) for _, text in lines), 1.5 * size
-    x, y = place(width, step * len(lines))
+    x, y = corner_for(width, step * len(lines))
     left, top = corner or (x - size, y + size / 2)
     _ground(left, x + width + size, y - step * len(lines) - size, top, 1.0 if corner else 0.78)
     for name, text in lines:
