@@ -124,7 +124,8 @@ ROOMS_WITHOUT_PRONOUNS = (
     *("core/library", "core/materials", "core/maths", "core/motion", "core/report", "core/sets", "core/shaders"),
     *("core/programs", "core/text_forms", "core/web"),
     *("blender/cycles", "blender/engine", "blender/faces", "blender/output", "blender/presets", "blender/process"),
-    *("blender/properties", "blender/read", "blender/terminal", "blender/verification", "blender/view3d", "../../scripts"),
+    *("blender/properties", "blender/read", "blender/terminal", "blender/verification"),
+    *("blender/view3d", "../../scripts"),
 )
 PRONOUNS = {*"one found own part place said told given rest it them what most more some which both".split()}  # noqa: SIM905
 DEFINITIONS = ast.FunctionDef | ast.ClassDef
