@@ -35,7 +35,8 @@ RESTORES = "the scene's render engine is Camera Ray Caster; See Through again re
 
 class SeeThrough(OfScene, bpy.types.Operator):
     """Look through the scene's camera, whatever its model, in the shading that the view has. A model whose rays have
-    many origins is shown in Rendered shading by the render engine Camera Ray Caster. Press again to restore the view"""
+    many origins, and pixels with times of their own, are shown in Rendered shading by the render engine Camera Ray
+    Caster. Press again to restore the view"""
 
     bl_idname = "camera_ray_caster.see_through"
     bl_label = "See Through Camera"
