@@ -2,6 +2,7 @@
 
 import pytest
 
+from camera_ray_caster.blender.ui import in_process
 from camera_ray_caster.blender.ui.cameras_list import SidebarCameras
 
 from .test_panels import drawn
@@ -20,7 +21,7 @@ def cameras(blender, camera_scene):
     return camera_scene
 
 
-def test_each_camera_is_listed_with_its_model(blender, cameras):
+def test_each_camera_is_listed_with_its_model(blender, cameras, monkeypatch):
     assert SidebarCameras.poll(blender.context)
     said = drawn(blender, SidebarCameras)
     for text in ("All around: Equirectangular", "Dome: Omnimax", "Plain: Perspective"):
@@ -28,6 +29,8 @@ def test_each_camera_is_listed_with_its_model(blender, cameras):
     blender.data.objects.remove(blender.data.objects["Plain"])
     blender.data.objects.remove(blender.data.objects["All around"])
     assert not SidebarCameras.poll(blender.context), "one camera needs no list"
+    monkeypatch.setattr(in_process, "_running", [object()])
+    assert SidebarCameras.poll(blender.context), "but a button that stops its run"
 
 
 def test_a_camera_is_made_active_and_seen_through(blender, cameras):
