@@ -35,7 +35,7 @@ def lens_of(random, name, model, terms):
     size = dict(zip(FRAME_SIZE, (640.0, 480.0), strict=True))
     if set(terms) == set(ANGLES):
         return Lens(name, model, size | dict(zip(ANGLES, (-pi, pi, -pi / 2, pi / 2), strict=True)))
-    numbers = random.uniform((300, 300, 310, 230), (400, 400, 330, 250))
+    numbers = random.uniform((300, 300, 310, 230), (400, 400, 330, 250)).tolist()
     matrix = dict(zip(("fx", "fy", "cx", "cy"), numbers, strict=True))
     return Lens(name, model, size | matrix | {term: random.uniform(0.001, 0.02) for term in terms})
 
