@@ -185,7 +185,7 @@ if not TYPE_CHECKING:  # a type checker sees the imports above, and nothing else
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return sorted({name for name in globals() if name.startswith("__")} | {*__all__})  # no imports in tab completion
 
 
 def register_model(model: type[Model]) -> None:

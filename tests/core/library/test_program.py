@@ -64,7 +64,7 @@ def test_the_import_is_quick_and_brings_neither_numpy_nor_blender():
 
 
 def test_every_name_is_there_with_its_help():
-    assert set(crc.__all__) <= set(dir(crc))
+    assert set(crc.__all__) == {name for name in dir(crc) if not name.startswith("_")}
     blenders = {"read_camera", "read_scene", "read_shapes", "verify"}
     for name in set(crc.__all__) - blenders:
         assert getattr(crc, name).__doc__, name
