@@ -79,6 +79,8 @@ class CameraPixelBounds:
         """See ``shapes.kind.PixelBounds``."""
         if self.is_planar:
             return -centers[:, 2] - radii
+        if self.camera.from_eye(self.sampled) and not self.camera.is_rigid:  # t has another scale in each direction
+            return np.full(len(radii), -np.inf)
         return np.sqrt((centers * centers).sum(axis=1)) - radii
 
     @property

@@ -41,7 +41,7 @@ class PixelBounds(Protocol):
         """Return bounds of the picture, (n, 4), as bounds in the columns and rows of the picture that the plan has."""
 
     def least_t(self, centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
-        """Return a lower bound, (n,), of t in each ball if t is depth, and else of the distance from the eye."""
+        """Return a lower bound, (n,), of t in each ball if t is depth, else of its distance; -inf for none."""
 
     @property
     def is_planar(self) -> bool:

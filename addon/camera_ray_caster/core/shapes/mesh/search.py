@@ -94,7 +94,7 @@ class MeshSet(ShapeSet):
         found.met = None if whole.met is None else []
         lattice = RayLattice.of(rays)
         reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
-        near = self._least_t(blocks.near.take(here), reach)
+        near = self._least_t(rays, reach, blocks.near.take(here))
         cast = partial(self._in_spans, lattice) if lattice else self._in_cells
         for batch in nearest_first(near, blocks.count[here], self.meshes.chunk):
             batch = batch.take(found.may_show(bounds.take(batch, axis=0), near.take(batch)))
@@ -104,7 +104,7 @@ class MeshSet(ShapeSet):
             triangles = self.meshes.triangles(some)
             inside, parts = in_tile(self._in_plan(triangles.bounds), rays.corner, rays.shape)
             triangles = triangles.only(inside, parts.astype(np.intp))  # their products may exceed the type of bounds
-            triangles = replace(triangles, near=self._least_t(triangles.near, reach))
+            triangles = replace(triangles, near=self._least_t(rays, reach, triangles.near))
             for slab in slabs(triangles, found.t.size):
                 slab = slab.take(found.may_show(triangles.bounds.take(slab, axis=0), triangles.near.take(slab)))
                 tested = triangles.only(slab)
@@ -128,9 +128,9 @@ class MeshSet(ShapeSet):
         at = at[None, None] if len(at) == 1 else at.take(of_pixel)[None]
         yield Candidates(at, corner, found.t[None], met[None])
 
-    def _least_t(self, near: np.ndarray, reach: Reach) -> np.ndarray:
+    def _least_t(self, rays: SearchRays, reach: Reach, near: np.ndarray) -> np.ndarray:
         """Return lower bounds of t, given those of ``PixelBounds.least_t``."""
-        if self.meshes.is_planar:
+        if self.meshes.is_planar or rays.origin is None:
             return near
         gap = near - BOUNDS_FACTOR * reach[1]
         return np.where(gap > 0, gap / (BOUNDS_FACTOR * reach[0]), -np.inf)
