@@ -97,6 +97,23 @@ def test_a_thin_lens_is_the_thin_lens():
     assert optics.widest_f_number == pytest.approx(5.0, rel=1e-6)
 
 
+@pytest.mark.parametrize("name", ["double_gauss_50mm", "telephoto_127mm", "retrofocus_22mm"])
+def test_a_nodal_slide_measures_the_focal_length(name):
+    """A lens that is turned a little about a point of its axis leaves the image of a star where it is, if that point is
+    the focal length before it: the rear nodal point. Where it is found, by rays of a narrow bundle.
+    """
+    optics, turn = Optics.of(read_lens(name)), 1e-4
+    film = optics.rear.z + optics.back_focus
+    side = np.array([-1.0, 1.0]) * 1e-3 * optics.focal_length
+    start = side - turn * optics.entrance_pupil[0], np.zeros(2)  # through the middle of the pupil
+    direction = np.full(2, np.sin(turn)), np.zeros(2), np.full(2, np.cos(turn))
+    (x, _, z), (dx, _, dz) = trace(optics.surfaces, (*start, np.zeros(2)), direction, to_film=True)
+    height = float((x + (film - z) * dx / dz).mean())
+    slid = height / np.tan(turn)  # the image, turned back about the point, is on the first axis again
+    assert slid == pytest.approx(optics.focal_length, rel=1e-5)
+    assert np.ptp(x + (film - z) * dx / dz) < 1e-4 * abs(side[0])
+
+
 def test_a_symmetric_lens_at_one_to_one_has_no_distortion():
     """W. Smith, Modern Optical Engineering: the halves' distortions cancel."""
     half = [Row(1 / 40, 4.0, 1.6, 15.0), Row(1 / 90, 5.0, 1.0, 12.0)]
