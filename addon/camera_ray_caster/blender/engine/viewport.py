@@ -35,7 +35,7 @@ from ..output.reports import left_out_count
 from ..properties.declared import SHADING
 from ..read import other_times
 from ..read.scene_cache import CachedScene, cached_scene
-from ..read.view import camera_frame
+from ..read.view import camera_frame, views_3d
 
 PIXEL_SIDES = (32, 8, 2, 1)
 """Side of a picture's pixel in pixels of the window, from coarse to fine."""
@@ -250,10 +250,8 @@ def redraw_if_finished() -> float | None:
     if finished or _news.is_set():
         _news.clear()
         _workers[:] = [worker for worker in _workers if worker not in finished]
-        for window in bpy.context.window_manager.windows:
-            for area in window.screen.areas:
-                if area.type == "VIEW_3D":
-                    area.tag_redraw()
+        for _, area in views_3d():
+            area.tag_redraw()
     return INTERVAL if _workers else None
 
 

@@ -26,6 +26,7 @@ from .evaluated import camera_at, scene_at
 from .frames import frame_of
 from .motion import keyed_frames
 from .physics import prepare
+from .view import views_3d
 
 PERIOD, SHORT, SETTLED = 0.2, 0.03, 0.3
 """Seconds between two looks, between two readings, and without a change before the first one."""
@@ -85,7 +86,7 @@ def sentences(scene, layer) -> Iterator[str]:
 
 def read_on() -> float | None:
     """Evaluate further frames if nothing changes; called by a timer while a view shows the camera's picture."""
-    window = next((window for window, area in _views() if _shows(area.spaces.active, window.scene)), None)
+    window = next((window for window, area in views_3d() if _shows(area.spaces.active, window.scene)), None)
     if window is None:
         forget()
         return None
@@ -96,7 +97,7 @@ def read_on() -> float | None:
         motion, reason = _known.motion, _known.reason
         _read(window)
         if _known.motion is not motion or _known.reason != reason:
-            for _, area in _views():
+            for _, area in views_3d():
                 area.tag_redraw()
         return PERIOD if _known.is_done or _known.reason else SHORT
     return PERIOD
@@ -161,14 +162,6 @@ def _evaluate(copy, layer: str, time) -> None:
 
 def _owners(scene, layer) -> tuple:
     return scene.as_pointer(), layer.as_pointer(), scene.camera and scene.camera.as_pointer()
-
-
-def _views() -> Iterator[tuple]:
-    """Yield each window and 3D View."""
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                yield window, area
 
 
 def _shows(space, scene) -> bool:

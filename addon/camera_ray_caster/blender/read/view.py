@@ -1,8 +1,19 @@
-"""Where a 3D View in camera view shows the camera's frame."""
+"""The 3D Views in the windows, and where one in camera view shows the camera's frame."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+import bpy
 from bpy_extras.view3d_utils import location_3d_to_region_2d
+
+
+def views_3d() -> Iterator[tuple]:
+    """Yield each window and area of a 3D View."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                yield window, area
 
 
 def camera_frame(context) -> tuple[float, float, float, float] | None:

@@ -18,6 +18,7 @@ import bpy
 from ...core.file_set import clear_up
 from ..properties.labels import in_labels
 from ..read.unique import unique_name
+from ..read.view import views_3d
 from .other_engine import show, show_later
 
 INTERVAL = 0.2
@@ -152,10 +153,8 @@ def tick() -> float | None:
 def tell(text: str) -> None:
     """Show a text in the status bar, and draw the sidebars again."""
     show(text)
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
+    for _, area in views_3d():
+        area.tag_redraw()
 
 
 def forget() -> None:

@@ -13,6 +13,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..properties.declared import ENGINE
+from ..read.view import views_3d
 from ..view3d import lesson, live, notice, overlay
 from ..view3d.live_picture import why_not
 from ..view3d.shown import can_show, is_live
@@ -139,12 +140,9 @@ def restore_engines(*_) -> None:
                     scene.render.engine = before
 
 
-def _every_view():
-    """Yield each window and 3D View."""
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                yield window, area.spaces.active
+def _every_view() -> list[tuple]:
+    """Return each window and 3D View."""
+    return [(window, area.spaces.active) for window, area in views_3d()]
 
 
 def _spaces():

@@ -12,7 +12,7 @@ from typing import Any
 import bpy
 from bpy.app.handlers import persistent
 
-from ..read.view import camera_frame
+from ..read.view import camera_frame, views_3d
 from .live_picture import LiveView, camera_of, draw_picture, draw_picture_anew, is_blenders
 from .live_programs import forget
 from .shown import can_show, is_live
@@ -127,10 +127,9 @@ def settle() -> None:
     spaces = {space.as_pointer() for screen in bpy.data.screens for area in screen.areas for space in area.spaces}
     for closed in _live.keys() - spaces:
         del _live[closed]
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D" and is_live(area.spaces.active):
-                area.tag_redraw()
+    for _, area in views_3d():
+        if is_live(area.spaces.active):
+            area.tag_redraw()
 
 
 def sentences(context) -> Iterator[str]:
