@@ -216,8 +216,10 @@ def lecture(user, scenes):
     lesson.clicked.choose([(150, 120)])
     yield from user.wait(0.7)
     off = user.cut(user.picture("lecture_off"), user.region("WINDOW"))
+    yield from user.find(f"{BUTTON}step_through(")  # above the switch, and the sides below that
+    row = user.known[f"{BUTTON}step_through("] - 2 * ROW
+    user.known |= {f"{BUTTON}ray_view(side='{side}'": row for side in SIDES}
     yield from look_from(user, "ABOVE")
-    row = user.known[f"{BUTTON}ray_view(side='ABOVE'"]
     yield from user.click(panel.x + panel.width // 3, row + ROW)
     assert place.lecture
     user.known |= {f"{BUTTON}ray_view(side='{side}'": row - ROW for side in SIDES}  # More Digits is above them
