@@ -51,7 +51,7 @@ def test_a_camera_model(copy):
             '''def mercator(scene):
     """Angles are kept: small shapes have their form wherever they are, and are larger towards the poles."""
     room(scene)
-    photograph(scene, MIDDLE, AHEAD, 400, 300, own={"model": "MERCATOR"})
+    photograph(scene, MIDDLE, AHEAD, 400, 300, addon={"model": "MERCATOR"})
 
 
 def little_planet(scene):''',
