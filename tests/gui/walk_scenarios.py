@@ -1,9 +1,12 @@
 """The walks of docs/tutorials/walks.md in a window, one scenario a function: see scenarios.py."""
 
 import bpy
+import numpy as np
+from all_scenarios import into
 from lesson_scenarios import place_of
 from parts import BUTTON, addon
-from stranger_scenarios import default_scene
+from stranger_scenarios import choose_model, default_scene
+from user import pixels_of
 from window_scenarios import middle
 
 MOVIE = 4
@@ -100,4 +103,56 @@ def drag_x_before_a_class(user, scenes):
     bpy.ops.camera_ray_caster.clear_steps()
 
 
-WALK_SCENARIOS = (slit_scan_movie, drag_x_before_a_class)
+def dome_movie(user, scenes):
+    """An artist: from the default cube, with a texture, to a dome-master movie that EEVEE renders."""
+    yield from default_scene(user)
+    scene, cube, view = bpy.context.scene, bpy.data.objects["Cube"], user.region("WINDOW")
+    image, nodes = bpy.data.images.new("Grid", 256, 256), cube.active_material.node_tree
+    image.generated_type = "COLOR_GRID"
+    texture = nodes.nodes.new("ShaderNodeTexImage")
+    texture.image = image
+    nodes.links.new(texture.outputs[0], nodes.nodes["Principled BSDF"].inputs["Base Color"])
+    for frame, turn in ((1, 0.0), (MOVIE, 3.0)):
+        cube.rotation_euler.z = turn
+        cube.keyframe_insert("rotation_euler", frame=frame)
+    scene.frame_set(1)
+    yield from choose_model(user, scene.camera.data.camera_ray_caster, "DOME_MASTER", "Dome Master")
+    user.picture("walk_dome_note")
+    scene.render.resolution_x = scene.render.resolution_y = 96
+    scene.camera.data.camera_ray_caster.tilt, scene.eevee.taa_render_samples = 1.2, 1
+    user.area().spaces.active.shading.color_type = "TEXTURE"
+    yield from user.press(f"{BUTTON}see_through(")
+    yield from user.wait(1)
+    user.picture("walk_dome_live")
+    yield from user.point(*middle(view))
+    yield from user.key("F3")
+    user.send("type", "render through model")
+    yield from user.wait(1)
+    user.picture("walk_dome_search")
+    yield from user.key("Return")
+    yield from user.until(lambda: any(area.type == "IMAGE_EDITOR" for area in user.window.screen.areas), "it is shown")
+    yield from user.wait(1)
+    user.picture("walk_dome_frame")
+    yield from user.point(*middle(user.area("IMAGE_EDITOR")))
+    yield from user.key("Escape")
+    yield from user.until(lambda: any(area.type == "VIEW_3D" for area in user.window.screen.areas), "the view is back")
+    scene.frame_end, run, folder = MOVIE, addon("ui.in_process"), user.folder / "dome"
+    folder.mkdir(exist_ok=True)
+    yield from user.point(*middle(view))
+    yield from user.key("F3")
+    user.send("type", "cast all")
+    yield from user.wait(1)
+    yield from user.key("Return")
+    yield from into(user, folder, engine="EEVEE")
+    made = f"Wrote {MOVIE} pictures into"
+    yield from user.until(lambda: run.latest().startswith(made), "the frames are made", 600)
+    frames = sorted(folder.glob("*.png"))
+    assert len(frames) == MOVIE
+    colors = pixels_of(bpy.data.images.load(str(frames[0])))
+    assert colors[..., 0].std() > 0.05  # a picture, and the color grid's three colors
+    assert np.abs(colors[..., 0] - colors[..., 2]).max() > 0.1
+    assert scene.render.engine == "BLENDER_EEVEE"
+    yield from user.press(f"{BUTTON}see_through(")
+
+
+WALK_SCENARIOS = (slit_scan_movie, drag_x_before_a_class, dome_movie)
