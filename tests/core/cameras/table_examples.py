@@ -78,7 +78,7 @@ FACTS = {
         ({"ray_directions": pinhole() * (1, -1, -1), "ray_axes": "OPENCV"}, (14, 16.5), (0, 0, 0),
          (0.8 * (7 / 24 - 1), 0.8 * (11 / 18 - 1), -1)),
         # without interpolation all of an entry's square has its ray
-        ({"ray_interpolation": "NONE"}, (12.5, 18), (0, 0, 0), (0.8 * (7 / 24 - 1), 0.8 * (11 / 18 - 1), -1)),
+        ({"ray_interpolation": "NONE"}, (12.5, 17.5), (0, 0, 0), (0.8 * (7 / 24 - 1), 0.8 * (11 / 18 - 1), -1)),
         # the left half of the frame alone has a table
         ({"ray_area": (0, 0, 0.5, 1)}, (7, 16.5), (0, 0, 0), (0.8 * (7 / 24 - 1), 0.8 * (11 / 18 - 1), -1)),
     ],
