@@ -48,7 +48,7 @@ def uses_tree(plan: Plan) -> bool:
     model, shapes, placed = plan.camera.model, plan.shapes, plan.target.placed
     if not model.differentiable:
         return not model.central
-    triangles = sum(len(shapes.meshes[mesh]) for mesh in shapes.mesh.tolist() if mesh >= 0)
+    triangles = sum(map(len, shapes.meshes))
     if not plan.request.cull or triangles + TRIANGLES_OF_SHAPE * len(shapes) < TRIANGLES:
         return False
     points = placed.center[np.isfinite(placed.radius)][:PROBES]
