@@ -32,4 +32,4 @@ def test_every_export_and_every_program_is_on_the_page_of_files():
     assert exports == {one.key for one in EXPORT_FORMATS}
     for program in PROGRAMS:
         assert f"| {program.name} | {program.files} | {program.reads} |" in page
-        assert not program.reads or program.name in READ
+        assert program.read is None or program.name in READ
