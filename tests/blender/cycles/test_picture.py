@@ -274,3 +274,10 @@ def test_a_picture_without_light_is_warned_of(scene, color):
     scene.render.resolution_x, scene.render.resolution_y, scene.cycles.samples = 12, 8, 1
     said = picture_of(scene).warnings
     assert [line.partition(":")[0] for line in said] == ([] if color else ["Cycles' picture is black"])
+
+
+def test_cycles_renders_again_afterwards(scene, render):
+    """Blender lost the engine's class with its subclass that renders our picture, and crashed."""
+    picture_of(scene)
+    scene.render.engine = "CYCLES"
+    assert any(channel.any() for name, channel in render().items() if "Combined" in name)

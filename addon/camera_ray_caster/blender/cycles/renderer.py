@@ -62,6 +62,8 @@ def cycles_engine(scene) -> Iterator[Render]:
         return dict(pictures)
 
     with ExitStack() as stack:
+        stack.callback(bpy.utils.register_class, CyclesRender)  # Blender loses it with its subclass, and would crash
+        stack.callback(bpy.utils.unregister_class, CyclesRender)
         bpy.utils.register_class(Pixels)
         stack.callback(bpy.utils.unregister_class, Pixels)
         only_engine(stack, scene)
