@@ -1,8 +1,4 @@
-"""The tests of beside_cycles.py, each kind in a process of its own.
-
-Blender 4.5 and 5.2 crash in a process that has rendered with Cycles and then with EEVEE, as Cycles renders again, which
-later tests of the same process do.
-"""
+"""The tests of beside_cycles.py, each kind in its own process: Cycles, EEVEE and Workbench render in turn."""
 
 import subprocess
 import sys
