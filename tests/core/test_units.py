@@ -11,7 +11,7 @@ import camera_ray_caster as crc
 from camera_ray_caster.core.clouds.formats import POINT_FORMATS as CLOUDS
 from camera_ray_caster.core.clouds.formats import files_of
 from camera_ray_caster.core.clouds.sequences import sequence
-from camera_ray_caster.core.exports import EXPORT_FORMATS, export
+from camera_ray_caster.core.exports import EXPORT_FORMATS, export_files
 from camera_ray_caster.core.exports.format import Shot
 from camera_ray_caster.core.exports.writing import write
 from camera_ray_caster.core.programs import PROGRAMS
@@ -45,13 +45,13 @@ def words(content):
 def test_cameras_come_back_at_any_unit_scale(tmp_path, chosen):
     for meters in SCALES:
         given = shots(meters)
-        files, remarks = export(chosen.key, given)
+        files, remarks = export_files(chosen.key, given)
         files = dict(files)
         assert any("Blender units" in line for line in remarks) == (
             chosen.unit is None and chosen.rigid and meters != 1
         )
         if chosen.unit is None and chosen.key != "json":  # json states the length of the unit
-            plain = dict(export(chosen.key, shots(1.0))[0])
+            plain = dict(export_files(chosen.key, shots(1.0))[0])
             assert {name: repr(words(one)) for name, one in files.items()} == {
                 name: repr(words(one)) for name, one in plain.items()
             }

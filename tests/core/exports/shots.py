@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from camera_ray_caster.core.exports import export
+from camera_ray_caster.core.exports import export_files
 from camera_ray_caster.core.exports.format import Shot
 from camera_ray_caster.core.exports.rigid import with_rotation
 
@@ -65,7 +65,7 @@ def pose(frame):
 
 def exported(key, name, folder, frames=FRAMES):
     """Export a camera into a folder, and return what was said."""
-    files, said = export(key, shots(name, frames))
+    files, said = export_files(key, shots(name, frames))
     for file, content in files:
         (folder / file).write_bytes(content if isinstance(content, bytes) else content.encode())
     return said

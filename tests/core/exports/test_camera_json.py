@@ -12,7 +12,7 @@ import camera_ray_caster as crc
 from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.camera.stereo import eye_record
 from camera_ray_caster.core.cameras import MODELS
-from camera_ray_caster.core.exports import export
+from camera_ray_caster.core.exports import export_files
 from camera_ray_caster.core.exports.format import Shot
 from camera_ray_caster.core.motion.evaluations import resolve
 from camera_ray_caster.core.records import no_shapes
@@ -106,7 +106,7 @@ def test_a_time_image_comes_back():
 
 def test_cameras_and_frames_are_found_and_what_they_share_is_said_once(tmp_path):
     shot = [*shots("radtan"), *shots("perspective", [1, 2.5])]
-    ((name, text),), said = (list(part) for part in export("json", shot))
+    ((name, text),), said = (list(part) for part in export_files("json", shot))
     path = tmp_path / name
     path.write_text(text)
     assert (name, said) == ("camera.json", [])
@@ -126,7 +126,7 @@ def test_the_zeros_of_a_matrix_keep_their_signs_and_what_is_no_number_stays_none
     matrix = [[1.0, -0.0, 0, 0], [0, 1, 0.0, -0.0], [-0.0, 0, 1, 0], [0, 0, 0, 1]]
     cameras = [camera("PERSP", LENS | {"use_dof": False, "aperture_ratio": math.nan, "matrix_world": one})
                for one in (matrix, np.eye(4).tolist())]  # fmt: skip
-    ((_, text),) = export("json", [Shot("Camera", frame, one) for frame, one in enumerate(cameras)])[0]
+    ((_, text),) = export_files("json", [Shot("Camera", frame, one) for frame, one in enumerate(cameras)])[0]
     json.loads(text, parse_constant=pytest.fail)
     for frame, one in enumerate(cameras):
         back = crc.camera_from_json(text, frame)

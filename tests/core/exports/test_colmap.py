@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.exports import export
+from camera_ray_caster.core.exports import export_files
 from camera_ray_caster.core.records import InputError
 
 from ..cameras.model_examples import camera
@@ -40,14 +40,14 @@ def test_what_colmap_cannot_say_is_refused_with_the_formats_that_can(name):
     with pytest.raises(
         InputError, match=rf"^COLMAP cannot represent the .* of camera 'Camera'.*{REFUSED[name]}.*: choose"
     ):
-        export("colmap", shots(name))
+        export_files("colmap", shots(name))
 
 
 def test_each_lens_of_each_camera_is_a_camera_of_colmaps(tmp_path):
     both = [*shots("radtan"), *shots("fisheye")]
     zooming = shots("perspective", [1, 2])
     longer = camera("PERSP", {"lens": 70.0} | MATRIX)
-    files = dict(export("colmap", [*both, zooming[0], type(zooming[0])("perspective", 2, longer)])[0])
+    files = dict(export_files("colmap", [*both, zooming[0], type(zooming[0])("perspective", 2, longer)])[0])
     for name, text in files.items():
         (tmp_path / name).write_text(text)
     cameras, images = colmap(read, str(tmp_path))
@@ -60,5 +60,5 @@ def test_the_whole_sphere_with_angles_as_blender_stores_them_is_exported():
     stored = {name: float(np.float32(angle)) for name, angle in turn.items()}
     size = {"resolution_x": 1024, "resolution_y": 512}
     (shot,) = shots("panorama", [1])
-    files = dict(export("colmap", [type(shot)("panorama", 1, camera("EQUIRECTANGULAR", size | stored))])[0])
+    files = dict(export_files("colmap", [type(shot)("panorama", 1, camera("EQUIRECTANGULAR", size | stored))])[0])
     assert "1 EQUIRECTANGULAR 1024 512" in files["cameras.txt"]

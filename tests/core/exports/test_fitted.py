@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 import camera_ray_caster as crc
-from camera_ray_caster.core.exports import EXPORT_FORMATS, export
+from camera_ray_caster.core.exports import EXPORT_FORMATS, export_files
 from camera_ray_caster.core.exports.of_program import ProgramFormat
 from camera_ray_caster.core.records import InputError
 
@@ -20,7 +20,7 @@ ERROR = re.compile(r"at most ([\d.e+-]+) and in the mean ([\d.e+-]+) pixels away
 
 
 def files(key, name, fit, frames=(1, 12)):
-    made, said = export(key, shots(name, frames), fit)
+    made, said = export_files(key, shots(name, frames), fit)
     return dict(made), said
 
 

@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.exports import export
+from camera_ray_caster.core.exports import export_files
 from camera_ray_caster.core.exports.format import Shot
 from camera_ray_caster.core.records import InputError
 
@@ -62,9 +62,10 @@ def test_opencv_sees_points_where_we_do(tmp_path, name):
 def test_what_opencv_cannot_represent_is_refused(name):
     able = "choose one of .*json.*(, or Fit Nearest Lens .--fit.)?$"
     with pytest.raises(InputError, match=rf"^OpenCV cannot represent the .*{REFUSED[name]}.*: {able}"):
-        export("opencv", shots(name))
+        export_files("opencv", shots(name))
 
 
 def test_a_lens_that_zooms_has_a_file_a_frame():
     zooming = [Shot("Zoom", frame, camera("PERSP", FRAME | {"lens": 30.0 + frame})) for frame in (1, 2, 3)]
-    assert [name for name, _ in export("opencv", zooming)[0]] == ["Zoom_0001.yml", "Zoom_0002.yml", "Zoom_0003.yml"]
+    files, _ = export_files("opencv", zooming)
+    assert [name for name, _ in files] == ["Zoom_0001.yml", "Zoom_0002.yml", "Zoom_0003.yml"]

@@ -6,7 +6,7 @@ from math import atan
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.exports import export
+from camera_ray_caster.core.exports import export_files
 from camera_ray_caster.core.exports.format import Shot
 from camera_ray_caster.core.exports.rigid import with_rotation
 from camera_ray_caster.core.programs.reading.mounted import mounted
@@ -17,7 +17,7 @@ from .shots import CAMERAS, FRAMES, pose, shots
 
 
 def written(key, given, folder):
-    files, _ = export(key, given)
+    files, _ = export_files(key, given)
     for name, content in files:
         (folder / name).write_text(content)
 
@@ -52,7 +52,7 @@ def test_a_rig_whose_cameras_move_is_no_camchain():
     other = [Shot("fov", frame, camera("FOV", CAMERAS["fov"][1] | {"matrix_world": pose(frame + 1)}))
              for frame in FRAMES]  # fmt: skip
     with pytest.raises(InputError, match=r"camera 'fov' changes .it moves beside 'unified'.: export one frame"):
-        list(export("kalibr", [*rig(), *other])[0])
+        list(export_files("kalibr", [*rig(), *other])[0])
 
 
 @pytest.mark.parametrize("key", ["tum", "euroc", "kitti"])
@@ -84,14 +84,14 @@ def test_nerfs_files_have_every_picture_once(tmp_path):
     assert camera_.lens.settings["fx"] == pytest.approx(given[0].camera.K[0, 0], rel=1e-14)
     assert parts["train"]["camera_angle_x"] == pytest.approx(2 * atan(18 / 50), rel=1e-7)
     with pytest.raises(InputError, match=r"NeRF cannot represent .* which camera_angle_x alone does not say"):
-        export("nerf", shots("shifted"))
+        export_files("nerf", shots("shifted"))
     zooming = [Shot("a", frame, camera("PERSP", {"lens": 30.0 + frame % 3})) for frame in range(1, 6)]
     with pytest.raises(InputError, match=r"^NeRF has one camera_angle_x, but 'a_000[25]' and 'a_0003' differ: export"):
-        list(export("nerf", zooming)[0])
+        list(export_files("nerf", zooming)[0])
 
 
 def test_maps_of_a_camera_that_stands_still_are_written_once():
     still = [Shot("a", frame, camera("OPENCV_FISHEYE", {"resolution_x": 16, "resolution_y": 12, "fx": 5.0, "fy": 5.0}))
              for frame in (1, 2, 3)]  # fmt: skip
-    assert [name for name, _ in export("stmap", still)[0]] == ["a_undistort.exr", "a_distort.exr"]
-    assert [name for name, _ in export("stmap", still[:1])[0]] == ["a_0001_undistort.exr", "a_0001_distort.exr"]
+    assert [name for name, _ in export_files("stmap", still)[0]] == ["a_undistort.exr", "a_distort.exr"]
+    assert [name for name, _ in export_files("stmap", still[:1])[0]] == ["a_0001_undistort.exr", "a_0001_distort.exr"]

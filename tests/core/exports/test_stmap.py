@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.exports import export
+from camera_ray_caster.core.exports import export_files
 from camera_ray_caster.core.exports.format import Shot
 from camera_ray_caster.core.exports.stmap import perspective_of
 from camera_ray_caster.core.records import InputError
@@ -28,7 +28,7 @@ PAIRS = {
 
 def maps(one, other, frame=7):
     shot = Shot("Lens", frame, camera(*one), target=None if other is None else camera(*other))
-    files, said = export("stmap", [shot])
+    files, said = export_files("stmap", [shot])
     return shot.camera, dict(files), said
 
 

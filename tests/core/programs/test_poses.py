@@ -6,7 +6,7 @@ import struct
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.exports import export
+from camera_ray_caster.core.exports import export_files
 from camera_ray_caster.core.exports.rigid import with_rotation
 from camera_ray_caster.core.programs.reading.mounted import mounted
 from camera_ray_caster.core.records import InputError
@@ -28,7 +28,7 @@ def read(path, rate=24.0, frame=(640, 480)):
 @pytest.mark.parametrize(("key", "name"), [*((key, "perspective") for key in FILES), ("colmap", "radtan")])
 def test_exported_poses_are_read_back(tmp_path, key, name):
     shot = shots(name)
-    files, _ = export(key, shot)
+    files, _ = export_files(key, shot)
     for file, content in files:
         (tmp_path / file).write_text(content)
     (camera,) = read(tmp_path / FILES[key])
@@ -42,7 +42,7 @@ def test_exported_poses_are_read_back(tmp_path, key, name):
 
 
 def test_images_bin_says_what_images_txt_says(tmp_path):
-    files, _ = export("colmap", shots("radtan"))
+    files, _ = export_files("colmap", shots("radtan"))
     for file, content in files:
         (tmp_path / file).write_text(content)
     (text,) = read(tmp_path / "images.txt")

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.exports import EXPORT_FORMATS, export
+from camera_ray_caster.core.exports import EXPORT_FORMATS, export_files
 from camera_ray_caster.core.exports.writing import write
 from camera_ray_caster.core.programs.reading.lenses import lenses_of
 from camera_ray_caster.core.records import InputError
@@ -61,16 +61,16 @@ def test_cameras_are_those_of_the_picture(made, key, tmp_path):
     shots = [one.shot for one in read_set(folder)]
     if key == "nerf":  # square pixels, the center in the middle
         with pytest.raises(InputError, match="camera_angle_x alone does not say"):
-            export(key, shots)
+            export_files(key, shots)
         return
     if key == "stmap":
-        for name, found in export(key, shots)[0]:
+        for name, found in export_files(key, shots)[0]:
             assert found.shape[1::-1] == size
             if "undistort" in name:  # to the perspective of the same lens: the picture's own places, from the bottom
                 assert np.allclose(found[0, :, 0], (np.arange(size[0]) + 0.5) / size[0], atol=1e-6)
                 assert np.allclose(found[:, 0, 1], (np.arange(size[1]) + 0.5) / size[1], atol=1e-6)
         return
-    paths = write(export(key, shots)[0], tmp_path / key)
+    paths = write(export_files(key, shots)[0], tmp_path / key)
     if key == "json":
         facts = json.loads(paths[0].read_text())["cameras"][0]["all_frames"]["camera"]
         seen = facts.get("picture", {"size": facts["raster"], "K": facts["K"]})

@@ -67,7 +67,7 @@ import sys
 from operator import attrgetter
 from pathlib import Path
 sys.path[:0] = [{addon!r}, {scripts!r}]
-from camera_ray_caster.core.exports import export
+from camera_ray_caster.core.exports import export_files
 from camera_ray_caster.core.exports.format import Each
 from camera_ray_caster.core.exports.writing import write
 from camera_ray_caster.core.sets import SET_FORMATS, read_set
@@ -81,7 +81,7 @@ for folder in map(Path, folders):  # the smaller one first
         points = {{"count": 200}} if key == "colmap-scene" else {{}}  # 10,000 in 6,400 pictures are 2 GB of text
         write(SET_FORMATS[key].files(read_set(folder), **points), Path(out) / folder.name)
     else:
-        write(export(key, Each(read_set(folder), attrgetter("shot")))[0], Path(out) / folder.name)
+        write(export_files(key, Each(read_set(folder), attrgetter("shot")))[0], Path(out) / folder.name)
     print(*(line for line in open("/proc/self/status") if line.startswith("VmHWM")))
 """
 

@@ -9,7 +9,7 @@ import pytest
 from camera_ray_caster.core.annotations.coco import Sheet, document
 from camera_ray_caster.core.camera.facts import camera_facts
 from camera_ray_caster.core.cast import cast
-from camera_ray_caster.core.exports import export
+from camera_ray_caster.core.exports import export_files
 from camera_ray_caster.core.exports.camera_json import recorded
 from camera_ray_caster.core.exports.writing import write
 from camera_ray_caster.core.records import PLANE, SPHERE, InputError
@@ -106,7 +106,7 @@ def test_trajectories_have_the_set_s_own_time(made):
             report = json.loads(path.read_text())
             report["host"] |= {} if rate is None else {"frame_rate": rate}
             path.write_text(json.dumps(report))
-        files, _ = export("tum", [one.shot for one in read_set(folder)])
+        files, _ = export_files("tum", [one.shot for one in read_set(folder)])
         lines = [line for _, text in files for line in text.splitlines() if not line.startswith("#")]
         assert [float(line.split()[0]) for line in lines] == pytest.approx(seconds, abs=1e-6)
 

@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ...core.exports import export, find_format, writing
+from ...core.exports import export_files, find_format, writing
 from ...core.exports.format import Shot
 from ...core.names import file_name, file_names
 from ...core.records import InputError
@@ -34,14 +34,14 @@ def write(
     and the paths of the files.
 
     In a stereo scene each rendered view of a camera is exported, with its suffix. ``target`` is the camera object to
-    which maps lead; ``fit``: see ``core.exports.export``; ``shown`` tells whether a camera is exported at a frame;
+    which maps lead; ``fit``: see ``core.exports.export_files``; ``shown``: whether a camera is exported at a frame;
     ``say`` is called with the frames that are read and the names of the files. The scene is restored afterwards. Raises
     InputError if a camera cannot be read or represented or the folder cannot be written, and Cancelled if stopped; then
     no files are left behind.
     """
     if target is not None and not find_format(key).takes_target:
         raise InputError(f"format {key} has no target camera: only maps have a target")
-    files, remarks = export(key, shots(scene, cameras, frames, target, own_sizes, shown, say), fit)
+    files, remarks = export_files(key, shots(scene, cameras, frames, target, own_sizes, shown, say), fit)
     return remarks, writing.write(_until_stopped(files, say), folder, _write_image)
 
 

@@ -9,7 +9,7 @@ from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
-from ...core.exports import EXPORT_FORMATS, export
+from ...core.exports import EXPORT_FORMATS, export_files
 from ...core.exports.format import Each
 from ...core.exports.writing import write
 from ...core.records import InputError, Shapes
@@ -141,7 +141,7 @@ def _of_set(options) -> int:
                 remarks = [RECAST]
         files = SET_FORMATS[options.format].files(views, **arguments)
     else:
-        files, remarks = export(options.format, Each(views, attrgetter("shot")), options.fit)
+        files, remarks = export_files(options.format, Each(views, attrgetter("shot")), options.fit)
     paths = write(files, options.output)
     _tell(remarks, paths, options.output)
     return 0

@@ -37,7 +37,7 @@ def find_format(key: str) -> Format:
     return formats[the_word(key, "format", formats)]
 
 
-def export(
+def export_files(
     key: str, shots: Sequence[Shot], fit: Any = None
 ) -> tuple[Iterator[tuple[str, Content]], list[str]]:
     """Return the files of an export, as an iterator over name and content, and lines of remarks for the user.
@@ -52,14 +52,14 @@ def export(
 
 
 def records(key: str, shots: Sequence[Shot]) -> list[CameraRecord]:
-    """Return the plain records of which the files of a program are written. Raises InputError as ``export`` does."""
+    """Return the plain records that a program's files are written from. Raises InputError as ``export_files`` does."""
     chosen, able, _, _ = _prepared(key, shots, None)
     assert isinstance(chosen, ProgramFormat)
     return chosen.records(able)
 
 
 def remarks(key: str, shots: Sequence[Shot]) -> str:
-    """Return the comments in the head of an export's files. Raises InputError as ``export`` does."""
+    """Return the comments in the head of an export's files. Raises InputError as ``export_files`` does."""
     return in_comments(_prepared(key, shots, None)[2])
 
 

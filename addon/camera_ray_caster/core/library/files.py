@@ -14,8 +14,7 @@ from ..arguments import P, R, deprecated, number, shown, spelled
 from ..arguments import folder as a_folder
 from ..camera.camera import Camera
 from ..camera.fit import region_of
-from ..exports import EXPORT_FORMATS, find_format
-from ..exports import export as files_of
+from ..exports import EXPORT_FORMATS, export_files, find_format
 from ..exports.format import Content, Shot
 from ..exports.writing import write
 from ..names import file_names
@@ -121,7 +120,7 @@ def export(
     shots = [Shot(names[camera.name], _frame(camera), camera, unit, target) for camera in cameras]
     if len({shot.stem for shot in shots}) < len(shots):
         raise InputError("two cameras have one name and one frame: give them names (name=) or frames (frame=)")
-    files, remarks = files_of(chosen.key, sorted(shots, key=lambda shot: shot.frame), region)
+    files, remarks = export_files(chosen.key, sorted(shots, key=lambda shot: shot.frame), region)
     return Exported(write(_named(files, name) if name else files, folder), remarks)
 
 
