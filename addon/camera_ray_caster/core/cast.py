@@ -132,10 +132,10 @@ def cast(
 
     def rounds() -> Iterator[list[tuple[range, Tile]]]:
         nonlocal write
-        for span, some in previews.rounds(work.tiles):
-            yield [(span, tile) for tile in some]
+        for span, tiles in previews.rounds(work.tiles):
+            yield [(span, tile) for tile in tiles]
             since = perf_counter()
-            previews.show(images, span, some)
+            previews.show(images, span, tiles)
             write += perf_counter() - since
 
     began = perf_counter()
@@ -165,13 +165,13 @@ class _Work:
         chief = replace(request, passes=tuple(name for name in request.passes if name not in sampled))
         self._requests = [(chief, 1)] if chief.passes or not sampled else []
         self._requests += [(replace(request, passes=sampled, sampled=True), samples)] if sampled else []
-        self.rays = sum(count for part, count in self._requests if part.passes)
+        self.rays = sum(count for wanted, count in self._requests if wanted.passes)
         """Number of rays per pixel."""
         self._plans: dict[Request, Plan] = {}
         self._search = search_for(self.plan) if time is None else nearest_hits
         if time is None:
-            for part, count in self._requests:
-                self._plans[part] = self.plan if count == 1 else make_plan(scene.camera, scene.shapes, part)
+            for wanted, count in self._requests:
+                self._plans[wanted] = self.plan if count == 1 else make_plan(scene.camera, scene.shapes, wanted)
             self.tiles = list(shares(self._plans[self._requests[-1][0]], threads, self._requests[-1][1]))
         elif self.by_beam:
             self.tiles = list(sweep_tiles(scene.camera.raster.shape))
@@ -191,10 +191,10 @@ class _Work:
             return cast_sweep(self._scene, tile, images, effort)
         seconds, then = np.zeros(len(TIMED_STEPS)), self._scene.at(tile.frame)
         with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
-            for part, _ in self._requests:
-                if part.passes and (part.sampled or is_last):
-                    plan = self._plans.get(part) or make_plan(then.camera, then.shapes, part)
-                    outs = {name: images[name] for name in part.passes}
-                    numbers = samples if part.sampled else None
+            for request, _ in self._requests:
+                if request.passes and (request.sampled or is_last):
+                    plan = self._plans.get(request) or make_plan(then.camera, then.shapes, request)
+                    outs = {name: images[name] for name in request.passes}
+                    numbers = samples if request.sampled else None
                     seconds += cast_tile(plan, self._search, tile, numbers, outs, scratch, effort, sums)
         return seconds

@@ -50,13 +50,13 @@ def is_before(plan: Plan, pixels: np.ndarray, points: np.ndarray, error: np.ndar
     misses the exact point by ``error`` and rounding. The surface on which a point lies is thus never in front of it,
     even if the ray grazes the surface.
     """
-    found = np.empty(len(points), np.int8)
+    before = np.empty(len(points), np.int8)
     with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
         for first in range(0, len(points), POINTS):
-            part = slice(first, first + POINTS)
-            aim = _Aim(plan, pixels[part], points[part], error[part])
-            found[part] = aim.answer()
-    return found
+            chunk = slice(first, first + POINTS)
+            aim = _Aim(plan, pixels[chunk], points[chunk], error[chunk])
+            before[chunk] = aim.answer()
+    return before
 
 
 class _Aim:
@@ -89,20 +89,20 @@ class _Aim:
         """Return the result of ``is_before`` for the points."""
         camera = self.plan.camera
         answer = np.zeros(len(self.t), np.int8)
-        for some, columns, rows, place in _lattices(self.pixels, camera.raster.size):
-            answer[some] = self._front(some, columns, rows, place) < self.t[some] - self.t_error[some]
+        for indices, columns, rows, cells in _lattices(self.pixels, camera.raster.size):
+            answer[indices] = self._front(indices, columns, rows, cells) < self.t[indices] - self.t_error[indices]
         answer[~((self.t >= camera.clip_start) & (self.t <= camera.clip_end))] = -1
         return answer
 
-    def _front(self, some: np.ndarray, columns: np.ndarray, rows: np.ndarray, place: tuple) -> np.ndarray:
+    def _front(self, indices: np.ndarray, columns: np.ndarray, rows: np.ndarray, cells: tuple) -> np.ndarray:
         """Return upper bounds of the t of the hits in front of points, (k,); inf where nothing is in front."""
         shape = len(rows), len(columns)
 
         def laid(values, empty=np.nan):
             values = np.broadcast_to(values, (*np.shape(values)[:-1], len(self.t)))
-            cells = np.full((*values.shape[:-1], *shape), empty)
-            cells[(..., *place)] = values[..., some]
-            return cells
+            lattice = np.full((*values.shape[:-1], *shape), empty)
+            lattice[(..., *cells)] = values[..., indices]
+            return lattice
 
         camera, plan = self.plan.camera, self.plan.at_pixels(columns, rows)
         from_eye = camera.from_eye(sampled=False)
@@ -119,10 +119,10 @@ class _Aim:
         front = np.full(shape, np.inf)
         values = HitValues(hits)
         for where, errors in values.by_kind(
-            lambda kind, own: HitErrors(plan.target.placed, kind, own, in_world.only(own.of), True)
+            lambda kind, pixels: HitErrors(plan.target.placed, kind, pixels, in_world.only(pixels.of), True)
         ):
             front[where] = errors.t + errors.t_error
-        return front[place]
+        return front[cells]
 
 
 def _whole(vector, count: int) -> np.ndarray:
@@ -135,22 +135,22 @@ def _lattices(pixels: np.ndarray, size: tuple[int, int]) -> Iterator[tuple]:
     (r,) of pixels, and the places of the points in the lattice, (k,) rows and columns. Each point has a place of its
     own: rows are repeated for points that share a pixel.
     """
-    column, row = (np.minimum(np.floor(part).astype(int), side - 1) for part, side in zip(pixels.T, size, strict=True))
+    column, row = (np.minimum(np.floor(x).astype(int), side - 1) for x, side in zip(pixels.T, size, strict=True))
     order = np.lexsort((column, row))
     is_new = np.append(True, (np.diff(column[order]) != 0) | (np.diff(row[order]) != 0))
     first = np.flatnonzero(is_new)
     layer = np.empty(len(order), int)
     layer[order] = np.arange(len(order)) - np.repeat(first, np.diff(np.append(first, len(order))))
     start, end = 0, LAYERS
-    while (some := np.flatnonzero((layer >= start) & (layer < end))).size:
-        columns, at_column = np.unique(column[some], return_inverse=True)
-        rows, at_row = np.unique(row[some], return_inverse=True)
+    while (indices := np.flatnonzero((layer >= start) & (layer < end))).size:
+        columns, at_column = np.unique(column[indices], return_inverse=True)
+        rows, at_row = np.unique(row[indices], return_inverse=True)
         repeats = np.zeros(len(rows), int)
-        np.maximum.at(repeats, at_row, layer[some] - start + 1)
+        np.maximum.at(repeats, at_row, layer[indices] - start + 1)
         begin = np.cumsum(repeats) - repeats
         band = begin // max(1, CELLS // len(columns))
         for low, high in pairwise([*np.unique(band, return_index=True)[1].tolist(), len(rows)]):
-            own = np.flatnonzero((at_row >= low) & (at_row < high))
-            place = begin[at_row[own]] - begin[low] + layer[some[own]] - start, at_column[own]
-            yield some[own], columns, np.repeat(rows[low:high], repeats[low:high]), place
+            in_band = np.flatnonzero((at_row >= low) & (at_row < high))
+            cells = begin[at_row[in_band]] - begin[low] + layer[indices[in_band]] - start, at_column[in_band]
+            yield indices[in_band], columns, np.repeat(rows[low:high], repeats[low:high]), cells
         start, end = end, 2 * end + LAYERS

@@ -29,20 +29,21 @@ def coincident(hits: Hits, met: list[Crossings]) -> tuple[np.ndarray, np.ndarray
     pixel, at, triangle, index = pixel[same], at[same], triangle[same], index[same]
     others = index != at
     seen = hits.known.get(MESH)
-    own = np.flatnonzero(~others & (triangle >= 0))
-    if own.size and seen is not None:
-        number = seen.number[seen.of_pixel.reshape(-1)[pixel[own]]]
-        others[own] = (number != triangle[own]) & ~_touch(hits.target.shapes, at[own], number, triangle[own])
+    on_mesh = np.flatnonzero(~others & (triangle >= 0))
+    if on_mesh.size and seen is not None:
+        number = seen.number[seen.of_pixel.reshape(-1)[pixel[on_mesh]]]
+        touching = _touch(hits.target.shapes, at[on_mesh], number, triangle[on_mesh])
+        others[on_mesh] = (number != triangle[on_mesh]) & ~touching
     return pixel[others], at[others]
 
 
 def _touch(shapes: Shapes, at: np.ndarray, first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """Return which pairs of triangles of some shapes share one or two vertices, (m,)."""
-    found = np.zeros(len(at), bool)
+    touching = np.zeros(len(at), bool)
     for row in np.unique(at).tolist():
-        some = np.flatnonzero(at == row)
+        pairs = np.flatnonzero(at == row)
         corners = shapes.meshes[shapes.mesh[row]].triangles
-        one, other = corners[:, first[some]], corners[:, second[some]]
-        shared = (one[:, None] == other[None]).any(axis=1).sum(axis=0)
-        found[some] = (shared > 0) & (shared < 3)
-    return found
+        first_corners, second_corners = corners[:, first[pairs]], corners[:, second[pairs]]
+        shared = (first_corners[:, None] == second_corners[None]).any(axis=1).sum(axis=0)
+        touching[pairs] = (shared > 0) & (shared < 3)
+    return touching

@@ -57,27 +57,27 @@ class Flow:
         self._last: tuple[Shapes, np.ndarray] | None = None
         self._known: tuple[np.ndarray, Moved] | None = None
 
-    def at(self, shapes: Shapes, some: np.ndarray) -> np.ndarray:
+    def at(self, shapes: Shapes, indices: np.ndarray) -> np.ndarray:
         """See ``pictures.MovingPoints``."""
-        return self._points[:, some].T + self._moved(shapes, some).by.T
+        return self._points[:, indices].T + self._moved(shapes, indices).by.T
 
-    def error(self, shapes: Shapes, some: np.ndarray) -> np.ndarray:
+    def error(self, shapes: Shapes, indices: np.ndarray) -> np.ndarray:
         """See ``pictures.MovingPoints``."""
-        moved, points = self._moved(shapes, some), self._points[:, some]
-        return self._own_error[some] * (1 + moved.spread) + moved.error + gamma(2) * (norm(points) + norm(moved.by))
+        moved, points = self._moved(shapes, indices), self._points[:, indices]
+        return self._own_error[indices] * (1 + moved.spread) + moved.error + gamma(2) * (norm(points) + norm(moved.by))
 
     @lazy
     def pixels(self) -> np.ndarray:
         """The pixel coordinates (m, 2) at which the points are seen."""
-        found = self._picture.pixels(self, len(self._at), self._own)
+        pixels = self._picture.pixels(self, len(self._at), self._own)
         camera, other = self._values.hits.rays.of_camera, self._picture.camera
         if camera.model.central or other.pixel_time is not None:
-            return found
+            return pixels
         back = camera.project(self._points.T)
         several = np.flatnonzero(~(np.abs(back - self._own).max(axis=1) <= 1.0))
         near = self._picture.pixels_from(self.at(self._picture.shapes, several), self._own[several])
-        found[several] = np.where(np.isnan(near), found[several], near)
-        return found
+        pixels[several] = np.where(np.isnan(near), pixels[several], near)
+        return pixels
 
     @lazy
     def _every(self) -> np.ndarray:
@@ -88,8 +88,8 @@ class Flow:
     def _own(self) -> np.ndarray:
         """The coordinates (m, 2) of the pixels themselves."""
         rays, shape = self._values.hits.rays, self._values.hits.t.shape
-        both = [np.broadcast_to(part, shape).reshape(-1)[self._place] for part in (rays.x, rays.y)]
-        return np.stack(both, axis=1)
+        coordinates = [np.broadcast_to(coordinate, shape).reshape(-1)[self._place] for coordinate in (rays.x, rays.y)]
+        return np.stack(coordinates, axis=1)
 
     def write(self, out: np.ndarray) -> None:
         """Write the flow, (rows, columns, 2)."""
@@ -113,25 +113,25 @@ class Flow:
         """The error bounds of the points where they are hit, (m,)."""
         return np.concatenate([np.zeros(0), *(errors.position for _, errors in self._values.errors)])
 
-    def _moved(self, shapes: Shapes, some: np.ndarray) -> Moved:
+    def _moved(self, shapes: Shapes, indices: np.ndarray) -> Moved:
         """Return how some of the points have moved; NaN if their shape is not in ``shapes``."""
         if self._last is None or self._last[0] is not shapes:
             self._last, self._known = (shapes, rows_in(self._values.target.shapes, shapes)), None
-        if self._picture.camera.pixel_time is None and some is not self._every:  # all are asked for first
+        if self._picture.camera.pixel_time is None and indices is not self._every:  # all are asked for first
             moved = self._moved(shapes, self._every)
-            return moved if len(some) == len(self._every) else Moved(*(values.take(some, axis=-1) for values in moved))
-        if self._known is None or self._known[0] is not some:  # ``at`` and ``error`` are called in turn
-            self._known = some, self._move(shapes, self._last[1], some)
+            return moved if len(indices) == len(self._every) else Moved(*(values.take(indices, -1) for values in moved))
+        if self._known is None or self._known[0] is not indices:  # ``at`` and ``error`` are called in turn
+            self._known = indices, self._move(shapes, self._last[1], indices)
         return self._known[1]
 
-    def _move(self, shapes: Shapes, rows: np.ndarray, some: np.ndarray) -> Moved:
-        is_there = rows[self._at[some]] >= 0
+    def _move(self, shapes: Shapes, rows: np.ndarray, indices: np.ndarray) -> Moved:
+        is_there = rows[self._at[indices]] >= 0
         if len(self._follow) == 1 and is_there.all():
-            return self._follow[0](shapes, rows, some)
-        moved = Moved(np.full((3, len(some)), np.nan), *np.full((2, len(some)), np.nan))
+            return self._follow[0](shapes, rows, indices)
+        moved = Moved(np.full((3, len(indices)), np.nan), *np.full((2, len(indices)), np.nan))
         for follow, first, end in zip(self._follow, self._ends, self._ends[1:], strict=False):
-            mine = np.flatnonzero(is_there & (some >= first) & (some < end))
+            mine = np.flatnonzero(is_there & (indices >= first) & (indices < end))
             if mine.size:
-                for values, new in zip(moved, follow(shapes, rows, some[mine] - first), strict=True):
+                for values, new in zip(moved, follow(shapes, rows, indices[mine] - first), strict=True):
                     values[..., mine] = new
         return moved

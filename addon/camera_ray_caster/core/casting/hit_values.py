@@ -138,11 +138,11 @@ class HitValues:
                 continue
             pixels = self.pixels(where)
             direction = None if faces_eye else pixels.of(self.direction)
-            own = normals(pixels, pixels.of(self.point), direction)
+            of_kind = normals(pixels, pixels.of(self.point), direction)
             if pixels.is_whole:
-                return np.reshape(own, normal.shape), ZERO
-            for component, part in zip(normal, own, strict=True):
-                component.reshape(-1)[pixels.places] = part
+                return np.reshape(of_kind, normal.shape), ZERO
+            for component, values in zip(normal, of_kind, strict=True):
+                component.reshape(-1)[pixels.places] = values
         return normal, ZERO
 
     @lazy
@@ -170,9 +170,9 @@ class HitValues:
         """
         cosine, spare = self.array("cosine"), self.array("spare")
         np.divide(inner(self.normal, self.direction, cosine, spare), self.length, out=cosine)
-        for where, own in self.by_kind(self._surface_cosine):
-            if own is not None:
-                cosine[where] = own
+        for where, of_surface in self.by_kind(self._surface_cosine):
+            if of_surface is not None:
+                cosine[where] = of_surface
         return np.abs(cosine, out=cosine)
 
     def _surface_cosine(self, kind: Kind, pixels: HitPixels) -> Any:
@@ -227,13 +227,13 @@ class HitValues:
         """The surfaces that are hit and have no plain color: each with the flat indices of its pixels, (k,), and their
         points.
         """
-        found, shapes = [], self.target.shapes
+        painted, shapes = [], self.target.shapes
         if shapes.surfaces:
             for kind, pixels in self._kinds:
                 places = KindPlaces(kind, self.target.placed, pixels, pixels.of(self.point))
-                for number, some in places.each_surface():
-                    found.append((shapes.surfaces[number], pixels.places[some], SurfacePlaces(places, some)))
-        return found
+                for number, indices in places.each_surface():
+                    painted.append((shapes.surfaces[number], pixels.places[indices], SurfacePlaces(places, indices)))
+        return painted
 
     @lazy
     def errors(self) -> list[tuple[np.ndarray, HitErrors]]:

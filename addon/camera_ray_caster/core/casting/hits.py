@@ -59,9 +59,9 @@ class Hits:
             return
         shapes, bounds = self.windows
         here, bounds = in_tile(bounds, self.rays.corner, self.rays.shape)
-        part, bounds = banded(bounds, tuning.BLOCK_PIXELS)
-        for at, own in zip(shapes[here[part]].tolist(), bounds.tolist(), strict=True):
-            window = widened(own, self.rays.shape[1])
+        band, bounds = banded(bounds, tuning.BLOCK_PIXELS)
+        for at, of_shape in zip(shapes[here[band]].tolist(), bounds.tolist(), strict=True):
+            window = widened(of_shape, self.rays.shape[1])
             layer = self._part(window, at)
             if layer.seen.any():
                 yield window, layer
@@ -69,9 +69,9 @@ class Hits:
     def _part(self, window: Window, shape: int | None = None) -> Hits:
         """Return the hits in a window, or there those of one shape."""
         first = self.window[0].start or 0
-        place = slice(first + window[0].start, first + window[0].stop), window[1]
+        whole = slice(first + window[0].start, first + window[0].stop), window[1]
         return replace(
-            self, rays=self.rays.within(window), t=self.t[window], index=self.index[window], window=place, shape=shape
+            self, rays=self.rays.within(window), t=self.t[window], index=self.index[window], window=whole, shape=shape
         )
 
     @lazy

@@ -33,10 +33,10 @@ class Images(dict[str, np.ndarray]):
         self.clear()
         self.update(kept)
 
-    def take(self, found: Mapping[str, np.ndarray]) -> None:
+    def take(self, images: Mapping[str, np.ndarray]) -> None:
         """Write passes into these arrays, and keep no others."""
-        self.keep(tuple(found))
-        for name, image in found.items():
+        self.keep(tuple(images))
+        for name, image in images.items():
             if image is not self[name]:
                 self[name][...] = image
 
@@ -55,20 +55,20 @@ def check_reusable(images: Images | None, passes: tuple[str, ...], shape: tuple[
     if not isinstance(images, Images):
         raise InputError(f"into is {shown(images)}: it must be the images that an earlier cast returned")
     for name in passes:
-        found, meant = images.get(name), PASSES[name]
+        image, meant = images.get(name), PASSES[name]
         whole = meant.shape(shape)
-        if not isinstance(found, np.ndarray):
+        if not isinstance(image, np.ndarray):
             raise InputError(f"into has no pass {name}: cast the same passes into it as before, or without into")
-        if found.shape != whole or found.dtype != (meant.dtype or dtype):
+        if image.shape != whole or image.dtype != (meant.dtype or dtype):
             needed = f"{whole} and {np.dtype(meant.dtype or dtype)}"
             raise InputError(
-                f"the pass {name} of into has the shape and type {found.shape} and {found.dtype}, and this cast needs "
+                f"the pass {name} of into has the shape and type {image.shape} and {image.dtype}, and this cast needs "
                 f"{needed}: cast without into"
             )
-        masked = isinstance(found, np.ma.MaskedArray)
-        if masked or not (found.flags.writeable and found.flags.c_contiguous):
-            what = "has a mask" if masked else "is not a writable, C-contiguous array"
-            raise InputError(f"the pass {name} of into {what}: cast without into")
-    for one, other in combinations(passes, 2):
-        if np.may_share_memory(images[one], images[other]):  # exact for contiguous arrays
-            raise InputError(f"the passes {one} and {other} of into share memory: cast without into")
+        masked = isinstance(image, np.ma.MaskedArray)
+        if masked or not (image.flags.writeable and image.flags.c_contiguous):
+            fault = "has a mask" if masked else "is not a writable, C-contiguous array"
+            raise InputError(f"the pass {name} of into {fault}: cast without into")
+    for first, second in combinations(passes, 2):
+        if np.may_share_memory(images[first], images[second]):  # exact for contiguous arrays
+            raise InputError(f"the passes {first} and {second} of into share memory: cast without into")

@@ -47,7 +47,7 @@ def frames_of(passes: Collection[str]) -> set[str]:
 
 def pictures(scene: Scene, passes: Collection[str]) -> dict[str, Picture]:
     """Return the pictures of other frames that passes need, by name. Raises InputError for one that was not read."""
-    found = {}
+    of_frames = {}
     for frame in sorted(frames_of(passes)):
         looking = [name for name in passes if frame in PASSES[name].frames]
         there: Scene | None = getattr(scene, frame)
@@ -57,7 +57,7 @@ def pictures(scene: Scene, passes: Collection[str]) -> dict[str, Picture]:
                 "with read_scene(scene, passes=...), or without Blender give it: "
                 f"crc.Scene(camera, shapes).with_timeline({frame}=...)"
             )
-        found[frame] = Picture(there.camera, there.shapes)
+        of_frames[frame] = Picture(there.camera, there.shapes)
         if any(PASSES[name].casts for name in looking):
-            found[frame].prepare()
-    return found
+            of_frames[frame].prepare()
+    return of_frames

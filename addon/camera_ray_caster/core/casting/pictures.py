@@ -26,10 +26,10 @@ PLANS = 16
 class MovingPoints(Protocol):
     """Points that may move with shapes."""
 
-    def at(self, shapes: Shapes, some: np.ndarray) -> np.ndarray:
-        """Return the points ``some``, indices (k,), at the moment of the shapes, (k, 3) world; NaN if missing."""
+    def at(self, shapes: Shapes, indices: np.ndarray) -> np.ndarray:
+        """Return the points of ``indices``, (k,), at the moment of the shapes, (k, 3) world; NaN if missing."""
 
-    def error(self, shapes: Shapes, some: np.ndarray) -> np.ndarray:
+    def error(self, shapes: Shapes, indices: np.ndarray) -> np.ndarray:
         """Return the error bounds of these points, (k,)."""
 
 
@@ -53,20 +53,20 @@ class Picture:
         """
         clock, motion = self.camera.pixel_time, self.camera.timeline.motion
         if clock is None:
-            found = self._project(points, None, np.arange(count))
+            seen_at = self._project(points, None, np.arange(count))
         else:
             around = float(np.mean(clock.frame_at(*beside.T))) if beside is not None and count else None
             cuts = () if motion is None else motion.cuts
-            found = meeting(clock, partial(self._project, points), count, cuts, around)
-        return np.where(self._is_inside(found)[:, None], found, np.nan)
+            seen_at = meeting(clock, partial(self._project, points), count, cuts, around)
+        return np.where(self._is_inside(seen_at)[:, None], seen_at, np.nan)
 
     def pixels_from(self, points: np.ndarray, start: np.ndarray) -> np.ndarray:
         """Return the pixel coordinates (n, 2) of world points (n, 3) that a search from the pixels ``start`` (n, 2)
         finds; NaN if it finds none in the full frame. For cameras that see a point more than once.
         """
         pose, model = self.camera.pose, self.camera.model
-        found = pixels_of(model.rays, model.frame, (points - pose.eye) @ inverse(pose.basis).T, start)
-        return np.where(self._is_inside(found)[:, None], found, np.nan)
+        seen_at = pixels_of(model.rays, model.frame, (points - pose.eye) @ inverse(pose.basis).T, start)
+        return np.where(self._is_inside(seen_at)[:, None], seen_at, np.nan)
 
     def before(self, points: MovingPoints, pixels: np.ndarray) -> np.ndarray:
         """Return whether something is in front of points seen at pixels (n, 2), as numbers of ``aimed.is_before``; -1
@@ -74,12 +74,13 @@ class Picture:
         """
         answer = np.full(len(pixels), -1, np.int8)
         seen = np.flatnonzero(~np.isnan(pixels[:, 0]))
-        for frame, some in self._moments(pixels, seen):
+        for frame, indices in self._moments(pixels, seen):
             _, shapes = self._moment(frame)
-            then = pixels[some] if frame is None else self._project(points, frame, some)
+            then = pixels[indices] if frame is None else self._project(points, frame, indices)
             inside = self._is_inside(then)
-            some, then = some[inside], then[inside]
-            answer[some] = is_before(self._plan(frame), then, points.at(shapes, some), points.error(shapes, some))
+            indices, then = indices[inside], then[inside]
+            places, error = points.at(shapes, indices), points.error(shapes, indices)
+            answer[indices] = is_before(self._plan(frame), then, places, error)
         return answer
 
     def _moments(self, pixels: np.ndarray, seen: np.ndarray) -> Iterator[tuple[float | None, np.ndarray]]:
@@ -92,9 +93,9 @@ class Picture:
         for frame in np.unique(times).tolist():
             yield frame, seen[times == frame]
 
-    def _project(self, points: MovingPoints, frame: float | None, some: np.ndarray) -> np.ndarray:
+    def _project(self, points: MovingPoints, frame: float | None, indices: np.ndarray) -> np.ndarray:
         camera, shapes = self._moment(frame)
-        return camera.project(points.at(shapes, some))
+        return camera.project(points.at(shapes, indices))
 
     def _is_inside(self, pixels: np.ndarray) -> np.ndarray:
         with np.errstate(invalid="ignore"):  # False for NaN
@@ -104,18 +105,18 @@ class Picture:
         """Return camera and shapes at a frame; ``frame`` is None for a picture with one time."""
         if frame is None:
             return self.camera, self.shapes
-        most = max(16, SHAPES // max(len(self.shapes), 1))
-        return _kept(self._states, frame, most, lambda: (self.camera.at(frame), self.shapes.at(frame)))
+        limit = max(16, SHAPES // max(len(self.shapes), 1))
+        return _kept(self._states, frame, limit, lambda: (self.camera.at(frame), self.shapes.at(frame)))
 
     def _plan(self, frame: float | None) -> Plan:
         return _kept(self._plans, frame, PLANS, lambda: aiming_plan(*self._moment(frame)))
 
 
-def _kept(known: dict, key: Any, most: int, make: Callable[[], Any]) -> Any:
-    """Return the cached value of a key, made if it is missing; only the newest ``most`` values are kept."""
-    found = known.get(key)
-    if found is None:
-        found = known[key] = make()
-        for old in list(known)[:-most]:
+def _kept(known: dict, key: Any, limit: int, make: Callable[[], Any]) -> Any:
+    """Return the cached value of a key, made if it is missing; only the newest ``limit`` values are kept."""
+    value = known.get(key)
+    if value is None:
+        value = known[key] = make()
+        for old in list(known)[:-limit]:
             known.pop(old, None)
-    return found
+    return value

@@ -67,13 +67,13 @@ class CameraPixelBounds:
         """See ``shapes.kind.PixelBounds``."""
         if self.columns is None or self.rows is None:
             return bounds
-        found = np.empty_like(bounds)
+        in_plan = np.empty_like(bounds)
         sides = zip((self.columns, self.rows), self.camera.raster.shape[::-1], strict=True)
         for k, (places, side) in enumerate(sides):
-            before = np.searchsorted(places, np.arange(side + 1)).astype(found.dtype)  # a table: bounds are many
+            before = np.searchsorted(places, np.arange(side + 1)).astype(in_plan.dtype)  # a table: bounds are many
             for column in (2 * k, 2 * k + 1):
-                found[:, column] = taken(before, bounds[:, column])
-        return found
+                in_plan[:, column] = taken(before, bounds[:, column])
+        return in_plan
 
     def least_t(self, centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
         """See ``shapes.kind.PixelBounds``."""
@@ -108,9 +108,9 @@ class CameraPixelBounds:
         raster = self.camera.raster
         away = margin + (SAMPLE_MARGIN if self.sampled else 0.0) + 0.5  # pixel centers, not pixels
         sides = (raster.x0, raster.shape[1]), (raster.y0, raster.shape[0])
-        for k, place in enumerate(frame):
+        for k, bound in enumerate(frame):
             corner, size = sides[k // 2]
-            edge = np.floor(place + away) if k % 2 else np.ceil(place - away)
+            edge = np.floor(bound + away) if k % 2 else np.ceil(bound - away)
             edge -= corner
             out[:, k] = np.clip(edge, 0, size, out=edge)
         out[...] = self.within(out)

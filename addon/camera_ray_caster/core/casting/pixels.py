@@ -32,22 +32,22 @@ def hits_at(
     ``SearchRays``; ``listen``: see ``nearest_hits``.
     """
     raster, camera = plan.camera.raster, plan.camera
-    own = plan.at_pixels(columns - raster.x0, rows - raster.y0)
+    of_lattice = plan.at_pixels(columns - raster.x0, rows - raster.y0)
     with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
         rays = chief_rays(camera, columns[None, :] + 0.5, rows[:, None] + 0.5, (0, 0), Scratch())
-        return nearest_hits(own, rays, listen, met=met)
+        return nearest_hits(of_lattice, rays, listen, met=met)
 
 
 def is_hit(plan: Plan, scratch: Scratch) -> np.ndarray:
     """Return whether the chief ray of each pixel of a plan hits something, (rows, columns) bool, in this thread."""
     raster = plan.camera.raster
-    found, columns, rows = np.empty(raster.shape, bool), raster.columns(), raster.rows()
+    is_seen, columns, rows = np.empty(raster.shape, bool), raster.columns(), raster.rows()
     with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
         for tile in shares(plan, threads=1):
-            place = columns[:, tile.columns], rows[tile.rows], (tile.columns.start, tile.rows.start)
-            hits = nearest_hits(plan, chief_rays(plan.camera, *place, scratch))
-            found[tile.rows, tile.columns] = hits.seen
-    return found
+            centers = columns[:, tile.columns], rows[tile.rows], (tile.columns.start, tile.rows.start)
+            hits = nearest_hits(plan, chief_rays(plan.camera, *centers, scratch))
+            is_seen[tile.rows, tile.columns] = hits.seen
+    return is_seen
 
 
 def passes_at(

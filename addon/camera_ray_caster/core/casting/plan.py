@@ -62,11 +62,11 @@ class Plan:
     def set_of(self) -> dict[int, ShapeSet]:
         """The set of each kind, by the number of the kind."""
         sets = {}
-        for kind, some in kinds.by_kind(self.shapes.kind[self.seen]):
+        for kind, of_kind in kinds.by_kind(self.shapes.kind[self.seen]):
             visible = Visible(
-                at=self.seen[some],
-                bounds=self.bounds[some],
-                near=self.near[some],
+                at=self.seen[of_kind],
+                bounds=self.bounds[of_kind],
+                near=self.near[of_kind],
                 clip_start=self.camera.clip_start,
                 from_eye=self.camera.from_eye(self.request.sampled),
                 parallel=self.camera.parallel,
@@ -129,9 +129,9 @@ class Plan:
             lines.append(f"{self.unseen} of {len(self.shapes)} shapes: no pixel can see them")
         if len(self.beyond):
             names = [*dict.fromkeys(self.shapes.names[self.shapes.name_index[row]] for row in self.beyond)]
-            more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
+            unnamed = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
             ends = f"{self.camera.clip_start:g} to {self.camera.clip_end:g}"
-            lines.append(f"{', '.join(map(repr, names[:MOST_NAMED]))}{more}: beyond the clip range, {ends}")
+            lines.append(f"{', '.join(map(repr, names[:MOST_NAMED]))}{unnamed}: beyond the clip range, {ends}")
         there = {kind.number for kind, _ in kinds.by_kind(self.shapes.kind[self.seen])}
         missing = [kind.name for kind in kinds.SHAPE_KINDS if kind.number not in there]
         if missing:

@@ -63,8 +63,8 @@ class Previews:
         """Yield samples and tiles that are cast before a picture is shown."""
         ranks = {k: min((k & -k) or TIMES, TIMES) if self._is_cast.size else 1 for k in range(len(tiles))}
         for span in self.spans:
-            for _, some in groupby(sorted(ranks, key=lambda k: -ranks[k]), ranks.__getitem__):
-                yield span, [tiles[k] for k in some]
+            for _, of_rank in groupby(sorted(ranks, key=lambda k: -ranks[k]), ranks.__getitem__):
+                yield span, [tiles[k] for k in of_rank]
 
     def show(self, images: Mapping[str, np.ndarray], span: range, tiles: Sequence[Tile]) -> None:
         """Show the picture of the first samples, if more follow, or of the times that have been cast."""
@@ -107,13 +107,13 @@ class Previews:
         allowed = share * used / effort.expected(workers / 2) - self._spent
         if allowed < 4 * self._last:  # each picture has four times the pixels of the one before
             return
-        began = told = thread_time()
+        began = reported = thread_time()
 
         def listen() -> None:
-            nonlocal told
+            nonlocal reported
             now = thread_time()
-            if now - told > LISTEN and progress is not None:
-                told = now
+            if now - reported > LISTEN and progress is not None:
+                reported = now
                 if not progress(effort.fraction):
                     raise Cancelled
             if now - began > allowed:
@@ -125,8 +125,8 @@ class Previews:
             pass
         else:
             del self._steps[0]
-            for part in rows:
-                self._show(picture, part, 0)
+            for band in rows:
+                self._show(picture, band, 0)
         self._last = thread_time() - began
         self._spent += self._last
 

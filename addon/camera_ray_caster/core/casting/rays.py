@@ -57,7 +57,7 @@ class TileRays:
     def within(self, window: tuple[slice, slice]) -> TileRays:
         """Return the rays in a window, rows and columns."""
         rows, columns = window
-        origin, direction = (tuple(cut(part, window) for part in vector) for vector in (self.origin, self.direction))
+        origin, direction = (tuple(cut(c, window) for c in vector) for vector in (self.origin, self.direction))
         corner = self.corner[0] + (columns.start or 0), self.corner[1] + (rows.start or 0)
         return replace(self, x=self.x[:, columns], y=self.y[rows], corner=corner, origin=origin, direction=direction)
 

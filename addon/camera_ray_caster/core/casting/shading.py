@@ -45,7 +45,7 @@ def shade(values: HitValues, out: np.ndarray) -> None:
             if grid is not None:
                 np.multiply(light, grid, out=light)
             np.multiply(surface, light, out=surface)
-            paint(values, surface, lambda one: one.glow, channel, np.add)
+            paint(values, surface, lambda painted: painted.glow, channel, np.add)
         np.copyto(out[..., channel], surface, where=values.hits.where, casting="same_kind")
 
 
@@ -54,7 +54,7 @@ def sky(values: HitValues, out: np.ndarray) -> None:
     write_where(out, values.target.shapes.world_color, values.hits.missed)
     if values.target.shapes.background is not None and values.hits.missed is not None:
         places = np.nonzero(values.hits.missed)
-        direction = [np.broadcast_to(part, values.hits.missed.shape)[places] for part in values.direction]
+        direction = [np.broadcast_to(component, values.hits.missed.shape)[places] for component in values.direction]
         color = Directions(direction).value(values.target.shapes.background)
         out[..., :3][places] = np.broadcast_to(color, (3, len(places[0]))).T
 
@@ -73,7 +73,7 @@ def material_color(values: HitValues, channel: int) -> np.ndarray:
     """Return a channel, of RGBA, of the color that the hit materials show in light, (rows, columns)."""
     color = values.of_material(values.target.colors[channel], "color")
     if channel < 3:
-        paint(values, color, lambda one: one.lit, channel)
+        paint(values, color, lambda surface: surface.lit, channel)
     return color
 
 
@@ -82,9 +82,9 @@ def paint(values: HitValues, image: np.ndarray, of: Callable, channel: int, how:
     """
     flat = image.reshape(-1)
     for surface, where, places in values.painted:
-        part = of(surface)
-        if part is not None:
-            color = np.broadcast_to(places.value(part), (3, len(where)))[channel]
+        value = of(surface)
+        if value is not None:
+            color = np.broadcast_to(places.value(value), (3, len(where)))[channel]
             flat[where] = color if how is None else how(flat[where], color)
 
 
@@ -141,8 +141,8 @@ def lights(values: HitValues) -> Iterator[Light]:
             towards = difference(position - values.target.pose.eye, values.point)
             square = np.maximum(dot(towards, towards), np.finfo(float).tiny)
             gain = np.maximum(dot(values.normal, towards), 0.0) / (square * np.sqrt(square))
-            kind, part = _beam(*beam, towards, square)
-            yield Light(kind, color, towards, square, gain * part, color / (4 * np.pi**2), part)
+            kind, strength = _beam(*beam, towards, square)
+            yield Light(kind, color, towards, square, gain * strength, color / (4 * np.pi**2), strength)
 
 
 def _beam(axis: np.ndarray | None, cone: Any, towards: Any, square: Any) -> tuple[str, Any]:
@@ -152,8 +152,8 @@ def _beam(axis: np.ndarray | None, cone: Any, towards: Any, square: Any) -> tupl
     cosine = -dot(axis, towards) / np.sqrt(square)
     if tuple(cone) == AREA:
         return AREA_LIGHT, 4 * np.maximum(cosine, 0.0)
-    part = np.clip((cosine - cone[0]) / cone[1], 0.0, 1.0)
-    return SPOT, part * part * (3 - 2 * part)
+    falloff = np.clip((cosine - cone[0]) / cone[1], 0.0, 1.0)
+    return SPOT, falloff * falloff * (3 - 2 * falloff)
 
 
 def irradiance(values: HitValues) -> list[Any]:
@@ -162,5 +162,5 @@ def irradiance(values: HitValues) -> list[Any]:
     for light in lights(values):
         if light.kind == HEADLIGHT:
             return [light.gain] * 3
-        total = [sum_ + light.gain * part for sum_, part in zip(total, light.strength, strict=True)]
+        total = [sum_ + light.gain * strength for sum_, strength in zip(total, light.strength, strict=True)]
     return total

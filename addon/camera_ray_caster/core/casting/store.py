@@ -52,13 +52,13 @@ def add_combined(hits: Hits, total: np.ndarray, light) -> None:
     their way.
     """
     parts = light if isinstance(light, tuple) else (light,)
-    lights = None if light is None else np.stack([np.broadcast_to(part, total.shape[:2]) for part in parts], axis=-1)
+    lights = None if light is None else np.stack([np.broadcast_to(color, total.shape[:2]) for color in parts], axis=-1)
     for window, block in hits.blocks():
-        part = total[window]
-        once = hits.rays.scratch("once", part.shape, np.float64)
+        in_window = total[window]
+        once = hits.rays.scratch("once", in_window.shape, np.float64)
         store(block, {"combined": once})
         if lights is not None:
-            dark = np.broadcast_to(np.isnan(block.rays.direction[0]), part.shape[:2])
+            dark = np.broadcast_to(np.isnan(block.rays.direction[0]), in_window.shape[:2])
             once[..., :3] *= np.where(dark[..., None], 0.0, lights[window])
             once[..., 3][dark] = 1.0
-        part += once
+        in_window += once

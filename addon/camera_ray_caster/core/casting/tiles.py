@@ -80,9 +80,9 @@ def shares(plan: Plan, threads: int, samples: int = 1) -> Iterator[Tile]:
     samples: number of rays per pixel.
     """
     height, width = plan.camera.raster.shape
-    least, most = tuning.TILE_PIXELS
-    if samples > 1 or height * width > 8 * most:
-        most //= 2  # a sum doubles the memory; smaller tiles suffice if there are many, and stop sooner
+    least, largest = tuning.TILE_PIXELS
+    if samples > 1 or height * width > 8 * largest:
+        largest //= 2  # a sum doubles the memory; smaller tiles suffice if there are many, and stop sooner
     done = np.cumsum(plan.work)
     threads = sharing(threads, done[-1] / tuning.SERIAL_WORK)
     most_tiles = max(-(-height * width // least), min(threads, -(-height * width * samples // least)))
@@ -90,7 +90,7 @@ def shares(plan: Plan, threads: int, samples: int = 1) -> Iterator[Tile]:
     cuts = np.searchsorted(done, done[-1] * np.arange(1, count) / count)
     cuts = np.unique(np.clip(np.rint(cuts / STRIP), 1, height // STRIP - 1).astype(int)) * STRIP
     for first, last in pairwise((0, *cuts[(cuts > 0) & (cuts < height)].tolist(), height)):
-        yield from bands(slice(first, last), slice(0, width), most)
+        yield from bands(slice(first, last), slice(0, width), largest)
 
 
 def moments(camera: Camera, pixel_time: PixelTime) -> Iterator[Tile]:
@@ -106,12 +106,12 @@ def listening(tiles: Iterable[Tile], progress: Callable[[float], bool] | None) -
     """Yield tiles, and call ``progress(0)`` meanwhile as a cast does: those of 65,536 columns with times of their own
     take many seconds to find. Raises Cancelled if it returns False.
     """
-    told = perf_counter()
+    reported = perf_counter()
     for tile in tiles:
-        if progress is not None and perf_counter() - told > LISTEN:
+        if progress is not None and perf_counter() - reported > LISTEN:
             if not progress(0.0):
                 raise Cancelled
-            told = perf_counter()
+            reported = perf_counter()
         yield tile
 
 
@@ -134,7 +134,7 @@ def cast_tile(
     Cancelled between samples and between shapes if the cast is to stop.
     """
     raster = plan.camera.raster
-    place = raster.columns()[:, tile.columns], raster.rows()[tile.rows], (tile.columns.start, tile.rows.start)
+    centers = raster.columns()[:, tile.columns], raster.rows()[tile.rows], (tile.columns.start, tile.rows.start)
     parts = {name: image[tile.rows, tile.columns] for name, image in images.items()}
     seconds = np.zeros(len(TIMED_STEPS))
     total = None
@@ -143,17 +143,17 @@ def cast_tile(
     for sample in samples or range(1):
         began = perf_counter()
         if total is None:
-            rays = chief_rays(plan.camera, *place, scratch)
+            rays = chief_rays(plan.camera, *centers, scratch)
         else:
-            rays = sampled_rays(plan.camera, *place[:2], sample, place[2], scratch)
+            rays = sampled_rays(plan.camera, *centers[:2], sample, centers[2], scratch)
         generated = perf_counter()
         hits = search(plan, rays, effort.listen)
-        found = perf_counter()
+        searched = perf_counter()
         if total is None:
             store(hits, parts, tile.where)
         else:
-            add_combined(hits, total, plan.camera.sample_light(*place[:2], sample))
-        seconds += generated - began, found - generated, perf_counter() - found
+            add_combined(hits, total, plan.camera.sample_light(*centers[:2], sample))
+        seconds += generated - began, searched - generated, perf_counter() - searched
         effort.step()
     if samples is not None and total is not None:
         where = True if tile.where is None else tile.where[..., None]
@@ -176,7 +176,7 @@ def in_threads(
     ``finished(job)``, and ``meanwhile()`` while others work, are called in this thread. ``alone``: whether all jobs
     take less than the start of a thread would pay for: they are run in this thread.
     """
-    own = local()
+    thread = local()
     total = np.zeros(len(TIMED_STEPS))
     if alone:
         with lending() as lend:
@@ -187,12 +187,12 @@ def in_threads(
                 if progress is not None and not progress(effort.fraction):
                     raise Cancelled
         return total
-    with lending() as lend, ThreadPoolExecutor(workers, initializer=lambda: setattr(own, "scratch", lend())) as pool:
+    with lending() as lend, ThreadPoolExecutor(workers, initializer=lambda: setattr(thread, "scratch", lend())) as pool:
         waiting: dict[Future, Job] = {}
         try:
             for jobs in rounds:
                 for job in jobs:  # raises if no thread can be started
-                    waiting[pool.submit(lambda job: run(job, own.scratch), job)] = job
+                    waiting[pool.submit(lambda job: run(job, thread.scratch), job)] = job
                 while waiting:
                     for future in wait(waiting, LISTEN, FIRST_COMPLETED).done or [None]:
                         if future is not None:

@@ -56,8 +56,8 @@ def visible(camera, shapes=None, points=None, *, tolerance=0.0):
     with np.errstate(over="ignore"):  # a place whose length overflows has no pixel
         still = _Still(each, tolerance + gamma(2) * norm(components(each)))
     before = picture.before(still, picture.pixels(still, len(each)))
-    found = np.array([Visibility.SEEN, Visibility.HIDDEN, Visibility.OUTSIDE], np.uint8)[before]
-    return found.reshape(points.shape[:-1])
+    result = np.array([Visibility.SEEN, Visibility.HIDDEN, Visibility.OUTSIDE], np.uint8)[before]
+    return result.reshape(points.shape[:-1])
 
 
 @dataclass(frozen=True)
@@ -67,8 +67,8 @@ class _Still:
     places: np.ndarray
     errors: np.ndarray
 
-    def at(self, shapes: Shapes, some: np.ndarray) -> np.ndarray:
-        return self.places[some]
+    def at(self, shapes: Shapes, indices: np.ndarray) -> np.ndarray:
+        return self.places[indices]
 
-    def error(self, shapes: Shapes, some: np.ndarray) -> np.ndarray:
-        return self.errors[some]
+    def error(self, shapes: Shapes, indices: np.ndarray) -> np.ndarray:
+        return self.errors[indices]
