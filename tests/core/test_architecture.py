@@ -120,9 +120,9 @@ def name_of(path):
 
 NAMES = {name_of(path) for path in MODULES}
 ROOMS_WITHOUT_PRONOUNS = (
-    *("core/annotations", "core/camera", "core/cast.py", "core/casting", "core/clouds", "core/errors", "core/exports"),
-    *("core/faces", "core/lesson", "core/library", "core/materials", "core/maths", "core/motion", "core/report"),
-    *("core/sets", "core/shaders", "core/programs", "core/text_forms", "core/web"),
+    *("core/annotations", "core/any_rays", "core/camera", "core/cast.py", "core/casting", "core/clouds", "core/errors"),
+    *("core/exports", "core/faces", "core/lesson", "core/library", "core/materials", "core/maths", "core/motion"),
+    *("core/programs", "core/report", "core/sets", "core/shaders", "core/text_forms", "core/web"),
     *("blender/cycles", "blender/engine", "blender/faces", "blender/output", "blender/presets", "blender/process"),
     *("blender/properties", "blender/read", "blender/terminal", "blender/verification"),
     *("blender/view3d", "../../scripts"),

@@ -28,7 +28,7 @@ def may_meet(middle: Any, radius: Any, origin: Any, ahead: np.ndarray, scratch: 
     shape = ahead.shape[1:]
     along, beyond, spare = (scratch(name, shape) for name in ("along", "beyond", "spare"))
     pairs = [(m, o, np.broadcast_shapes(np.shape(m), np.shape(o))) for m, o in zip(middle, origin, strict=True)]
-    to = [np.subtract(m, o, out=scratch(f"to {i}", own)) for i, (m, o, own) in enumerate(pairs)]
+    to = [np.subtract(m, o, out=scratch(f"to {i}", size)) for i, (m, o, size) in enumerate(pairs)]
     inner(to, ahead, along, spare)
     np.multiply(np.maximum(along, 0.0, out=along), along, out=along)
     np.multiply(inner(to, to, beyond, spare), 1 - BOX_MARGIN, out=beyond)

@@ -58,7 +58,7 @@ def uses_tree(plan: Plan) -> bool:
 def _by_tree(bodies: BodySearch, plan: Plan, rays: TileRays, listen: Callable[[], object]) -> Hits:
     camera, shape = plan.camera, rays.shape
     origin, direction = (
-        np.array([np.broadcast_to(part, shape).reshape(-1) for part in matvec(camera.pose.basis, vector)])
+        np.array([np.broadcast_to(component, shape).reshape(-1) for component in matvec(camera.pose.basis, vector)])
         for vector in (rays.origin, rays.direction)
     )
     origin += camera.pose.eye[:, None]
@@ -78,7 +78,7 @@ def cast_sweep(scene: Scene, tile: Tile, images: dict[str, np.ndarray], effort: 
     began, camera, shapes = perf_counter(), scene.camera, scene.shapes
     raster = replace(camera.raster, y0=camera.raster.y0 + tile.rows.start, y1=camera.raster.y0 + tile.rows.stop)
     rays = replace(camera, raster=raster).rays()
-    origin, direction = (np.array(part.reshape(-1, 3).T, order="C") for part in (rays.origins, rays.directions))
+    origin, direction = (np.array(vectors.reshape(-1, 3).T, order="C") for vectors in (rays.origins, rays.directions))
     generated = perf_counter()
     outs = {name: image[tile.rows].reshape(1, -1, *image.shape[2:]) for name, image in images.items()}
     span = camera.clip_start, camera.clip_end

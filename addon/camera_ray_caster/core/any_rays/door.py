@@ -15,8 +15,8 @@ from ..conventions import gamma
 from ..maths.vector import norm
 from ..motion.evaluations import Motion
 from ..records import InputError, Shapes
-from .found import Span
 from .moving import hit_groups, write_nearest
+from .ray_bodies import Span
 
 KNOWN = tuple(name for name in PASSES if name not in WITHOUT_PIXEL)
 """The passes of rays, in the order of PASSES."""
@@ -127,7 +127,7 @@ def occluded(origins, targets, shapes: Shapes, *, times=None) -> np.ndarray:
         rounding = gamma(4) * np.maximum(norm(start), norm(end)) / norm(towards)
         for group in hit_groups(shapes, times_of(shapes, times, shape), start, towards, (0.0, 1.0)):
             hits = group.hits
-            error = group.found.t_errors(start[:, hits.ray], towards[:, hits.ray], hits) + rounding[hits.ray]
+            error = group.bodies.t_errors(start[:, hits.ray], towards[:, hits.ray], hits) + rounding[hits.ray]
             hidden[hits.ray[(hits.t > error) & (hits.t < 1 - error)]] = True
     return hidden.reshape(shape)
 
@@ -148,34 +148,34 @@ def _rays(origins, directions) -> tuple[np.ndarray, np.ndarray, tuple[int, ...]]
 
 def _points(first, first_name: str, second, second_name: str) -> tuple[np.ndarray, np.ndarray, tuple[int, ...]]:
     """Return two arrays of points as (3, n) each, and the shape to which they broadcast."""
-    both = []
-    for given, name in ((first, first_name), (second, second_name)):
-        values = arguments.numbers(given, name)
+    ends = []
+    for argument, name in ((first, first_name), (second, second_name)):
+        values = arguments.numbers(argument, name)
         if values.shape[-1:] != (3,):
             raise InputError(f"{name} of shape {values.shape} are no vectors: give x, y, z, shape (..., 3)")
-        both.append(values)
+        ends.append(values)
     try:
-        shape = np.broadcast_shapes(*(values.shape for values in both))
+        shape = np.broadcast_shapes(*(values.shape for values in ends))
     except ValueError as error:
         raise InputError(
-            f"{first_name} of shape {both[0].shape} and {second_name} of shape {both[1].shape} do not broadcast"
+            f"{first_name} of shape {ends[0].shape} and {second_name} of shape {ends[1].shape} do not broadcast"
         ) from error
     memory.require(112 * math.prod(shape[:-1]), f"{math.prod(shape[:-1]):,} rays", PARTS)
-    for values, name in zip(both, (first_name, second_name), strict=True):
+    for values, name in zip(ends, (first_name, second_name), strict=True):
         if np.isinf(values).any():
             raise InputError(f"{name} hold infinite numbers: give finite ones, or NaN for no ray")
         if (np.abs(values) > LENGTH_RANGE[1]).any():
             raise InputError(f"{name} hold numbers beyond {LENGTH_RANGE[1]:g}: scale the scene, or the directions")
-    left, right = (np.array(np.broadcast_to(values, shape).reshape(-1, 3).T, order="C") for values in both)
+    left, right = (np.array(np.broadcast_to(values, shape).reshape(-1, 3).T, order="C") for values in ends)
     return left, right, shape[:-1]
 
 
 def _passes(passes) -> tuple[str, ...]:
-    given = arguments.words(passes, "passes", PASSES)
-    if absent := [name for name in given if name in WITHOUT_PIXEL]:
+    names = arguments.words(passes, "passes", PASSES)
+    if absent := [name for name in names if name in WITHOUT_PIXEL]:
         words = "needs a pixel" if len(absent) == 1 else "need a pixel"
         raise InputError(f"{', '.join(absent)} {words}, which a ray has not: the passes of rays are {', '.join(KNOWN)}")
-    return given
+    return names
 
 
 def _range(near, far) -> tuple[float, float]:
@@ -196,11 +196,11 @@ def times_of(shapes: Shapes, times, shape: tuple[int, ...]) -> np.ndarray | None
     """Return the time of each ray, (n,); None if the shapes have one time."""
     if times is None:
         return None
-    given = arguments.numbers(times, "times")
+    frames = arguments.numbers(times, "times")
     try:
-        each = np.broadcast_to(given, shape).reshape(-1)
+        each = np.broadcast_to(frames, shape).reshape(-1)
     except ValueError as error:
-        raise InputError(f"times of shape {given.shape} do not broadcast to rays of shape {shape}") from error
+        raise InputError(f"times of shape {frames.shape} do not broadcast to rays of shape {shape}") from error
     if not np.isfinite(each).all():
         raise InputError("times hold NaN or infinite numbers: give each ray the frame at which it is cast")
     motion = shapes.timeline.motion
@@ -216,19 +216,19 @@ def times_of(shapes: Shapes, times, shape: tuple[int, ...]) -> np.ndarray | None
 
 def _all(shapes, each, origin, direction, shape, passes, span: Span, dtype) -> RayImages:
     """Return the passes of all hits, with their rays and the counts of these."""
-    found, order = [], []
+    groups, order = [], []
     for group in hit_groups(shapes, each, origin, direction, span, passes):
         hits = group.hits
         images = RayImages({name: PASSES[name].empty((1, len(hits.t)), dtype) for name in passes})
-        own = origin[:, hits.ray], direction[:, hits.ray]
-        group.found.write(*own, hits.t, hits.body, images, np.arange(len(hits.t)))
+        of_hits = origin[:, hits.ray], direction[:, hits.ray]
+        group.bodies.write(*of_hits, hits.t, hits.body, images, np.arange(len(hits.t)))
         if "shape_index" in images:
             images["shape_index"][0] = group.row
-        found.append(images)
+        groups.append(images)
         order.append((group.number, group.row, hits.t, hits.ray))
     keys = [np.concatenate(key) for key in zip(*order, strict=True)]
     rank = np.lexsort(keys)
-    result = RayImages({name: np.concatenate([images[name][0] for images in found])[rank] for name in passes})
+    result = RayImages({name: np.concatenate([images[name][0] for images in groups])[rank] for name in passes})
     ray = keys[-1]
     result["ray"], result["count"] = ray[rank], np.bincount(ray, minlength=origin.shape[1]).reshape(shape)
     result.shapes = shapes

@@ -48,7 +48,7 @@ class Form:
     @lazy
     def box(self) -> np.ndarray:
         """(2, 3): the lowest and the highest corner of all places of vertices, from the middle of the mesh then."""
-        points = [_bezier(one, self._row, one.frames[0], one.frames[-1]) for one in self._motion.intervals]
+        points = [_bezier(span, self._row, span.frames[0], span.frames[-1]) for span in self._motion.intervals]
         return np.array((
             np.min([each.min(axis=(0, 2)) for each in points], axis=0),
             np.max([each.max(axis=(0, 2)) for each in points], axis=0),
@@ -66,12 +66,12 @@ class Form:
 
     def slices(self, frames: np.ndarray) -> Iterator[tuple[Tree, np.ndarray]]:
         """Yield trees of boxes from the middle of the mesh, and the indices of the frames (n,) for which they hold."""
-        for interval, some in self._motion.parts(frames):
+        for interval, indices in self._motion.parts(frames):
             first, last = interval.frames[0], interval.frames[-1]
             ends = np.linspace(first, last, self._count(interval) + 1)
-            which = np.clip(np.searchsorted(ends, frames[some], side="right") - 1, 0, len(ends) - 2)
+            piece = np.clip(np.searchsorted(ends, frames[indices], side="right") - 1, 0, len(ends) - 2)
             for k, (start, end) in enumerate(pairwise(ends.tolist())):
-                if (now := some[which == k]).size:
+                if (now := indices[piece == k]).size:
                     yield self._tree(interval, start, end), now
 
     def _count(self, interval: TimeInterval) -> int:
@@ -92,7 +92,7 @@ def _bezier(interval: TimeInterval, row: int, start: float, end: float) -> np.nd
     """Return the Bezier points of the vertices from ``start`` to ``end``, (points, 3, v), from the mesh's middle."""
     degree = len(interval.frames) - 1
     forms = np.array([mesh.vertices - mesh.middle[:, None] for mesh in (mesh_of(s, row) for _, s in interval.states)])
-    place = np.linspace(0, 1, degree + 1)
-    basis = [[comb(degree, k) * u**k * (1 - u) ** (degree - k) for k in range(degree + 1)] for u in place.tolist()]
-    weights = np.array(interval.weights(start + (end - start) * place)).T
+    parameter = np.linspace(0, 1, degree + 1)
+    basis = [[comb(degree, k) * u**k * (1 - u) ** (degree - k) for k in range(degree + 1)] for u in parameter.tolist()]
+    weights = np.array(interval.weights(start + (end - start) * parameter)).T
     return np.tensordot(np.linalg.solve(np.array(basis), weights), forms, axes=1)

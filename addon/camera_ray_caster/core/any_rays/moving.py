@@ -25,8 +25,8 @@ from ..records import MESH, PLANE, SPHERE, Shapes
 from ..shapes.in_camera import in_camera, invert
 from .balls import may_meet, unit_directions
 from .forms import SLACK, Form
-from .found import WORLD, Found, RayHits, Span
 from .own_times import OwnTimes, RowsPlaced
+from .ray_bodies import WORLD, RayBodies, RayHits, Span
 from .search import RAYS, BodySearch, search_of
 
 BALL_FACTOR = 1.25
@@ -80,16 +80,16 @@ def _divided(motion: Motion) -> Moving | None:
     if moves is None or changes is None or looks is None:
         return None
     still, rows = np.flatnonzero(~moves), np.flatnonzero(moves)
-    own, unlike = of_rows(motion, rows), changes[rows]
-    states = [shapes for _, shapes in own.states.values()]
+    moved, unlike = of_rows(motion, rows), changes[rows]
+    states = [shapes for _, shapes in moved.states.values()]
     bent = [row for row in np.flatnonzero(unlike & ~looks[rows]).tolist()
             if bends([mesh_of(shapes, row) for shapes in states])]  # fmt: skip
     unlike[bent] = False
-    forms = {row: Form(own, row) for row in bent}
+    forms = {row: Form(moved, row) for row in bent}
     first = next(iter(motion.states.values()))[1]
     return Moving(
-        rows_of(first, still), still, rows, own, light_changes(motion), ~unlike, forms,
-        of_rows(own, np.flatnonzero(unlike)), _radius(own), _boxes(own, forms),
+        rows_of(first, still), still, rows, moved, light_changes(motion), ~unlike, forms,
+        of_rows(moved, np.flatnonzero(unlike)), _radius(moved), _boxes(moved, forms),
     )  # fmt: skip
 
 
@@ -105,25 +105,25 @@ def _radius(motion: Motion) -> np.ndarray:
 
 def _boxes(motion: Motion, forms: dict[int, Form]) -> dict[int, np.ndarray]:
     every = [shapes for _, shapes in motion.states.values()]
-    first, found = every[0], {}
+    first, boxes = every[0], {}
     for row, kind in enumerate(first.kind.tolist()):
         if kind in FLAT_OR_ROUND:
-            found[row] = np.array(FLAT_OR_ROUND[kind])
+            boxes[row] = np.array(FLAT_OR_ROUND[kind])
             continue
         mesh = first.meshes[first.mesh[row]] if kind == MESH else None
         if mesh is not None and all(same(mesh, other.meshes[first.mesh[row]]) for other in every):
-            found[row] = np.array((mesh.vertices.min(axis=1), mesh.vertices.max(axis=1))) - mesh.middle
-    found |= {row: form.box.copy() for row, form in forms.items()}
-    for corners in found.values():
+            boxes[row] = np.array((mesh.vertices.min(axis=1), mesh.vertices.max(axis=1))) - mesh.middle
+    boxes |= {row: form.box.copy() for row, form in forms.items()}
+    for corners in boxes.values():
         corners += np.array((-1, 1))[:, None] * SLACK * np.abs(corners).max()
-    return found
+    return boxes
 
 
 @dataclass(frozen=True, eq=False)
 class HitGroup:
     """Hits of rays on some bodies."""
 
-    found: Found
+    bodies: RayBodies
     hits: RayHits
     row: np.ndarray
     """(m,): the shapes that are hit."""
@@ -131,10 +131,10 @@ class HitGroup:
     """(m,): their triangles."""
 
     @classmethod
-    def of(cls, found: Found, hits: RayHits, rays: np.ndarray, rows: np.ndarray) -> HitGroup:
+    def of(cls, bodies: RayBodies, hits: RayHits, rays: np.ndarray, rows: np.ndarray) -> HitGroup:
         """Return the hits of a part of the rays on bodies of a part of the shapes, by the numbers of these."""
         every = RayHits(rays[hits.ray], hits.t, hits.body)
-        return cls(found, every, rows[found.at[hits.body]], found.number[hits.body])
+        return cls(bodies, every, rows[bodies.at[hits.body]], bodies.number[hits.body])
 
 
 def write_nearest(
@@ -145,10 +145,10 @@ def write_nearest(
     if apart is not None and times is not None:
         _cast_apart(apart, origin, direction, times, span, images)
         return
-    for then, some in _at_times(shapes, times):
+    for then, of_time in _at_times(shapes, times):
         search = search_of(then)
-        rays = origin[:, some], direction[:, some]
-        search.write(*rays, *search.nearest(*rays, *span), images, np.arange(origin.shape[1])[some])
+        rays = origin[:, of_time], direction[:, of_time]
+        search.write(*rays, *search.nearest(*rays, *span), images, np.arange(origin.shape[1])[of_time])
 
 
 def hit_groups(
@@ -160,10 +160,10 @@ def hit_groups(
         yield from _all_apart(apart, origin, direction, times, span)
         return
     rays = np.arange(origin.shape[1])
-    for then, some in _at_times(shapes, times):
+    for then, of_time in _at_times(shapes, times):
         search = search_of(then)
-        hits = search.all(origin[:, some], direction[:, some], *span)
-        yield HitGroup.of(search, hits, rays[some], np.arange(len(then)))
+        hits = search.all(origin[:, of_time], direction[:, of_time], *span)
+        yield HitGroup.of(search, hits, rays[of_time], np.arange(len(then)))
 
 
 def _apart(shapes: Shapes, times: np.ndarray | None, passes: tuple[str, ...] = ()) -> Moving | None:
@@ -184,18 +184,18 @@ def _at_times(shapes: Shapes, times: np.ndarray | None) -> Iterator[tuple[Shapes
 def _cast_apart(apart: Moving, origin, direction, times: np.ndarray, span: Span, images) -> None:
     search = search_of(apart.still)
     for first in range(0, len(times), RAYS):
-        some = slice(first, first + RAYS)
-        part = {name: image[:, some] for name, image in images.items()}
-        _cast_some(apart, search, origin[:, some], direction[:, some], times[some], span, part)
+        chunk = slice(first, first + RAYS)
+        in_chunk = {name: image[:, chunk] for name, image in images.items()}
+        _cast_some(apart, search, origin[:, chunk], direction[:, chunk], times[chunk], span, in_chunk)
 
 
 def _all_apart(apart: Moving, origin, direction, times: np.ndarray, span: Span) -> Iterator[HitGroup]:
     search = search_of(apart.still)
     for first in range(0, len(times), RAYS):
-        part = slice(first, first + RAYS)
-        rays, own = np.arange(len(times))[part], (origin[:, part], direction[:, part])
-        yield HitGroup.of(search, search.all(*own, *span), rays, apart.still_rows)
-        for group in _groups(apart, *own, times[part], span, every=True):
+        chunk = slice(first, first + RAYS)
+        rays, in_chunk = np.arange(len(times))[chunk], (origin[:, chunk], direction[:, chunk])
+        yield HitGroup.of(search, search.all(*in_chunk, *span), rays, apart.still_rows)
+        for group in _groups(apart, *in_chunk, times[chunk], span, every=True):
             hits = group.hits
             yield replace(group, hits=RayHits(rays[hits.ray], hits.t, hits.body))
 
@@ -209,8 +209,8 @@ def _cast_some(apart: Moving, search: BodySearch, origin, direction, times: np.n
         closer = (group.hits.t < before) | ((group.hits.t == before) & (group.row < row[group.hits.ray]))
         hits = group.hits.only(closer)
         t[hits.ray], row[hits.ray] = hits.t, group.row[closer]
-        own = origin[:, hits.ray], direction[:, hits.ray]
-        group.found.write(*own, hits.t, hits.body, images, hits.ray)
+        of_hits = origin[:, hits.ray], direction[:, hits.ray]
+        group.bodies.write(*of_hits, hits.t, hits.body, images, hits.ray)
     if "shape_index" in images:
         images["shape_index"][0] = row
 
@@ -218,27 +218,28 @@ def _cast_some(apart: Moving, search: BodySearch, origin, direction, times: np.n
 def _groups(apart: Moving, origin, direction, times: np.ndarray, span: Span, every: bool) -> Iterator[HitGroup]:
     """Yield the hits of rays on what moves: all, or of each ray the nearest of each group."""
     near = list(_near(apart, origin, direction, times))
-    shapes, found = next(iter(apart.motion.states.values()))[1], []
-    for place, some in near:
-        row = int(place.row[0])
+    shapes, groups = next(iter(apart.motion.states.values()))[1], []
+    for placed, near_rays in near:
+        row = int(placed.row[0])
         if apart.alike[row]:
-            one = OwnTimes(place.shapes(shapes), apart.forms.get(row), origin[:, some], direction[:, some], times[some])
-            hits = one.all(span) if every else one.nearest(span)
-            found.append((place.only(hits.ray), RayHits(some[hits.ray], hits.t, hits.body)))
-    if found:
-        place, hits = RowsPlaced.joined([place for place, _ in found]), RayHits.joined([hits for _, hits in found])
+            rays = origin[:, near_rays], direction[:, near_rays]
+            per_ray = OwnTimes(placed.shapes(shapes), apart.forms.get(row), *rays, times[near_rays])
+            hits = per_ray.all(span) if every else per_ray.nearest(span)
+            groups.append((placed.only(hits.ray), RayHits(near_rays[hits.ray], hits.t, hits.body)))
+    if groups:
+        placed, hits = RowsPlaced.joined([placed for placed, _ in groups]), RayHits.joined([hits for _, hits in groups])
         if not every:
-            order = np.lexsort((place.row, hits.t, hits.ray))
+            order = np.lexsort((placed.row, hits.t, hits.ray))
             best = order[np.flatnonzero(np.diff(hits.ray[order], prepend=-1))]
-            place, hits = place.only(best), hits.only(best)
-        parts = place.parts(shapes, apart.forms, hits.body, times[hits.ray])
-        which = np.arange(len(hits.ray))
-        yield HitGroup(parts, RayHits(hits.ray, hits.t, which), apart.rows[place.row], hits.body)
-    for time, some in _by_time([rays for place, rays in near if not apart.alike[place.row[0]]], times):
-        own = BodySearch(apart.changing.shapes_at(time), len(some))
-        rays = origin[:, some], direction[:, some]
-        hits = own.all(*rays, *span) if every else RayHits.of(*own.nearest(*rays, *span))
-        yield HitGroup.of(own, hits, some, apart.rows[~apart.alike])
+            placed, hits = placed.only(best), hits.only(best)
+        parts = placed.parts(shapes, apart.forms, hits.body, times[hits.ray])
+        body = np.arange(len(hits.ray))
+        yield HitGroup(parts, RayHits(hits.ray, hits.t, body), apart.rows[placed.row], hits.body)
+    for time, near_rays in _by_time([rays for placed, rays in near if not apart.alike[placed.row[0]]], times):
+        search = BodySearch(apart.changing.shapes_at(time), len(near_rays))
+        rays = origin[:, near_rays], direction[:, near_rays]
+        hits = search.all(*rays, *span) if every else RayHits.of(*search.nearest(*rays, *span))
+        yield HitGroup.of(search, hits, near_rays, apart.rows[~apart.alike])
 
 
 def _near(apart: Moving, origin, direction, times: np.ndarray) -> Iterator[tuple[RowsPlaced, np.ndarray]]:
@@ -250,25 +251,25 @@ def _near(apart: Moving, origin, direction, times: np.ndarray) -> Iterator[tuple
         for first in range(0, len(apart.rows), step):
             centers = centers_at(apart.motion, slice(first, first + step), times)
             for row, center in enumerate(centers, first):
-                some = np.flatnonzero(may_meet(center.T, apart.radius[row], origin, ahead, scratch))
-                some = some[~np.isnan(direction[0, some])]
-                center, axes = place_at(apart.motion, row, times[some])
-                if row in apart.boxes and some.size:
-                    to = center.T - origin[:, some]
-                    meets = _meets_box(axes, to, ahead[:, some], apart.boxes[row])
-                    some, center, axes = some[meets], center[meets], axes[meets]
-                if some.size:
-                    yield RowsPlaced(np.full(len(some), row), center, axes), some
+                near = np.flatnonzero(may_meet(center.T, apart.radius[row], origin, ahead, scratch))
+                near = near[~np.isnan(direction[0, near])]
+                center, axes = place_at(apart.motion, row, times[near])
+                if row in apart.boxes and near.size:
+                    to = center.T - origin[:, near]
+                    meets = _meets_box(axes, to, ahead[:, near], apart.boxes[row])
+                    near, center, axes = near[meets], center[meets], axes[meets]
+                if near.size:
+                    yield RowsPlaced(np.full(len(near), row), center, axes), near
 
 
 def _by_time(near: list[np.ndarray], times: np.ndarray) -> Iterator[tuple[float, np.ndarray]]:
     """Yield times, and the rays of that time that occur in ``near``."""
-    some = np.unique(np.concatenate([*near, np.zeros(0, np.intp)]))
-    some = some[np.argsort(times[some], kind="stable")]
-    starts = np.flatnonzero(np.diff(times[some], prepend=-np.inf))
-    for part in np.split(some, starts[1:]):
-        if len(part):
-            yield float(times[part[0]]), part
+    rays = np.unique(np.concatenate([*near, np.zeros(0, np.intp)]))
+    rays = rays[np.argsort(times[rays], kind="stable")]
+    starts = np.flatnonzero(np.diff(times[rays], prepend=-np.inf))
+    for of_time in np.split(rays, starts[1:]):
+        if len(of_time):
+            yield float(times[of_time[0]]), of_time
 
 
 def _meets_box(axes: np.ndarray, to: np.ndarray, ahead: np.ndarray, corners: np.ndarray) -> np.ndarray:

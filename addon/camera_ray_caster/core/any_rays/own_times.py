@@ -23,8 +23,8 @@ from ..shapes.in_camera import in_camera
 from ..shapes.kind import Kind
 from ..shapes.kinds import by_kind
 from .forms import SLACK, Form
-from .found import WORLD, Found, RayHits, Span
 from .packets import coherent_order, packets_of
+from .ray_bodies import WORLD, RayBodies, RayHits, Span
 from .search import keep_nearest, met
 from .traversal import Traversal
 from .tree import Tree, tree_of
@@ -48,29 +48,29 @@ class RowsPlaced:
     def joined(cls, parts: list[RowsPlaced]) -> RowsPlaced:
         """Return all parts, one after the other."""
         names = "row", "center", "axes"
-        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
+        return cls(*(np.concatenate([getattr(placed, name) for placed in parts]) for name in names))
 
-    def only(self, some: np.ndarray) -> RowsPlaced:
+    def only(self, indices: np.ndarray) -> RowsPlaced:
         """Return some of them, by index."""
-        return RowsPlaced(self.row[some], self.center[some], self.axes[some])
+        return RowsPlaced(self.row[indices], self.center[indices], self.axes[indices])
 
     def shapes(self, shapes: Shapes) -> Shapes:
         """Return these rows of shapes, each at its place."""
         return replace(rows_of(shapes, self.row), center=self.center, axes=self.axes)
 
-    def parts(self, shapes: Shapes, forms: Mapping[int, Form], number: np.ndarray, times: np.ndarray) -> FoundParts:
+    def parts(self, shapes: Shapes, forms: Mapping[int, Form], number: np.ndarray, times: np.ndarray) -> BodyParts:
         """Return a part of each, by number; of meshes that bend the triangle as it is at its time."""
-        own, number = self.shapes(shapes), number.copy()
-        meshes, mesh = list(own.meshes), own.mesh.copy()
+        placed, number = self.shapes(shapes), number.copy()
+        meshes, mesh = list(placed.meshes), placed.mesh.copy()
         for row in np.intersect1d(list(forms), self.row).astype(int).tolist():
-            some = np.flatnonzero(self.row == row)
-            mesh[some] = len(meshes)
-            meshes.append(forms[row].at(number[some], times[some]))
-            number[some] = np.arange(len(some))
-        return FoundParts(replace(own, meshes=tuple(meshes), mesh=mesh), number)
+            of_row = np.flatnonzero(self.row == row)
+            mesh[of_row] = len(meshes)
+            meshes.append(forms[row].at(number[of_row], times[of_row]))
+            number[of_row] = np.arange(len(of_row))
+        return BodyParts(replace(placed, meshes=tuple(meshes), mesh=mesh), number)
 
 
-class FoundParts(Found):
+class BodyParts(RayBodies):
     """A part of each of some shapes: its triangle by number, or the whole of another shape."""
 
     def __init__(self, shapes: Shapes, number: np.ndarray):
@@ -108,17 +108,17 @@ class OwnTimes:
             placed = in_camera(self.shapes, WORLD)
         scratch, ((kind, _),) = Scratch(), by_kind(self.shapes.kind)
         with np.errstate(all="ignore"):  # NaN and inf mean no hit
-            for ray, part in self._candidates(placed, span[0], limit):
-                own = taken(self.origin, ray), taken(self.direction, ray)
-                bodies = self._bodies(kind, placed, ray, part)
-                for hits in met(bodies, np.arange(len(ray)), ray, own, *span, scratch, twice):
-                    yield RayHits(hits.ray, hits.t, part[hits.body])
+            for ray, triangle in self._candidates(placed, span[0], limit):
+                of_pairs = taken(self.origin, ray), taken(self.direction, ray)
+                bodies = self._bodies(kind, placed, ray, triangle)
+                for hits in met(bodies, np.arange(len(ray)), ray, of_pairs, *span, scratch, twice):
+                    yield RayHits(hits.ray, hits.t, triangle[hits.body])
 
-    def _bodies(self, kind: Kind, placed: InCamera, ray: np.ndarray, part: np.ndarray) -> Bodies:
+    def _bodies(self, kind: Kind, placed: InCamera, ray: np.ndarray, triangle: np.ndarray) -> Bodies:
         if self.form is None:
-            return kind.bodies(placed, ray, part)
-        now = replace(self.shapes, meshes=(self.form.at(part, self.times[ray]),))
-        return kind.bodies(replace(placed, shapes=now), ray, np.arange(len(part), dtype=np.int32))
+            return kind.bodies(placed, ray, triangle)
+        now = replace(self.shapes, meshes=(self.form.at(triangle, self.times[ray]),))
+        return kind.bodies(replace(placed, shapes=now), ray, np.arange(len(triangle), dtype=np.int32))
 
     def _candidates(
         self, placed: InCamera, near: float, limit: Callable[[], np.ndarray]
@@ -134,21 +134,21 @@ class OwnTimes:
         rounding = 2 * (placed.rounding + gamma(4)) * np.linalg.norm(to_mesh, axis=2).max(axis=1)
         rounding *= np.linalg.norm(away, axis=1) + placed.radius
         if not (rounding < SLACK / 2 * reach).all():  # flat, or far away
-            for some in np.array_split(rays, -(-len(rays) * len(mesh) // PAIRS_AT_ONCE)):
-                yield np.repeat(some, len(mesh)), np.tile(np.arange(len(mesh), dtype=np.int32), len(some))
+            for chunk in np.array_split(rays, -(-len(rays) * len(mesh) // PAIRS_AT_ONCE)):
+                yield np.repeat(chunk, len(mesh)), np.tile(np.arange(len(mesh), dtype=np.int32), len(chunk))
             return
         start, ahead = (np.einsum("nij,nj->in", to_mesh, vector) for vector in (away, self.direction.T))
-        for tree, some in [(_tree_of(mesh), rays)] if self.form is None else self.form.slices(self.times):
-            yield from _in_boxes(tree, some, start, ahead, near, limit)
+        for tree, chunk in [(_tree_of(mesh), rays)] if self.form is None else self.form.slices(self.times):
+            yield from _in_boxes(tree, chunk, start, ahead, near, limit)
 
 
 def _in_boxes(
-    tree: Tree, some: np.ndarray, start, ahead, near: float, limit: Callable[[], np.ndarray]
+    tree: Tree, rays: np.ndarray, start, ahead, near: float, limit: Callable[[], np.ndarray]
 ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    order = some[coherent_order(start[:, some], ahead[:, some], tree.reach)]
+    order = rays[coherent_order(start[:, rays], ahead[:, rays], tree.reach)]
     packets = packets_of(start[:, order], ahead[:, order])
-    for ray, part in Traversal(tree, packets, near, lambda: packets.farthest(limit()[order])).pairs():
-        yield order[ray], part.astype(np.int32)
+    for ray, triangle in Traversal(tree, packets, near, lambda: packets.farthest(limit()[order])).pairs():
+        yield order[ray], triangle.astype(np.int32)
 
 
 def _reach(mesh: Mesh) -> float:

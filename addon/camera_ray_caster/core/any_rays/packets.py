@@ -40,7 +40,7 @@ class Packets:
     """The largest components."""
     least: np.ndarray
     """The least 1 / direction."""
-    most: np.ndarray
+    largest: np.ndarray
     """The largest 1 / direction."""
     wide: np.ndarray
     """(n,): the longest side of the box of the origins."""
@@ -72,21 +72,21 @@ def packets_of(origin: np.ndarray, direction: np.ndarray) -> Packets:
     while parts[-1][0].shape[1] > FAN:
         size = parts[-1][0].shape[1]
         first = np.arange(0, size, FAN)
-        parts.append(tuple(end.reduceat(part, first, axis=1) for end, part in zip(ends, parts[-1], strict=True)))
+        parts.append(tuple(end.reduceat(level, first, axis=1) for end, level in zip(ends, parts[-1], strict=True)))
         starts.append(first)
         counts.append(np.minimum(FAN, size - first))
     sizes = [len(count) for count in counts][::-1]
     below = np.cumsum(sizes)  # the children of a level's packets are those of the next level
     firsts = [first + base for first, base in zip(starts[::-1], below, strict=False)] + [np.zeros(sizes[-1], np.intp)]
-    low, high, least, most, left, right = (np.concatenate(part[::-1], axis=1) for part in zip(*parts, strict=True))
-    mixed = np.signbit(least) & ~np.signbit(most)
-    least[mixed], most[mixed] = -np.inf, np.inf
+    low, high, least, largest, left, right = (np.concatenate(level[::-1], axis=1) for level in zip(*parts, strict=True))
+    mixed = np.signbit(least) & ~np.signbit(largest)
+    least[mixed], largest[mixed] = -np.inf, np.inf
     return Packets(
         eye=origin[:, :1] if (origin == origin[:, :1]).all() else None,
         low=low,
         high=high,
         least=least,
-        most=most,
+        largest=largest,
         wide=(high - low).max(axis=0),
         spread=(right - left).max(axis=0),
         first=np.concatenate(firsts),

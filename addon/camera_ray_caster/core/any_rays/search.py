@@ -16,8 +16,8 @@ from ..records import Shapes
 from ..shapes.bodies import Bodies
 from ..shapes.kinds import by_kind
 from .balls import may_meet, unit_directions
-from .found import Found, RayHits
 from .packets import coherent_order, packets_of
+from .ray_bodies import RayBodies, RayHits
 from .traversal import Traversal
 from .tree import Tree, tree_of
 
@@ -33,18 +33,18 @@ of 400 to 4,096 triangles that moves takes 2 to 3 ms, where its tree would make 
 """
 
 
-class BodySearch(Found):
+class BodySearch(RayBodies):
     """The bodies of all shapes, ready for rays; in the order of shapes and their triangles."""
 
     def __init__(self, shapes: Shapes, rays: float = inf):
         """rays: how many will be searched; of few, a tree would take longer than it saves."""
         super().__init__(shapes)
         self._kinds: list[Bodies] = [
-            kind.bodies(self.placed, np.flatnonzero(some)) for kind, some in by_kind(shapes.kind)
+            kind.bodies(self.placed, np.flatnonzero(of_kind)) for kind, of_kind in by_kind(shapes.kind)
         ]
-        counts = [len(own.at) for own in self._kinds]
+        counts = [len(bodies.at) for bodies in self._kinds]
         at, number = (
-            np.concatenate([getattr(own, name) for own in self._kinds] or [np.zeros(0, np.int64)])
+            np.concatenate([getattr(bodies, name) for bodies in self._kinds] or [np.zeros(0, np.int64)])
             for name in ("at", "number")
         )
         order = np.lexsort((number, at)) if len(counts) > 1 else slice(None)
@@ -59,7 +59,7 @@ class BodySearch(Found):
         if not len(self.at) or rays * len(self.at) <= PAIRS_WITHOUT_TREE:
             return np.arange(len(self.at)), None
         low, high = (
-            np.concatenate([getattr(own, end) for own in self._kinds], axis=1)[:, order] for end in ("low", "high")
+            np.concatenate([getattr(kind, end) for kind in self._kinds], axis=1)[:, order] for end in ("low", "high")
         )
         inside = (np.isfinite(low) & np.isfinite(high)).all(axis=0)
         if np.count_nonzero(inside) <= FEW:
@@ -73,20 +73,20 @@ class BodySearch(Found):
         """
         t, body = np.full(origin.shape[1], np.inf), np.full(origin.shape[1], -1)
 
-        def keep(part: np.ndarray, found: RayHits) -> None:
-            keep_nearest(found, t, body, part)
+        def keep(rays: np.ndarray, hits: RayHits) -> None:
+            keep_nearest(hits, t, body, rays)
 
-        self._search(origin, direction, near, far, lambda part: np.minimum(t[part], far), keep)
+        self._search(origin, direction, near, far, lambda rays: np.minimum(t[rays], far), keep)
         return t, body
 
     def all(self, origin: np.ndarray, direction: np.ndarray, near: float, far: float) -> RayHits:
         """Return all hits from near to far, by ray, t and body; a ray may hit a sphere twice."""
         kept: list[RayHits] = []
 
-        def keep(part: np.ndarray, found: RayHits) -> None:
-            kept.append(RayHits(part[found.ray], found.t, found.body))
+        def keep(rays: np.ndarray, new: RayHits) -> None:
+            kept.append(RayHits(rays[new.ray], new.t, new.body))
 
-        self._search(origin, direction, near, far, lambda part: np.full(len(part), far), keep, twice=True)
+        self._search(origin, direction, near, far, lambda rays: np.full(len(rays), far), keep, twice=True)
         hits = RayHits.joined(kept)
         return hits.only(np.lexsort((hits.body, hits.t, hits.ray)))
 
@@ -97,23 +97,23 @@ class BodySearch(Found):
         rays = np.flatnonzero(np.isfinite(origin).all(axis=0) & np.isfinite(direction).all(axis=0))
         if self._tree is not None and len(rays):
             rays = rays[coherent_order(origin[:, rays], direction[:, rays], self._tree.reach)]
-        from_one = len(rays) > 0 and all((part.take(rays) == part[rays[0]]).all() for part in origin)
+        from_one = len(rays) > 0 and all((component.take(rays) == component[rays[0]]).all() for component in origin)
         scratch = Scratch()
         with np.errstate(all="ignore"):  # NaN and inf mean no hit
             kinds = [bodies.prepared(origin[:, rays]) for bodies in self._kinds] if len(rays) else self._kinds
             if from_one:
                 origin = np.broadcast_to(origin[:, rays[:1]], origin.shape)
             for first in range(0, len(rays), RAYS):
-                part = rays[first : first + RAYS]
-                some = _of(origin, part), taken(direction, part)
-                for ray, body in self._candidates(some, near, partial(limit, part), scratch):
-                    for hits in self._met(kinds, ray, body, some, near, far, scratch, twice):
-                        keep(part, hits)
+                chunk = rays[first : first + RAYS]
+                in_chunk = _of(origin, chunk), taken(direction, chunk)
+                for ray, body in self._candidates(in_chunk, near, partial(limit, chunk), scratch):
+                    for hits in self._met(kinds, ray, body, in_chunk, near, far, scratch, twice):
+                        keep(chunk, hits)
 
-    def _candidates(self, some, near: float, limit: Callable, scratch: Scratch) -> Iterator[tuple[Any, Any]]:
+    def _candidates(self, vectors, near: float, limit: Callable, scratch: Scratch) -> Iterator[tuple[Any, Any]]:
         """Yield rays and bodies that may meet: (m,) each, or rays and one body."""
-        rays, bodies = np.arange(some[0].shape[1]), self._one_by_one
-        eye, ahead = some[0] if some[0].strides[1] else some[0][:, 0], unit_directions(some[1])
+        rays, bodies = np.arange(vectors[0].shape[1]), self._one_by_one
+        eye, ahead = vectors[0] if vectors[0].strides[1] else vectors[0][:, 0], unit_directions(vectors[1])
         if 0 < len(rays) * len(bodies) <= PAIRS_WITHOUT_TREE:
             yield np.repeat(rays, len(bodies)), np.tile(bodies, len(rays))
         elif len(rays):
@@ -123,7 +123,7 @@ class BodySearch(Found):
                 for body in bodies[self.at[bodies] == shape].tolist():
                     yield close, body
         if self._tree is not None:
-            packets = packets_of(*some)
+            packets = packets_of(*vectors)
             for ray, body in Traversal(self._tree, packets, near, lambda: packets.farthest(limit())).pairs():
                 close = self._close(ray, body, eye, ahead, scratch)
                 yield ray[close], body[close]
@@ -135,11 +135,11 @@ class BodySearch(Found):
         if self._all_triangles:
             return slice(None)
         whole = np.flatnonzero(~taken(self.is_triangle, body))
-        at, own = taken(self.at, taken(body, whole)), taken(ray, whole)
-        from_ = eye if eye.ndim == 1 else taken(eye, own)
+        at, whole_ray = taken(self.at, taken(body, whole)), taken(ray, whole)
+        from_ = eye if eye.ndim == 1 else taken(eye, whole_ray)
         close = np.ones(len(ray), bool)
         middle, radius = taken(self._middle, at), taken(self.placed.radius, at)
-        close[whole] = may_meet(middle, radius, from_, taken(ahead, own), scratch)
+        close[whole] = may_meet(middle, radius, from_, taken(ahead, whole_ray), scratch)
         return np.flatnonzero(close)
 
     @lazy
@@ -150,9 +150,11 @@ class BodySearch(Found):
     def _middle(self) -> np.ndarray:
         return np.ascontiguousarray(self.placed.center.T)
 
-    def _met(self, kinds, ray, body, some, near: float, far: float, scratch: Scratch, twice: bool) -> Iterator[RayHits]:
+    def _met(
+        self, kinds, ray, body, vectors, near: float, far: float, scratch: Scratch, twice: bool
+    ) -> Iterator[RayHits]:
         """Yield the hits among candidates, kind by kind."""
-        origin, direction = some
+        origin, direction = vectors
         if len(ray) != origin.shape[1] or np.ndim(body):
             origin, direction = _of(origin, ray), taken(direction, ray)
         kind, numbers = self._kind[body], self._own[body]
@@ -160,11 +162,11 @@ class BodySearch(Found):
             of_kind = kind == k
             if not np.any(of_kind):
                 continue
-            which, rays, left, ahead = numbers, ray, origin, direction
+            number, rays, left, ahead = numbers, ray, origin, direction
             if not np.all(of_kind):
-                own = np.flatnonzero(of_kind)
-                which, rays, left, ahead = which[own], ray[own], _of(origin, own), taken(direction, own)
-            for hits in met(bodies, which, rays, (left, ahead), near, far, scratch, twice):
+                pairs = np.flatnonzero(of_kind)
+                number, rays, left, ahead = number[pairs], ray[pairs], _of(origin, pairs), taken(direction, pairs)
+            for hits in met(bodies, number, rays, (left, ahead), near, far, scratch, twice):
                 yield RayHits(hits.ray, hits.t, self._place[k][hits.body])
 
 
@@ -179,7 +181,7 @@ def search_of(shapes: Shapes) -> BodySearch:
 
 
 def met(
-    bodies: Bodies, which: Any, ray: np.ndarray, rays: Any, near: float, far: float, scratch: Scratch, twice: bool
+    bodies: Bodies, body: Any, ray: np.ndarray, rays: Any, near: float, far: float, scratch: Scratch, twice: bool
 ) -> Iterator[RayHits]:
     """Yield the hits of rays, origins and directions (3, m) each, on bodies, (m,) or one for all: the nearest from
     ``near`` to ``far``, or ``twice``. ``ray`` are the numbers of the rays, (m,).
@@ -187,17 +189,17 @@ def met(
     origin, direction = rays
     start: Any = near
     while len(ray):
-        t = bodies.meet(which, origin, direction, start, scratch)
+        t = bodies.meet(body, origin, direction, start, scratch)
         hit = np.flatnonzero((t <= far) & (t < np.inf))
         ray, origin, direction, t = ray[hit], _of(origin, hit), direction[:, hit], t[hit]
-        which = np.broadcast_to(which, (len(hit),)) if np.ndim(which) == 0 else which[hit]
-        seen = bodies.is_hit(which, origin, direction, t, scratch)
-        some = np.flatnonzero(np.broadcast_to(seen, t.shape))
-        yield RayHits(ray[some], t[some], which[some])
+        body = np.broadcast_to(body, (len(hit),)) if np.ndim(body) == 0 else body[hit]
+        seen = bodies.is_hit(body, origin, direction, t, scratch)
+        is_hit = np.flatnonzero(np.broadcast_to(seen, t.shape))
+        yield RayHits(ray[is_hit], t[is_hit], body[is_hit])
         if not bodies.twice:
             break
         again = np.arange(len(t)) if twice else np.flatnonzero(~np.broadcast_to(seen, t.shape))
-        ray, origin, direction, which = ray[again], _of(origin, again), direction[:, again], which[again]
+        ray, origin, direction, body = ray[again], _of(origin, again), direction[:, again], body[again]
         start = np.nextafter(t[again], np.inf)
 
 
@@ -206,13 +208,13 @@ def _of(origin: np.ndarray, rays: np.ndarray) -> np.ndarray:
     return taken(origin, rays) if origin.strides[1] else np.broadcast_to(origin[:, :1], (3, len(rays)))
 
 
-def keep_nearest(found: RayHits, t: np.ndarray, body: np.ndarray, rays: np.ndarray) -> None:
+def keep_nearest(hits: RayHits, t: np.ndarray, body: np.ndarray, rays: np.ndarray) -> None:
     """Keep the hits that are the nearest so far; a ray may have several."""
-    ray, own_t, own = rays[found.ray], found.t, found.body
+    ray, hit_t, hit_body = rays[hits.ray], hits.t, hits.body
     while ray.size:
         before = taken(t, ray)
-        closer = np.flatnonzero((own_t < before) | ((own_t == before) & (own < taken(body, ray))))
-        ray, own_t, own = taken(ray, closer), taken(own_t, closer), taken(own, closer)
-        t[ray], body[ray] = own_t, own  # of several hits of a ray the last stays: others try again
-        lost = np.flatnonzero(taken(body, ray) != own)
-        ray, own_t, own = taken(ray, lost), taken(own_t, lost), taken(own, lost)
+        closer = np.flatnonzero((hit_t < before) | ((hit_t == before) & (hit_body < taken(body, ray))))
+        ray, hit_t, hit_body = taken(ray, closer), taken(hit_t, closer), taken(hit_body, closer)
+        t[ray], body[ray] = hit_t, hit_body  # of several hits of a ray the last stays: others try again
+        lost = np.flatnonzero(taken(body, ray) != hit_body)
+        ray, hit_t, hit_body = taken(ray, lost), taken(hit_t, lost), taken(hit_body, lost)

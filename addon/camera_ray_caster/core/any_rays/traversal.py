@@ -41,9 +41,9 @@ class Pairs(NamedTuple):
     near: np.ndarray
     """Lower bounds of t."""
 
-    def only(self, some: np.ndarray) -> Pairs:
+    def only(self, indices: np.ndarray) -> Pairs:
         """Return some of them, by index."""
-        return Pairs(*(taken(part, some) for part in self))
+        return Pairs(*(taken(values, indices) for values in self))
 
 
 class Traversal:
@@ -76,20 +76,20 @@ class Traversal:
             is_ray = pairs.packet >= self._first_ray
             done = np.flatnonzero((count > 0) & is_ray)
             if done.size:
-                run, place = counted(taken(count, done), taken(self._tree.row, taken(pairs.node, done)))
-                yield taken(taken(pairs.packet, done), run) - self._first_ray, taken(self._tree.body, place)
+                run, slot = counted(taken(count, done), taken(self._tree.row, taken(pairs.node, done)))
+                yield taken(taken(pairs.packet, done), run) - self._first_ray, taken(self._tree.body, slot)
                 self._farthest = self._ask()
             split = (count > 0) & ~is_ray
             packets = np.flatnonzero(~is_ray)
             if packets.size:
-                own = pairs.only(packets)
-                split[packets] |= SPLIT * self._width(own) > taken(self._size, own.node)
+                chosen = pairs.only(packets)
+                split[packets] |= SPLIT * self._width(chosen) > taken(self._size, chosen.node)
             parts = [self._divided(pairs.only(np.flatnonzero(split)))]
             whole = ~split & (count == 0)
-            for some in (np.flatnonzero(whole & is_ray), np.flatnonzero(whole & ~is_ray)):  # tests of rays are simpler
-                if some.size:
-                    own = pairs.only(some)
-                    parts.append(self._below(own.packet, taken(self._tree.row, own.node)))
+            for inner in (np.flatnonzero(whole & is_ray), np.flatnonzero(whole & ~is_ray)):  # tests of rays are simpler
+                if inner.size:
+                    chosen = pairs.only(inner)
+                    parts.append(self._below(chosen.packet, taken(self._tree.row, chosen.node)))
             waiting.append(Pairs(*map(np.concatenate, zip(*parts, strict=True))))
 
     @lazy
@@ -112,37 +112,37 @@ class Traversal:
         run, packet = counted(taken(self._packets.count, pairs.packet), taken(self._packets.first, pairs.packet))
         node = taken(pairs.node, run)
         near, meets = self._met(packet, node, self._faces, len(self._tree))
-        some = np.flatnonzero(meets)
-        return Pairs(taken(packet, some), taken(node, some), taken(near, some))
+        met = np.flatnonzero(meets)
+        return Pairs(taken(packet, met), taken(node, met), taken(near, met))
 
     def _below(self, packet: np.ndarray, row: np.ndarray) -> Pairs:
         """Return which packets may meet which of the nodes in rows, (m,) each."""
         rows = len(self._tree) // FAN
         near, meets = self._met(packet[:, None], row, self._faces.reshape(3, -1, FAN), rows)
         meets &= self._tree.there.reshape(-1, FAN).take(row, axis=0, mode="wrap")
-        some = np.flatnonzero(meets)
-        run, slot = np.divmod(some, FAN)
-        return Pairs(taken(packet, run), taken(row, run) * FAN + slot, taken(near.reshape(-1), some))
+        met = np.flatnonzero(meets)
+        run, slot = np.divmod(met, FAN)
+        return Pairs(taken(packet, run), taken(row, run) * FAN + slot, taken(near.reshape(-1), met))
 
-    def _met(self, packet: np.ndarray, place: np.ndarray, faces: np.ndarray, other: int):
+    def _met(self, packet: np.ndarray, box: np.ndarray, faces: np.ndarray, other: int):
         """Return lower bounds of the t at which packets meet boxes, and whether they meet them between the start and
-        the farthest t. The boxes are those at ``place`` of the faces, the highest sides ``other`` places behind the
+        the farthest t. The boxes are those at ``box`` of the faces, the highest sides ``other`` places behind the
         lowest.
         """
         packets = self._packets
         near, far = np.array(self._start), taken(self._farthest, packet)
         alone = len(packet) > 0 and packet.min() >= self._first_ray
         for axis in range(3):
-            low = faces[axis].take(place, axis=0, mode="wrap")
-            high = faces[axis].take(place + other, axis=0, mode="wrap")
+            low = faces[axis].take(box, axis=0, mode="wrap")
+            high = faces[axis].take(box + other, axis=0, mode="wrap")
             if packets.eye is None:
                 high -= taken(packets.low[axis], packet)
                 low -= taken((packets.low if alone else packets.high)[axis], packet)
             least = taken(packets.least[axis], packet)
             ends = [low * least, high * least]  # NaN, of sides that rays do not leave, tells nothing
             if not alone:
-                most = taken(packets.most[axis], packet)
-                ends += [low * most, high * most]
+                largest = taken(packets.largest[axis], packet)
+                ends += [low * largest, high * largest]
             enter, leave = np.minimum(ends[0], ends[1]), np.maximum(ends[0], ends[1])
             for end in ends[2:]:
                 np.minimum(enter, end, out=enter)

@@ -92,13 +92,13 @@ def _order(middle: np.ndarray) -> np.ndarray:
     in which the part is longest.
     """
     count = middle.shape[1]
-    order, place, step = np.arange(count), np.arange(count), LEAF
+    order, position, step = np.arange(count), np.arange(count), LEAF
     while step < count:
         step *= 2
     while step > LEAF:
-        own, starts, part = middle[:, order], np.arange(0, count, step), place // step
-        length = np.maximum.reduceat(own, starts, axis=1) - np.minimum.reduceat(own, starts, axis=1)
-        order = order[np.lexsort((own[length.argmax(axis=0)[part], place], part))]
+        ordered, starts, run = middle[:, order], np.arange(0, count, step), position // step
+        length = np.maximum.reduceat(ordered, starts, axis=1) - np.minimum.reduceat(ordered, starts, axis=1)
+        order = order[np.lexsort((ordered[length.argmax(axis=0)[run], position], run))]
         step //= 2
     return order
 

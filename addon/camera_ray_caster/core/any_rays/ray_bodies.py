@@ -35,7 +35,7 @@ class RayHits:
     ray: np.ndarray
     t: np.ndarray
     body: np.ndarray
-    """Indices into the bodies of ``Found``."""
+    """Indices into the bodies of ``RayBodies``."""
 
     @classmethod
     def of(cls, t: np.ndarray, body: np.ndarray) -> RayHits:
@@ -51,12 +51,12 @@ class RayHits:
             np.concatenate([getattr(hits, name) for hits in parts] or [np.zeros(0, kind)]) for name, kind in kinds
         ))  # fmt: skip
 
-    def only(self, some: np.ndarray) -> RayHits:
+    def only(self, indices: np.ndarray) -> RayHits:
         """Return some of them, by index."""
-        return RayHits(self.ray[some], self.t[some], self.body[some])
+        return RayHits(self.ray[indices], self.t[indices], self.body[indices])
 
 
-class Found:
+class RayBodies:
     """Bodies of shapes, on which rays have hits."""
 
     at: np.ndarray
@@ -85,8 +85,8 @@ class Found:
     def t_errors(self, origin, direction, hits: RayHits) -> np.ndarray:
         """Return the error bounds of the t of hits, one for each ray (3, n)."""
         bounds = np.full(hits.t.shape, np.inf)
-        for chunk, some in self._hits(origin, direction, hits.t, hits.body):
-            for where, errors in HitValues(some).errors:
+        for chunk, block in self._hits(origin, direction, hits.t, hits.body):
+            for where, errors in HitValues(block).errors:
                 bounds[chunk][where[0]] = errors.t_error
         return bounds
 
