@@ -170,6 +170,13 @@ def test_cast_all_and_exports_take_each_camera_in_the_frames_of_its_poses(blende
     cast, export = blender.ops.camera_ray_caster.cast_all, blender.ops.camera_ray_caster.export
     add_rig(scene, [model])
     assert chosen_frames.usual(scene) == "POSES"
+    blender.ops.wm.save_as_mainfile(filepath=str(tmp_path / "rig.blend"), copy=True)
+    words = [str(tmp_path / "rig.blend"), "--camera", "x-2", "--poses", "--format", "NPZ", "--passes", "depth"]
+    assert commands.main("cast", [*words, "--output", str(tmp_path / "of_one")], "it") == 0
+    assert {path.stem for path in (tmp_path / "of_one").glob("*.npz")} == {"x-2_0002"}
+    blender.ops.wm.open_mainfile(filepath=str(tmp_path / "rig.blend"))
+    scene = blender.context.scene
+    scene.frame_set(7)
     assert cast(directory=str(tmp_path / "all"), frames="POSES", format="NPZ") == {"FINISHED"}
     while in_process.tick() is not None:
         sleep(0.05)
@@ -215,6 +222,8 @@ def test_cameras_of_different_sizes_are_cast_into_one_folder(blender, camera_sce
     assert "NeRF cannot represent" in capfd.readouterr().err
     assert commands.main("export", [str(out), "--format", "json", "--resolution", "8x6"], "it") == 2
     assert "--resolution does not apply to a finished data set" in capfd.readouterr().err
+    assert commands.main("export", [str(out), "--format", "json", "--poses"], "it") == 2
+    assert "--poses does not apply to a finished data set" in capfd.readouterr().err
     assert commands.main("export", [str(file), "--format", "yolo"], "it") == 2
     wanted = f"--format yolo needs a finished data set: give its folder in place of {str(file)!r}"
     assert wanted in capfd.readouterr().err

@@ -28,7 +28,11 @@ def test_each_camera_is_listed_with_its_model(blender, cameras, monkeypatch):
         assert text in said
     blender.data.objects.remove(blender.data.objects["Plain"])
     blender.data.objects.remove(blender.data.objects["All around"])
+    monkeypatch.setattr(in_process, "_ended", [])
     assert not SidebarCameras.poll(blender.context), "one camera needs no list"
+    monkeypatch.setattr(in_process, "_ended", ["Stopped"])
+    assert SidebarCameras.poll(blender.context), "but the result of its run"
+    monkeypatch.setattr(in_process, "_ended", [])
     monkeypatch.setattr(in_process, "_running", [object()])
     assert SidebarCameras.poll(blender.context), "but a button that stops its run"
 

@@ -109,3 +109,31 @@ def test_a_percentage_that_would_not_be_used_is_refused(blender, scene, tmp_path
     with pytest.raises(RuntimeError, match="Resolution % does not change pictures of cameras that have their own size"):
         run(blender, tmp_path / "all")
     assert not (tmp_path / "all").exists()
+
+
+def test_of_a_single_picture_the_report_is_not_the_result(blender, scene, tmp_path):
+    blender.data.objects.remove(scene.objects["Dome"])
+    end = run(blender, tmp_path / "one", frames="CURRENT")
+    assert end.startswith("Wrote ")
+    assert end.count("\n") < 4  # the report has some 70 lines
+
+
+def test_what_cannot_begin_or_end_leaves_the_buttons_as_they_were(blender, scene, tmp_path, monkeypatch):
+    """No temporary folder; and a folder of pictures that is gone as the run is stopped."""
+
+    def fail(error):
+        def raising(*arguments, **options):
+            raise error
+
+        return raising
+
+    with monkeypatch.context() as patch:
+        patch.setattr(in_process, "TemporaryDirectory", fail(FileNotFoundError("no temporary folder")))
+        with pytest.raises(RuntimeError, match="The command cannot be started: no temporary folder"):
+            blender.ops.camera_ray_caster.cast_all(directory=str(tmp_path / "a"))
+    assert blender.ops.camera_ray_caster.cast_all.poll()
+    monkeypatch.setattr(in_process, "clear_up", fail(InputError("cannot write into 'b'")))
+    assert blender.ops.camera_ray_caster.cast_all(directory=str(tmp_path)) == {"FINISHED"}
+    in_process.running().stop()
+    assert ended() == "Cannot write into 'b'"
+    assert blender.ops.camera_ray_caster.cast_all.poll()

@@ -64,3 +64,10 @@ def test_a_refusal_ends_it_in_one_line(blender, scene, tmp_path):
     export(blender, tmp_path / "out", in_process=True)
     assert ended().startswith("Mrcal cannot represent the Orthographic of camera 'Dome': choose one of")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_names_that_a_terminal_would_not_take_are_exported_all_the_same(blender, scene, tmp_path):
+    scene.objects["Dome"].name = "-Dome"
+    export(blender, tmp_path / "out", in_process=True)
+    assert in_process.running() is None
+    assert len(list((tmp_path / "out").iterdir())) == 10

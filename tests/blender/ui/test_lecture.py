@@ -82,3 +82,6 @@ def test_a_view_of_the_ray_shows_eye_and_hit_below_the_text_and_beside_the_sideb
     assert all(60 <= x <= 640 and 0 <= y <= 330 for x, y in (eye, hit)), (eye, hit)
     axis = 0 if side == "SIDE" else 1
     assert hit[axis] - eye[axis] > 150
+    monkeypatch.setattr(lecture_operators.text, "uncovered", lambda context: (640, 60))  # all covered
+    lecture_operators.look_at(context, explained, side)
+    assert 0 < view.view_distance < np.inf

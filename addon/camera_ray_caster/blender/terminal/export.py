@@ -122,6 +122,8 @@ def _tell(remarks: Sequence[str], paths: Sequence[Path], folder: Path) -> None:
 
 def _of_set(options) -> int:
     """Export a finished data set, with the names of its pictures' files; return the exit status."""
+    if options.own_frames:
+        raise InputError("--poses does not apply to a finished data set: leave it out")
     unused = [name for name in OF_SCENES if getattr(options, name)]
     if unused:
         raise InputError(f"--{unused[0].replace('_', '-')} does not apply to a finished data set: leave it out")

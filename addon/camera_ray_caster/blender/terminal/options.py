@@ -138,7 +138,7 @@ def _take_poses(scene, options) -> None:
     """Let the options name the frames of the poses of their cameras. Raises InputError if there are none."""
     if options.frames is not None or getattr(options, "frame", None) is not None:
         raise InputError("--poses are frames of their own: leave out --frame and --frames")
-    options.cameras = options.cameras or [ALL]
+    options.cameras = options.cameras or ([ALL] if options.camera is None else [options.camera])
     options.frames = frames_of(find_cameras(scene, options.cameras))
     if not options.frames:
         raise InputError("no camera has poses from a file: give --frames in place of --poses")

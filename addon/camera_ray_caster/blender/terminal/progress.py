@@ -84,8 +84,8 @@ def follow(
     outcomes: Iterable[Outcome], count: int, prog: str, log: Path | None = None, every: float = EVERY
 ) -> Iterator[Outcome]:
     """Yield outcomes as they come; show the progress of several jobs or of a long one, and print each warning once and
-    each failure. Without a terminal there are at least
-    ``every`` seconds between two lines. Raises InputError if the first MOST_FAILURES jobs fail.
+    each failure. Without a terminal there are at least ``every`` seconds between two lines. Raises InputError if the
+    first MOST_FAILURES jobs fail.
     """
     progress, warned = Progress(count, prog, log, every), set()
     with signals.heard(progress.wait):

@@ -121,7 +121,8 @@ def add_cameras(parser) -> None:
         "--rig-parent", metavar="NAME", help="object below which the cameras of --rig are put; default: none"
     )
     unstamped(parser.add_argument("--poses", dest="own_frames", action="store_true", help=
-        "the frames of the poses in files of cameras, each camera in its own, others in all of them"))  # fmt: skip
+        "use the frames of the poses that were read from files: each camera at its own, one without poses at all of "
+        "them"))  # fmt: skip
 
 
 def check_cameras(options: argparse.Namespace) -> None:

@@ -55,8 +55,9 @@ class SidebarCameras(Sidebar, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        """Show the panel for scenes with several cameras, and while work runs, which it can stop."""
-        return in_process.running() is not None or sum(item.type == "CAMERA" for item in context.scene.objects) > 1
+        """Show the panel for scenes with several cameras, while work runs, which it can stop, and with its result."""
+        count = sum(item.type == "CAMERA" for item in context.scene.objects)
+        return count > 1 or bool(in_process.running() or in_process.latest())
 
     def draw(self, context):
         """Draw a row for each camera, the buttons that cast and export all, and the result of the latest run."""

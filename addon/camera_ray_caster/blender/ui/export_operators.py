@@ -123,8 +123,9 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
         target = find_camera(scene, self.target) if self.target else None
         frames, shown = chosen_frames.chosen(scene, self.frames, cameras)
         folder = Path(bpy.path.abspath(self.filepath))
-        if self.in_process and self.frames != chosen_frames.CURRENT[0]:
-            names = [unique_name(item, bpy.data.objects) for item in cameras]
+        names = [unique_name(item, bpy.data.objects) for item in cameras]
+        are_words = not any(name == ALL or name.startswith("-") for name in names)  # which a terminal takes as names
+        if self.in_process and self.frames != chosen_frames.CURRENT[0] and are_words:
             words = ["--cameras", *names, "--format", self.format]
             words += [f"--to={unique_name(target, bpy.data.objects)}"] if target else []
             words += [f"--fit={degrees(self.fit_within)!r}"] if self.fit else []

@@ -9,6 +9,7 @@ import os
 import re
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from subprocess import DEVNULL, Popen
 from tempfile import TemporaryDirectory
@@ -16,6 +17,7 @@ from tempfile import TemporaryDirectory
 import bpy
 
 from ...core.file_set import clear_up
+from ...core.records import InputError
 from ..properties.labels import in_labels
 from ..read.unique import unique_name
 from ..read.view import views_3d
@@ -82,6 +84,8 @@ class Work:
             parts = PART.findall("\n".join(errors)) if self.command == "cast" else ()
             return f"Stopped: {' of '.join(parts[-1])} pictures are in {self.folder}" if parts else "Stopped"
         if status in (0, 1) and printed:
+            if self.command == "cast":  # before this line stands the report of a single picture
+                printed = printed[next((k for k, line in enumerate(printed) if line.startswith("Wrote")), 0) :]
             printed.sort(key=lambda line: not line.startswith("Wrote"))
             return "\n".join([DISAGREES] * status + printed)
         return in_labels(errors[-1]) if errors else f"Blender ended with status {status}"
@@ -130,8 +134,14 @@ def latest() -> str:
 
 
 def begin(command: str, words: Sequence[str], folder: Path) -> None:
-    """Begin a command that writes into a folder; a timer looks after it, also when another file is opened."""
-    _running.append(Work(command, words, folder))
+    """Begin a command that writes into a folder; a timer looks after it, also when another file is opened.
+
+    Raises InputError if the temporary folder, the copy of the file or the process cannot be made.
+    """
+    try:
+        _running.append(Work(command, words, folder))
+    except (OSError, RuntimeError) as error:
+        raise InputError(f"the command cannot be started: {error}") from error
     bpy.app.timers.register(tick, first_interval=INTERVAL, persistent=True)
 
 
@@ -143,7 +153,10 @@ def tick() -> float | None:
     if work.process.poll() is None:
         tell(work.progress)
         return INTERVAL
-    _ended[:] = [work.result()]
+    try:
+        _ended[:] = [work.result()]
+    except InputError as error:
+        _ended[:] = [in_labels(str(error))]
     forget()
     tell(latest().partition("\n")[0])
     show_later(None, SHOWN)
@@ -163,6 +176,8 @@ def forget() -> None:
         work = _running.pop()
         work.process.kill()
         work.process.wait()
+        with suppress(InputError):
+            clear_up(work.folder)
         work.temporary.cleanup()
 
 

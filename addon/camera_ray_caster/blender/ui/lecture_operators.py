@@ -98,7 +98,7 @@ def look_at(context, explained, side: str) -> None:
     right /= np.linalg.norm(right)
     up = np.cross(toward, right)
     left, most = text.uncovered(context)
-    free = min(most - left, FREE * region.height)
+    free = max(min(most - left, FREE * region.height), 1.0)  # toolbar and sidebar may cover a narrow region
     unit = 2 * radius / free  # of a pixel
     view.view_rotation = Matrix(np.column_stack((right, up, toward)).tolist()).to_quaternion()
     view.view_distance = unit * max(region.width, region.height) * context.space_data.lens / SENSOR

@@ -200,8 +200,8 @@ class Place(bpy.types.PropertyGroup):
 
 def begin_lecture(context) -> None:
     """Begin with the pixel in the middle if none is chosen, or end."""
-    width, height = _sides(context)
-    if not clicked.pixels:
+    if context.window_manager.camera_ray_caster_place.lecture and not clicked.pixels:
+        width, height = _sides(context)
         clicked.choose([(width // 2, height // 2)])
     redraw(context)
 

@@ -21,7 +21,7 @@ def write(
     size: float | None = None,
     corner: tuple[float, float] | None = None,
 ) -> None:
-    """Write (name, text) lines; ``place(width, height)`` returns the left and top of the text in the region.
+    """Write (name, text) lines; ``corner_for(width, height)`` returns the left and top of the text in the region.
 
     size: of the font in pixels; None for that of notices. corner: left and top of an opaque background; None for a
     transparent one around the text.

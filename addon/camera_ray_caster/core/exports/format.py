@@ -1,8 +1,8 @@
 """The interface of an export format.
 
-A format is a subclass of ``Format`` and an entry in FORMATS. It defines ``key``, ``label``, ``description``,
-``refusal``, which tells what the format cannot represent, and ``files``. Lengths are in its ``unit``. A format computes
-contents and writes nothing: the caller writes all files of an export or none.
+A format is a subclass of ``Format`` and an entry in EXPORT_FORMATS. It defines ``key``, ``label``,
+``description``, ``refusal``, which tells what the format cannot represent, and ``files``. Lengths are in its ``unit``.
+A format computes contents and writes nothing: the caller writes all files of an export or none.
 """
 
 from __future__ import annotations
