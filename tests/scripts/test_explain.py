@@ -30,7 +30,7 @@ def test_explain_prints_the_steps_of_the_pixel_that_cast_and_project_know(comman
         assert f"{title}\n  " in done.stdout
     assert "its center: x = 12.5, y = 9.5" in done.stdout
     facts = json.loads(command("verify", scene, "--frame", "1.25", "--json").stdout)["camera"]
-    assert f"eye ({', '.join(f'{value + 0.0:.6g}' for value in facts['eye'])})" in done.stdout
+    assert f"eye = ({', '.join(f'{value + 0.0:.6g}' for value in facts['eye'])})" in done.stdout
 
 
 @pytest.mark.parametrize("samples", [1, 5])

@@ -3,6 +3,7 @@
 import pytest
 
 from camera_ray_caster.blender.cycles import to_cycles
+from camera_ray_caster.blender.ui import drawing
 from camera_ray_caster.blender.ui.model_panels import LensPanel, ModelPanel, PortPanel, SensorPanel, TimePanel
 from camera_ray_caster.core.records import InputError
 
@@ -64,8 +65,12 @@ TIMES = {
 }
 
 
+WIDTH = 292
+"""Of the default sidebar in pixels at interface scale 1."""
+
+
 class Layout:
-    """Takes down what is drawn, which has to exist, and what of it is active."""
+    """Takes down what is drawn, which has to exist with a label that is not cut, and what of it is active."""
 
     use_property_split = True
 
@@ -81,7 +86,9 @@ class Layout:
         self.labels.append(text)
 
     def prop(self, owner, name, index=0, text=None):
-        assert name in owner.bl_rna.properties
+        kind = owner.bl_rna.properties[name]
+        room = drawing.label_room(WIDTH, kind.type == "BOOLEAN")
+        assert not self.use_property_split or drawing.text_width(text or kind.name) <= room
         if index == 0:
             (self.names if self.active else self.grayed).append(name)
 
@@ -116,7 +123,7 @@ def data(blender):
     return blender.data.cameras.new("Camera")
 
 
-def drawn(bpy, panel, data, engine="CYCLES", width=300):
+def drawn(bpy, panel, data, engine="CYCLES", width=WIDTH):
     layout = Layout()
     region = type("Region", (), {"width": width})
     context = {"camera": data, "object": None, "scene": bpy.context.scene, "engine": engine, "region": region}

@@ -29,7 +29,7 @@ def unknown(scene, data):
 
 def sharp(scene, data):
     data.dof.use_dof, data.dof.focus_distance, data.dof.aperture_fstop = True, 5.0, 1.0
-    return "With 1 sample nothing is blurred: every ray passes through the center of the aperture samples"
+    return "Nothing is blurred with 1 sample: every ray passes through the center of the aperture samples"
 
 
 def wide_open(scene, data):
@@ -81,7 +81,7 @@ def test_every_note_is_in_the_popover_with_its_buttons(blender, scene):
     blender.context.view_layer.update()
     found = drawn(blender, CameraNotes)
     assert len(notes(blender.context)) == 3
-    for said in ("set_frame", "use_this_engine", "use_in_cycles", "nothing is blurred", "samples"):
+    for said in ("set_frame", "use_this_engine", "use_in_cycles", "Nothing is blurred", "samples"):
         assert said in found
 
 

@@ -139,12 +139,14 @@ def test_a_slit_that_is_deleted_is_offered_again(blender, scene):
     assert camera.data.camera_ray_caster.slit_1 != first
 
 
-def test_a_view_that_cannot_be_cast_says_why_with_the_labels_of_the_panels(blender, scene):
+def test_a_view_that_cannot_be_cast_says_once_why_with_the_labels_of_the_panels(blender, scene, monkeypatch):
     scene.camera.data.camera_ray_caster.model, scene.render.engine = "PUSHBROOM", "CAMERA_RAY_CASTER"
     blender.context.view_layer.update()
     space = SimpleNamespace(shading=SimpleNamespace(type="RENDERED"), overlay=SimpleNamespace(show_overlays=True))
     own = {name: getattr(blender.context, name) for name in ("scene", "view_layer", "evaluated_depsgraph_get")}
     space.local_view, seen = None, SimpleNamespace(view_perspective="CAMERA")
+    monkeypatch.setattr(notice, "is_live", lambda space: True)
+    monkeypatch.setattr(notice.live, "sentences", lambda context: iter(["A cast is shown: the slit is not set"]))
     (said,) = notice._sentences(SimpleNamespace(space_data=space, region_data=seen, **own))
     assert "Slit" in said
     assert "slit_1" not in said

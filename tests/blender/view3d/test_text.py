@@ -37,6 +37,12 @@ def test_a_toolbar_and_a_sidebar_over_the_view_leave_less_of_it(sidebar, expecte
 SENTENCE = "Every pixel is shown at frame 5; in a render, each pixel has its own time, from frame 1.024 to 24.98"
 
 
+def test_a_value_stays_beside_its_sign_and_a_vector_in_one_line(interface):
+    sentence = "light 1, towards (0.497, -0.3, 1), cosine 0, distance = 6.684"
+    words = ["light", "1,", "towards", "(0.497, -0.3, 1),", "cosine", "0,", "distance", "= 6.684"]
+    assert text.wrapped(interface, sentence, 1) == words
+
+
 @pytest.mark.parametrize("width", [40, 120, 300, 5000])
 def test_a_sentence_is_wrapped_to_the_width_of_the_view(width, interface):
     lines = text.wrapped(interface, SENTENCE, width)

@@ -126,3 +126,14 @@ def test_what_lies_outside_of_the_clip_range_says_so():
 def test_a_pixel_outside_of_the_frame_is_refused():
     with pytest.raises(InputError, match=r"pixel 40,0 is outside the frame: give 0,0 \(bottom left\) to 39,29"):
         lesson(camera(), scene(), 40, 0)
+
+
+def test_pages_of_a_lecture_are_few_and_equally_long():
+    seven, uneven = ("direction",) * 7, ("a", "  1", "  2", "b", "  1", "  2", "c", "  1", "  2", "d")
+    explained = lesson(camera(), scene(), 20, 15)
+    steps = tuple((title, lines) for title, lines in explained.steps if title == "Ray in the world")
+    pages = replace(explained, steps=(*steps, ("Seven", seven), ("Uneven", uneven))).screens[1:]
+    assert [(title, len(lines)) for title, lines in pages] == [
+        ("Ray in the world", 6), ("Seven", 4), ("Seven", 3), ("Uneven", 6), ("Uneven", 4),
+    ]  # fmt: skip
+    assert [line.split(" = ")[0] for line in pages[0][1]] == ["eye", "u", "v", "w", "o", "r"]

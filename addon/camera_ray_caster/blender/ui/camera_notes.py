@@ -43,7 +43,7 @@ def sample_note(scene, camera) -> Note | None:
     settings = scene.camera_ray_caster
     if camera is None or camera.aperture is None or settings.samples != 1:
         return None
-    said = "With 1 sample nothing is blurred: every ray passes through the center of the aperture"
+    said = "Nothing is blurred with 1 sample: every ray passes through the center of the aperture"
     return Note(said, lambda row: row.prop(settings, "samples"), "INFO")
 
 

@@ -38,22 +38,24 @@ def put_labels(layout, context) -> None:
     layout.use_property_split = width_of(context) > NARROW
 
 
-def draw_field(layout, context, owner, name: str):
-    """Draw a property and return the layout of its field. Without ``use_property_split``, or if its column is too
-    narrow for the label, give the label the width that it needs, up to 60 percent of the row.
+def draw_field(layout, context, owner, name: str, label: str = ""):
+    """Draw a property with a label, by default its name, and return the layout of its field. Without
+    ``use_property_split``, or if its column is too narrow for the label, give the label the width that it needs, up to
+    60 percent of the row.
     """
     kind = owner.bl_rna.properties[name]
+    label = label or kind.name
     room = label_room(width_of(context), kind.type == "BOOLEAN")
-    if layout.use_property_split and text_width(kind.name) > room:
+    if layout.use_property_split and text_width(label) > room:
         layout = layout.row()
         layout.use_property_split = False
     if layout.use_property_split or kind.type in {"BOOLEAN", "FLOAT", "INT"}:  # Blender labels these
         row = layout.row(align=True)
-        row.prop(owner, name)
+        row.prop(owner, name, text=label)
         return row
-    room = (LETTER * len(kind.name) + FIELD_MARGIN) / max(width_of(context) - 2 * FIELD_MARGIN, 1.0)
+    room = (LETTER * len(label) + FIELD_MARGIN) / max(width_of(context) - 2 * FIELD_MARGIN, 1.0)
     row = layout.split(factor=min(room, 0.6), align=True)
-    row.label(text=kind.name)
+    row.label(text=label)
     row = row.row(align=True)
     row.prop(owner, name, text="")
     return row

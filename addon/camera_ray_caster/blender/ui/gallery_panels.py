@@ -99,8 +99,11 @@ class KeyModel(OfCamera, bpy.types.Operator):
 
 
 def choose(camera, key: str) -> None:
-    """Set a camera's model; for one of Blender's own the type, and the type of panorama. Or set its times of pixels."""
+    """Set a camera's model; for one of Blender's own the type, and the type of panorama. Or set its times of pixels.
+    A lecture begins again, with the formula.
+    """
     settings = getattr(camera, GROUP)
+    bpy.context.window_manager.camera_ray_caster_place.step = 0
     if key in [entry.key for entry in pixel_time.MODE.items]:
         setattr(settings, pixel_time.MODE.name, key)
     elif key in [entry.key for entry in MODEL.items]:

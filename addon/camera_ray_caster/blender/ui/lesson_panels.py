@@ -36,11 +36,11 @@ class Steps:
         layout.operator(StepThrough.bl_idname, icon="EYEDROPPER", text="Click a Pixel")
         place, found = context.window_manager.camera_ray_caster_place, lessons(context)
         draw_lecture(layout, place, bool(found))
+        layout.operator(OpenLesson.bl_idname, icon="URL")
         if place.lecture:
             draw_place(layout, place)
             return
         layout.operator(PixelOfPoint.bl_idname, icon="PIVOT_CURSOR", text="Pixel of 3D Cursor")
-        layout.operator(OpenLesson.bl_idname, icon="URL")
         if not found:
             return
         layout.operator(EmptyAtHit.bl_idname, icon="EMPTY_SINGLE_ARROW")

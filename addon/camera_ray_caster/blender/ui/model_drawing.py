@@ -53,7 +53,7 @@ def draw_lens(layout, context, camera) -> None:
             row = column.row()
             row.active = setting in read
             by_angle = setting == LENS and camera.lens_unit == "FOV"
-            row.prop(camera, "angle" if by_angle else setting.name, text="Field of View" if by_angle else setting.label)
+            draw_field(row, context, camera, *(("angle",) if by_angle else (setting.name, setting.label)))
     if LENS in (*offered, *read):
         row = column.row()
         row.active = LENS in read

@@ -36,13 +36,13 @@ def draw() -> None:
 def _sentences(context) -> Iterator[str]:
     """Yield the sentences for a view that shows the camera's picture or another one of this engine, or the overlay."""
     scene, space = context.scene, context.space_data
-    if is_live(space) and context.region_data.view_perspective == "CAMERA":
-        yield from live.sentences(context)
     is_rendered = space.shading.type == "RENDERED" and scene.render.engine == ENGINE
     is_overlaid = scene.camera_ray_caster_overlay.show and space.overlay.show_overlays
     looks_through = context.region_data.view_perspective == "CAMERA"
     if is_rendered and looks_through and (reason := cached_scene(context).reason):
         yield reason
+    elif is_live(space) and looks_through:
+        yield from live.sentences(context)
     if is_rendered and looks_through:
         yield from other_times.sentences(scene, context.view_layer)
         yield from (line for line in cached_scene(context).differences if not line.startswith(TIMES))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 
 import blf
@@ -12,6 +13,8 @@ FONT = 0
 """Blender's identifier of the interface's font."""
 SIZE = 12
 """Font size in pixels at interface scale 1."""
+BREAK = re.compile(r"(?<!=)(?:(?<!\d,)\s+|\s+(?![-\d\s]))")
+"""Where a line may end: not after "=", nor between two numbers."""
 
 
 def write(
@@ -42,10 +45,12 @@ def write(
 
 
 def wrapped(context, sentence: str, width: float, size: float | None = None) -> list[str]:
-    """Return a sentence as lines that are at most ``width`` pixels wide; a word that is wider has its own line."""
+    """Return a sentence as lines that are at most ``width`` pixels wide; a word that is wider has its own line. A line
+    does not end between "=" and a value, nor between the numbers of a vector.
+    """
     _set_size(context, size)
     lines: list[str] = []
-    for word in sentence.split():
+    for word in BREAK.split(sentence.strip()):
         if lines and _width(f"{lines[-1]} {word}") <= width:
             lines[-1] += f" {word}"
         else:

@@ -61,17 +61,14 @@ class Lesson:
     @property
     def screens(self) -> list[tuple[str, tuple[str, ...]]]:
         """The pages of a lecture: the model's formula in symbols, then the steps, in which it has its numbers. A step
-        of more than ``PAGE`` lines has several pages; a line and the indented lines below it stay together.
+        of more than ``PAGE`` lines has several pages of about as many lines; a line and the indented lines below it
+        stay together.
         """
         pages = [(self.label, self.formula)]
         for title, lines in self.steps:
-            starts = [k for k, line in enumerate(lines) if not line.startswith(" ")] + [len(lines)]
-            first = starts[0]
-            for start, end in pairwise(starts):
-                if end - first > PAGE and start > first:
-                    pages.append((title, lines[first:start]))
-                    first = start
-            pages.append((title, lines[first:]))
+            fewest = len(_cut(lines, PAGE))
+            parts = next(cut for most in range(1, PAGE + 1) if len(cut := _cut(lines, most)) == fewest)
+            pages += [(title, part) for part in parts]
         return pages
 
     def lines(self) -> list[str]:
@@ -94,6 +91,19 @@ class Lesson:
 
     def __str__(self) -> str:
         return "\n".join(self.lines())
+
+
+def _cut(lines: tuple[str, ...], most: int) -> list[tuple[str, ...]]:
+    """Cut lines before lines without indent into pages of at most that many lines, or of one such line and those below
+    it.
+    """
+    starts = [k for k, line in enumerate(lines) if not line.startswith(" ")] + [len(lines)]
+    pages, first = [], starts[0]
+    for start, end in pairwise(starts):
+        if end - first > most and start > first:
+            pages.append(lines[first:start])
+            first = start
+    return [*pages, lines[first:]]
 
 
 def _plain(value: Any) -> Any:
@@ -267,8 +277,10 @@ def _known(camera: Camera, x: float, y: float) -> dict[str, Any]:
 def _world(camera: Camera, seen: Probe) -> tuple[str, ...]:
     u, v, z = camera.pose.basis.T
     return (
-        f"eye {words(camera.pose.eye)}",
-        f"u = {words(u)}, v = {words(v)}, w = {words(-z)}",
+        f"eye = {words(camera.pose.eye)}",
+        f"u = {words(u)}",
+        f"v = {words(v)}",
+        f"w = {words(-z)}",
         f"o = {words(seen.origin)}",
         f"r = {words(seen.direction)}, of length 1",
     )
