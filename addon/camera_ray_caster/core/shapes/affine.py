@@ -71,10 +71,10 @@ class AffineKind(Kind):
     def shape_set(self, shapes: InCamera, visible: Visible) -> AffineSet:
         """See ``Kind``."""
         groups, cutouts = [], Cutouts.of(self, shapes, visible.at)
-        for part, is_simple, is_small, is_cut in divide(visible, None if cutouts is None else cutouts.may):
-            constants = self.constants(shapes, part.at, part.parallel)
-            own = cutouts if is_cut else None
-            groups.append(SearchGroup(self.intersect, self.lattice, part, is_simple, is_small, constants, own))
+        for alike, is_simple, is_small, is_cut in divide(visible, None if cutouts is None else cutouts.may):
+            constants = self.constants(shapes, alike.at, alike.parallel)
+            cut_by = cutouts if is_cut else None
+            groups.append(SearchGroup(self.intersect, self.lattice, alike, is_simple, is_small, constants, cut_by))
         faces_eye = self.faces_eye or all(group.is_simple for group in groups)
         return AffineSet(tuple(groups), faces_eye, cutouts is not None)
 
@@ -129,11 +129,11 @@ class AffineBodies(Bodies):
         """See ``Bodies``."""
         if self._cutouts is None:
             return True
-        found, at = np.ones(len(t), bool), self.at[body]
-        some = np.flatnonzero(self._cutouts.may[at])
-        point = along(tuple(part[some] for part in origin), tuple(part[some] for part in direction), t[some])
-        found[some] = self._cutouts.hit(crossings(at[some], t[some], False), point)
-        return found
+        hit, at = np.ones(len(t), bool), self.at[body]
+        cut = np.flatnonzero(self._cutouts.may[at])
+        point = along(tuple(c[cut] for c in origin), tuple(c[cut] for c in direction), t[cut])
+        hit[cut] = self._cutouts.hit(crossings(at[cut], t[cut], False), point)
+        return hit
 
 
 @dataclass(frozen=True, eq=False)

@@ -43,22 +43,22 @@ class SearchGroup:
 
     def within(self, corner: tuple[int, int], shape: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
         """Return which of the shapes may be seen in a tile, (k,), and their bounds in the tile, (k, 4)."""
-        some = slice(None)
+        rows = slice(None)
         if self.is_small:
             ends = corner[1] - self.tallest, corner[1] + shape[0]
-            some = slice(*np.searchsorted(self.visible.bounds[:, 2], ends))
-        here, edges = in_tile(self.visible.bounds[some], corner, shape)
-        return here + (some.start or 0), edges
+            rows = slice(*np.searchsorted(self.visible.bounds[:, 2], ends))
+        here, edges = in_tile(self.visible.bounds[rows], corner, shape)
+        return here + (rows.start or 0), edges
 
     def large(self, rays: SearchRays) -> Iterator[Large]:
         """See ``ShapeSet``."""
         here, bounds = self.within(rays.corner, rays.shape)
         count = max(1, tuning.PREPARED_PIXELS // sum(rays.shape))
         for end in range(len(here), 0, -count):
-            some = slice(max(0, end - count), end)
-            meet = self._meet(rays, here[some])
-            for k in reversed(range(some.stop - some.start)):
-                yield Large(int(self.visible.at[here[some][k]]), bounds[some][k].tolist(), partial(meet, k))
+            chunk = slice(max(0, end - count), end)
+            meet = self._meet(rays, here[chunk])
+            for k in reversed(range(chunk.stop - chunk.start)):
+                yield Large(int(self.visible.at[here[chunk][k]]), bounds[chunk][k].tolist(), partial(meet, k))
 
     def _meet(self, rays: SearchRays, here: np.ndarray) -> Callable:
         """Return a function that gives t and hits, as ``Large.solve``, of the k-th shape at ``here`` in a window."""
@@ -95,9 +95,9 @@ class SearchGroup:
         extra = (1,) * axes
         return type(self.constants)(*(value.reshape(*value.shape, *extra) if axes else value for value in values))
 
-    def _intersect(self, rays: SearchRays, at: Any, constants: Any, part: Callable) -> tuple[Any, Any]:
-        origin = None if rays.origin is None else tuple(map(part, rays.origin))
-        direction = tuple(map(part, rays.direction))
+    def _intersect(self, rays: SearchRays, at: Any, constants: Any, in_window: Callable) -> tuple[Any, Any]:
+        origin = None if rays.origin is None else tuple(map(in_window, rays.origin))
+        direction = tuple(map(in_window, rays.direction))
         first = None if self.is_simple else self.visible.clip_start
 
         def cross(start):
@@ -105,7 +105,7 @@ class SearchGroup:
 
         if self.cutouts is None:
             return cross(None)
-        nearest = None if rays.nearest is None else part(rays.nearest)
+        nearest = None if rays.nearest is None else in_window(rays.nearest)
         return self.cutouts.first_hit(at, origin, direction, nearest, cross)
 
 
@@ -138,12 +138,12 @@ def divide(visible: Visible, may_be_cut: np.ndarray | None) -> Iterator[tuple[Vi
     is_small = pixels_in(visible.bounds) < tuning.SMALL_PIXELS
     alike = 4 * is_cut + 2 * is_simple + is_small
     for code in np.unique(alike).tolist():
-        some = np.flatnonzero(alike == code)
+        indices = np.flatnonzero(alike == code)
         if code & 1:
-            some = some[np.argsort(visible.bounds[some, 2], kind="stable")]
-        bounds = np.asfortranarray(visible.bounds[some])
+            indices = indices[np.argsort(visible.bounds[indices, 2], kind="stable")]
+        bounds = np.asfortranarray(visible.bounds[indices])
         yield (
-            replace(visible, at=visible.at[some], bounds=bounds, near=visible.near[some]),
+            replace(visible, at=visible.at[indices], bounds=bounds, near=visible.near[indices]),
             bool(code & 2),
             bool(code & 1),
             bool(code & 4),

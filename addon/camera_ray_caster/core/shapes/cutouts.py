@@ -40,21 +40,21 @@ class Cutouts:
         may, count = has_alpha[: len(record)], len(record)
         if record.slots is not None:
             first = record.slots.first.astype(np.intp)
-            some = has_alpha[count:-1]
+            of_slots = has_alpha[count:-1]
             starts = np.unique(first[first >= 0])
-            any_of = np.zeros(len(some) + 1, bool)
-            any_of[starts] = np.logical_or.reduceat(some, starts)
+            any_of = np.zeros(len(of_slots) + 1, bool)
+            any_of[starts] = np.logical_or.reduceat(of_slots, starts)
             may = np.where(first >= 0, any_of[first], may)
         return cls(kind, shapes, may) if may[at].any() else None
 
     def hit(self, pixels: HitPixels, camera_point: Any) -> np.ndarray:
         """Return which crossings, (m,), are hits; their points are three components in the camera's frame."""
         places = KindPlaces(self.kind, self.shapes, pixels, matvec(self.shapes.pose.basis, camera_point))
-        found = np.ones(len(pixels.at), bool)
-        for number, some in places.each_surface():
+        hit = np.ones(len(pixels.at), bool)
+        for number, indices in places.each_surface():
             surface = self.shapes.shapes.surfaces[number]
-            found[some] = surface.is_hit(SurfacePlaces(places, some), len(some))
-        return found
+            hit[indices] = surface.is_hit(SurfacePlaces(places, indices), len(indices))
+        return hit
 
     def first_hit(
         self, at: Any, origin: Any, direction: Any, nearest: Any, cross: Cross
@@ -66,22 +66,22 @@ class Cutouts:
         crossing at or beyond ``start``, None for the clip start, as ``AffineKind.intersect`` does.
         """
         t, open_ = _crossed(cross(None), nearest)
-        found = open_.copy()
+        hit = open_.copy()
         while open_.any():
             where = np.nonzero(open_)
             span = t[where]
             pixels = crossings(np.broadcast_to(at, t.shape)[where], span, origin is None)
-            point = [span * np.broadcast_to(part, t.shape)[where] for part in direction]
+            point = [span * np.broadcast_to(component, t.shape)[where] for component in direction]
             if origin is not None:
-                point = [p + np.broadcast_to(part, t.shape)[where] for p, part in zip(point, origin, strict=True)]
+                point = [p + np.broadcast_to(o, t.shape)[where] for p, o in zip(point, origin, strict=True)]
             open_[where] = ~self.hit(pixels, point)
             if self.kind.meets_once:
-                return t, found & ~open_
+                return t, hit & ~open_
             beyond, crossed = _crossed(cross(np.nextafter(t, t.dtype.type(np.inf))), nearest)
             t = np.where(open_, beyond, t)
-            found = np.where(open_, crossed, found)
+            hit = np.where(open_, crossed, hit)
             open_ &= crossed
-        return t, found
+        return t, hit
 
 
 def crossings(at: np.ndarray, t: np.ndarray, from_eye: bool, **noted: Any) -> HitPixels:
@@ -90,9 +90,9 @@ def crossings(at: np.ndarray, t: np.ndarray, from_eye: bool, **noted: Any) -> Hi
     return HitPixels(where, (at[None], t[None]), (ALL, ALL), from_eye, noted=noted)
 
 
-def _crossed(found: tuple[Any, Any], nearest: Any) -> tuple[np.ndarray, np.ndarray]:
+def _crossed(crossing: tuple[Any, Any], nearest: Any) -> tuple[np.ndarray, np.ndarray]:
     """Return copies of t, and of where it is a crossing up to ``nearest`` as a bool array."""
-    t, where = found
+    t, where = crossing
     t = np.array(t)
     crossed = t < np.inf if nearest is None else (t < np.inf) & (t <= nearest)
     return t, crossed if where is None else crossed & where

@@ -37,27 +37,27 @@ def follow_frames(shapes: InCamera, at: np.ndarray, point: Any) -> Follow:
     """
     now = shapes.shapes
 
-    def moved(then: Shapes, rows: np.ndarray, some: np.ndarray) -> Moved:
-        found = Moved(np.zeros((3, len(some))), *np.zeros((2, len(some))))
+    def moved(then: Shapes, rows: np.ndarray, indices: np.ndarray) -> Moved:
+        result = Moved(np.zeros((3, len(indices))), *np.zeros((2, len(indices))))
         seen = np.zeros(len(now), bool)
-        seen[at[some]] = True
+        seen[at[indices]] = True
         here = np.flatnonzero(seen)  # points are many, shapes are few
         shift, turn = then.center[rows[here]] - now.center[here], then.axes[rows[here]] - now.axes[here]
         moves = (shift != 0).any(axis=1) | (turn != 0).any(axis=(1, 2))
         if not moves.any():
-            return found
-        place = np.zeros(len(now), int)
-        place[here[moves]] = 1 + np.flatnonzero(moves)
-        which = taken(place, taken(at, some)) - 1
-        own = np.flatnonzero(which >= 0)
-        which, points = which[own], some[own]
-        shift, turn, inner = shift[which].T, turn[which], shapes.shape_from_world[here[which]]
-        offset = difference([part[points] for part in point], components(now.center[here[which]] - shapes.pose.eye))
+            return result
+        entry = np.zeros(len(now), int)
+        entry[here[moves]] = 1 + np.flatnonzero(moves)
+        shape = taken(entry, taken(at, indices)) - 1
+        moving = np.flatnonzero(shape >= 0)
+        shape, points = shape[moving], indices[moving]
+        shift, turn, inner = shift[shape].T, turn[shape], shapes.shape_from_world[here[shape]]
+        offset = difference([c[points] for c in point], components(now.center[here[shape]] - shapes.pose.eye))
         by = np.array(matvec(matrix_rows(turn), np.array(matvec(matrix_rows(inner), offset)))) + shift
         spread = np.sqrt((turn * turn).sum(axis=(1, 2))) * np.sqrt((inner * inner).sum(axis=(1, 2)))
-        doubt = (shapes.rounding[here[which]] + gamma(8)) * norm(offset)
-        for values, new in zip(found, (by, spread, doubt * spread + gamma(8) * (norm(shift) + norm(by))), strict=True):
-            values[..., own] = new
-        return found
+        doubt = (shapes.rounding[here[shape]] + gamma(8)) * norm(offset)
+        for values, new in zip(result, (by, spread, doubt * spread + gamma(8) * (norm(shift) + norm(by))), strict=True):
+            values[..., moving] = new
+        return result
 
     return moved

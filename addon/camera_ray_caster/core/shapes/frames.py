@@ -64,11 +64,11 @@ class InCamera:
         """(n + s + 1,) int32: indices into ``Shapes.surfaces`` of shapes, of ``Slots`` and of no shape, -1 for plain
         materials.
         """
-        own, slots = self.shapes.surface, self.shapes.slots
+        of_shapes, slots = self.shapes.surface, self.shapes.slots
         of_slots = np.zeros(0) if slots is None else slots.surface
         count = 0 if slots is None else len(slots.color)
-        parts = [part if len(part) == size else np.full(size, -1)
-                 for part, size in ((own, len(self.shapes)), (of_slots, count))]  # fmt: skip
+        parts = [numbers if len(numbers) == size else np.full(size, -1)
+                 for numbers, size in ((of_shapes, len(self.shapes)), (of_slots, count))]  # fmt: skip
         return np.concatenate((*parts, [-1])).astype(np.int32)
 
     @lazy
@@ -93,11 +93,11 @@ class WorldRays:
     def only(self, of: Callable) -> WorldRays:
         """Return the rays of some pixels; ``of`` takes components as ``HitPixels.of`` does. Numbers stay numbers."""
 
-        def part(values):
+        def chosen(values):
             return of((values,))[0] if np.ndim(values) else values
 
-        origin, direction = (tuple(map(part, vector)) for vector in (self.origin, self.direction))
-        return WorldRays(origin, direction, *map(part, (self.length, self.origin_error, self.direction_error)))
+        origin, direction = (tuple(map(chosen, vector)) for vector in (self.origin, self.direction))
+        return WorldRays(origin, direction, *map(chosen, (self.length, self.origin_error, self.direction_error)))
 
 
 class Frames:

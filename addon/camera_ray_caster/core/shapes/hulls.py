@@ -56,11 +56,11 @@ class HullPoints:
         if not unknown.any():
             return bounds, near, seen
         known, unknown = np.flatnonzero(~unknown), np.flatnonzero(unknown)
-        own_bounds, own_near, own = self._in_balls(corners[:, unknown])
-        place = np.concatenate((known, unknown[own]))
-        order = np.argsort(place)
-        bounds, near = np.concatenate((bounds[known], own_bounds)), np.concatenate((near[known], own_near))
-        return bounds[order], near[order], seen[place[order]]
+        ball_bounds, ball_near, in_balls = self._in_balls(corners[:, unknown])
+        position = np.concatenate((known, unknown[in_balls]))
+        order = np.argsort(position)
+        bounds, near = np.concatenate((bounds[known], ball_bounds)), np.concatenate((near[known], ball_near))
+        return bounds[order], near[order], seen[position[order]]
 
     def _in_balls(self, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return the same as ``hulls``, from balls around the corners."""

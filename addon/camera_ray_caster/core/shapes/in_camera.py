@@ -49,8 +49,8 @@ def in_camera(shapes: Shapes, pose: Pose) -> InCamera:
         close = np.flatnonzero(is_close)
     offset_rest = np.full_like(offset, np.nan)
     if close.size:
-        found = solve(shapes.axes[close], shape_from_world[close], away[close], lost[close])
-        offset[close], offset_rest[close] = found
+        solved = solve(shapes.axes[close], shape_from_world[close], away[close], lost[close])
+        offset[close], offset_rest[close] = solved
     return InCamera(
         shapes=shapes,
         pose=pose,

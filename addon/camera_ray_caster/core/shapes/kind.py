@@ -150,15 +150,15 @@ class HitPixels:
         """Return the components of a vector of the block, which broadcast, at these pixels, (m,) each; they may be the
         block's own, which are not to be written.
         """
-        return tuple(self._own(np.broadcast_to(part, self.where.shape)) for part in vector)
+        return tuple(self._own(np.broadcast_to(component, self.where.shape)) for component in vector)
 
     def _own(self, values: np.ndarray) -> np.ndarray:
         return values.reshape(-1) if self.is_whole else taken(values.reshape(-1), self.places)
 
     def in_tile(self, values: np.ndarray) -> np.ndarray:
         """Return the (m,) entries of these pixels in an array of the tile, (rows, columns)."""
-        (own,) = self.of((values[self.window],))
-        return own
+        (entries,) = self.of((values[self.window],))
+        return entries
 
 
 class ShapeErrors(ABC):

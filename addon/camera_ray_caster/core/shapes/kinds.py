@@ -18,6 +18,6 @@ SHAPE_KINDS: tuple[Kind, ...] = (SPHERES, PLANES, INFINITE_PLANES, MESHES)
 def by_kind(numbers: np.ndarray) -> Iterator[tuple[Kind, np.ndarray]]:
     """Yield each kind whose number occurs in ``numbers``, and where it occurs, bool of the same shape."""
     for kind in SHAPE_KINDS:
-        some = numbers == kind.number
-        if some.any():
-            yield kind, some
+        of_kind = numbers == kind.number
+        if of_kind.any():
+            yield kind, of_kind

@@ -38,13 +38,13 @@ def normal_table(shapes: InCamera, seen: np.ndarray) -> NormalTable:
     """Return the table of the shapes that can be seen, given as indices into ``Shapes``."""
     table = np.zeros((4, len(shapes.shapes) + 1))
     others = []
-    for kind, some in by_kind(shapes.shapes.kind[seen]):
-        constants, normals = kind.normals(shapes, seen[some])
-        table[:, seen[some]] = constants.T
+    for kind, of_kind in by_kind(shapes.shapes.kind[seen]):
+        constants, normals = kind.normals(shapes, seen[of_kind])
+        table[:, seen[of_kind]] = constants.T
         if normals is not None:
-            own = np.zeros(table.shape[1], bool)
-            own[seen[some]] = np.isnan(constants[:, 0])
-            others.append((own, normals))
+            is_other = np.zeros(table.shape[1], bool)
+            is_other[seen[of_kind]] = np.isnan(constants[:, 0])
+            others.append((is_other, normals))
     table[np.isnan(table)] = 0.0
     far = np.abs(table[1:]).max(initial=0.0)
     gain = table[0] if table[0].any() else None

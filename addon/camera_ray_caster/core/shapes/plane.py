@@ -83,7 +83,7 @@ class Plane(AffineKind):
         else:
             n = matvec(matrix, difference(constants.center, origin))
             np.divide(n[2], d_z, out=t)
-        found = (t >= (0.0 if start is None else start)) & (t < np.inf)
+        hit = (t >= (0.0 if start is None else start)) & (t < np.inf)
         if self.has_edges:
             np.abs(d_z, out=d_z)
             for row in range(2):
@@ -91,8 +91,8 @@ class Plane(AffineKind):
                     linear(constants.cross[row], direction, across, scratch("spare", shape))
                 else:
                     np.copyto(across, cross(n, matvec(matrix, direction))[row])
-                found &= np.abs(across, out=across) <= d_z
-        return t, found
+                hit &= np.abs(across, out=across) <= d_z
+        return t, hit
 
     def lattice(self, constants: PlaneConstants, direction) -> PlaneLattice:
         """See ``AffineKind``."""
@@ -155,8 +155,8 @@ class PlaneLattice:
         terms = np.concatenate((planes.matrix[2:], edges))
         self._row, self._column = terms[:, 0] * x, terms[:, 1] * y + terms[:, 2] * z
         reach = np.array([np.abs(x).max(), np.abs(y).max(), abs(z)])
-        most = (np.abs(terms) * reach.reshape(3, 1, 1, 1)).sum(axis=1)
-        self._doubt = (gamma(8) * (most[0] + most[1:].max(axis=0, initial=0)))[:, 0, 0]
+        largest = (np.abs(terms) * reach.reshape(3, 1, 1, 1)).sum(axis=1)
+        self._doubt = (gamma(8) * (largest[0] + largest[1:].max(axis=0, initial=0)))[:, 0, 0]
         self._offset = planes.offset
         self._is_level = terms[0, 0, :, 0, 0] == 0
 
@@ -175,11 +175,11 @@ class PlaneLattice:
         t = np.divide(self._offset[k], d_z, out=scratch("found", d_z.shape))
         if (slack > self._doubt[k]).all():
             return t, True
-        found, d_z = (t >= 0.0) & (t < np.inf), np.abs(d_z)
-        for part in zip(row[1:], column[1:], strict=True):
-            across = np.add(*part, out=scratch("across", shape))
-            found = found & (np.abs(across, out=across) <= d_z)
-        return t, found
+        hit, d_z = (t >= 0.0) & (t < np.inf), np.abs(d_z)
+        for terms in zip(row[1:], column[1:], strict=True):
+            across = np.add(*terms, out=scratch("across", shape))
+            hit = hit & (np.abs(across, out=across) <= d_z)
+        return t, hit
 
 
 PLANES = Plane()

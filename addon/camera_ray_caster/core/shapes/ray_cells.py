@@ -33,9 +33,9 @@ class Pixels(NamedTuple):
     at: np.ndarray
     pixel: np.ndarray
 
-    def only(self, some: np.ndarray | slice) -> Pixels:
+    def only(self, indices: np.ndarray | slice) -> Pixels:
         """Return some of them, by a mask or a slice."""
-        return Pixels(self.at[some], self.pixel[some])
+        return Pixels(self.at[indices], self.pixel[indices])
 
 
 class RayCells:
@@ -46,7 +46,7 @@ class RayCells:
         rows, self._wide = (-(-size // side) for size in shape)
         self._width, self._side = shape[1], side
         parts = [_linear(component, side) for component in (*direction, *(() if moment is None else moment))]
-        whole = [[np.broadcast_to(term, (rows, self._wide)).reshape(-1) for term in part] for part in parts]
+        whole = [[np.broadcast_to(term, (rows, self._wide)).reshape(-1) for term in terms] for terms in parts]
         self._terms = np.array(whole).swapaxes(0, 1).copy()
         """(4, c, cells): the value at the first pixel, its changes by column and row, and the largest deviation."""
 
@@ -60,7 +60,7 @@ class RayCells:
         be negative.
         """
         whole, turning = self._parts(edges, doubt, bounds, turns)
-        each = [part.only(np.flatnonzero(part.meets())) for part in (whole, whole.only(turning).turned())]
+        each = [cells.only(np.flatnonzero(cells.meets())) for cells in (whole, whole.only(turning).turned())]
         parts = _Parts(*(np.concatenate(values, -1) for values in zip(*each, strict=True))) if turning.size else each[0]
         rows = _rows(parts)
         return self._pixels(parts, rows.at, rows.row, rows.first, rows.last), self._open(parts, rows)
@@ -72,9 +72,9 @@ class RayCells:
         whole, turning = self._parts(edges, doubt, bounds, turns)
         meets = whole.meets()
         meets[turning] |= whole.only(turning).turned().meets()
-        part = whole.only(np.flatnonzero(meets))
-        y, x = np.divmod(part.place, self._width)
-        return part.at, np.stack((x + part.x0, x + part.x1 + 1, y + part.y0, y + part.y1 + 1), axis=1)
+        cells = whole.only(np.flatnonzero(meets))
+        y, x = np.divmod(cells.pixel, self._width)
+        return cells.at, np.stack((x + cells.x0, x + cells.x1 + 1, y + cells.y0, y + cells.y1 + 1), axis=1)
 
     def _parts(self, edges: np.ndarray, doubt: np.ndarray, bounds: np.ndarray, turns: np.ndarray):
         """Return the triangles in all cells of their bounds, and the indices of those that may turn: see ``spans``."""
@@ -86,34 +86,34 @@ class RayCells:
         at, row = taken(at, run), taken(row, run)
         terms = taken(self._terms, row * self._wide + column)
         volumes = np.empty((3, 4, len(at)))
-        for own, edge in zip(volumes, edges, strict=True):
+        for volume, edge in zip(volumes, edges, strict=True):
             edge = taken(edge, at)
             for k in range(3):
-                np.einsum("ij,ij->j", terms[k], edge, out=own[k])
-            np.einsum("ij,ij->j", terms[3], np.abs(edge, out=edge), out=own[3])
+                np.einsum("ij,ij->j", terms[k], edge, out=volume[k])
+            np.einsum("ij,ij->j", terms[3], np.abs(edge, out=edge), out=volume[3])
         volumes[:, 3] += taken(doubt, at)
         x, y = side * column, side * row
         x0, x1 = np.maximum(taken(x0, at) - x, 0), np.minimum(taken(x1, at) - x, side) - 1
         y0, y1 = np.maximum(taken(y0, at) - y, 0), np.minimum(taken(y1, at) - y, side) - 1
-        place = y * self._width + x
+        pixel = y * self._width + x
         may_turn = np.zeros(len(bounds), bool)
         may_turn[turns] = True
-        return _Parts(at, place, volumes, x0, x1, y0, y1), np.flatnonzero(taken(may_turn, at))
+        return _Parts(at, pixel, volumes, x0, x1, y0, y1), np.flatnonzero(taken(may_turn, at))
 
     def _open(self, parts: _Parts, rows: _Rows) -> Pixels:
         """Return the pixels of rows that may be hit and are not certainly."""
         none = rows.last < rows.first
-        left = np.where(none, rows.most, rows.first - 1)
-        ends = (rows.least, left), (np.where(none, rows.most + 1, rows.last + 1), rows.most)
-        found = []
+        left = np.where(none, rows.largest, rows.first - 1)
+        ends = (rows.least, left), (np.where(none, rows.largest + 1, rows.last + 1), rows.largest)
+        pixels = []
         for first, last in ends:
-            some = np.flatnonzero(first <= last)
-            found.append(self._pixels(parts, *(taken(each, some) for each in (rows.at, rows.row, first, last))))
-        return Pixels(*map(np.concatenate, zip(*found, strict=True)))
+            filled = np.flatnonzero(first <= last)
+            pixels.append(self._pixels(parts, *(taken(each, filled) for each in (rows.at, rows.row, first, last))))
+        return Pixels(*map(np.concatenate, zip(*pixels, strict=True)))
 
     def _pixels(self, parts: _Parts, at: np.ndarray, row: np.ndarray, first: np.ndarray, last: np.ndarray) -> Pixels:
         """Return the pixels from the first to the last column of rows of parts."""
-        run, column = counted(np.maximum(last - first + 1, 0), first + taken(parts.place, at) + row * self._width)
+        run, column = counted(np.maximum(last - first + 1, 0), first + taken(parts.pixel, at) + row * self._width)
         return Pixels(taken(taken(parts.at, at), run), column)
 
 
@@ -121,7 +121,7 @@ class _Parts(NamedTuple):
     """Triangles in cells, (p,) each."""
 
     at: np.ndarray
-    place: np.ndarray
+    pixel: np.ndarray
     """The first pixel of the cell in the tile."""
     volumes: np.ndarray
     """(3, 4, p): of each edge the volume at the first pixel of the cell, its changes by column and row, its doubt."""
@@ -131,8 +131,8 @@ class _Parts(NamedTuple):
     y0: np.ndarray
     y1: np.ndarray
 
-    def only(self, some: np.ndarray) -> _Parts:
-        return _Parts(*(taken(each, some) for each in self))
+    def only(self, indices: np.ndarray) -> _Parts:
+        return _Parts(*(taken(each, indices) for each in self))
 
     def turned(self) -> _Parts:
         """Return the triangles with their other sides: hits have volumes of the other sign."""
@@ -141,10 +141,10 @@ class _Parts(NamedTuple):
     def meets(self) -> np.ndarray:
         """Return in which parts no edge is certainly missed."""
         volume, across, up, doubt = self.volumes.swapaxes(0, 1)
-        most = volume + doubt
-        most += np.maximum(across * self.x0, across * self.x1)
-        most += np.maximum(up * self.y0, up * self.y1)
-        return (most >= 0).all(axis=0)
+        largest = volume + doubt
+        largest += np.maximum(across * self.x0, across * self.x1)
+        largest += np.maximum(up * self.y0, up * self.y1)
+        return (largest >= 0).all(axis=0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,7 +154,7 @@ class _Rows:
     at: np.ndarray
     row: np.ndarray
     least: np.ndarray
-    most: np.ndarray
+    largest: np.ndarray
     first: np.ndarray
     last: np.ndarray
 
@@ -171,17 +171,17 @@ def _rows(parts: _Parts) -> _Rows:
     moved = taken(-up * inverse, at) * row
     start, wide, begins = -volume * inverse, doubt * np.abs(inverse), inverse > 0
     least, first = ((taken(np.where(begins, start + sign * wide, -np.inf), at) + moved).max(axis=0) for sign in (-1, 1))
-    most, last = ((taken(np.where(begins, np.inf, start + sign * wide), at) + moved).min(axis=0) for sign in (1, -1))
+    largest, last = ((taken(np.where(begins, np.inf, start + sign * wide), at) + moved).min(axis=0) for sign in (1, -1))
     x0, x1 = taken(parts.x0, at), taken(parts.x1, at)
-    least, most = np.maximum(np.ceil(least), x0), np.minimum(np.floor(most), x1)
-    some = np.flatnonzero(least <= most)
-    first, last = np.ceil(taken(first, some)), np.floor(taken(last, some))
-    least, most = taken(least, some), taken(most, some)
-    first, last = np.maximum(first, least), np.minimum(last, most)
+    least, largest = np.maximum(np.ceil(least), x0), np.minimum(np.floor(largest), x1)
+    met = np.flatnonzero(least <= largest)
+    first, last = np.ceil(taken(first, met)), np.floor(taken(last, met))
+    least, largest = taken(least, met), taken(largest, met)
+    first, last = np.maximum(first, least), np.minimum(last, largest)
     none = last < first
     first[none], last[none] = 0, -1
-    ends = (each.astype(np.intp) for each in (least, most, first, last))
-    return _Rows(taken(at, some), taken(row, some), *ends)
+    ends = (each.astype(np.intp) for each in (least, largest, first, last))
+    return _Rows(taken(at, met), taken(row, met), *ends)
 
 
 def _linear(component: Any, side: int) -> tuple[Any, Any, Any, Any]:
@@ -202,12 +202,12 @@ def _linear(component: Any, side: int) -> tuple[Any, Any, Any, Any]:
     column = np.arange(values.shape[1])
     meant = taken(across, column // side) * (column % side)
     step = taken(up, column // side)
-    least, most = np.full((2, *meant.shape), np.nan)
+    least, largest = np.full((2, *meant.shape), np.nan)
     for k in range(min(side, len(values))):
-        part = values[k::side]
-        off = part - meant[: len(part)]
-        for own, end in ((least, np.fmin), (most, np.fmax)):
-            end(own[: len(part)], off, out=own[: len(part)])
+        lines = values[k::side]
+        off = lines - meant[: len(lines)]
+        for extreme, end in ((least, np.fmin), (largest, np.fmax)):
+            end(extreme[: len(lines)], off, out=extreme[: len(lines)])
         meant += step
-    least, most = np.fmin.reduceat(least, columns, axis=1), np.fmax.reduceat(most, columns, axis=1)
-    return least / 2 + most / 2, across, up, most / 2 - least / 2
+    least, largest = np.fmin.reduceat(least, columns, axis=1), np.fmax.reduceat(largest, columns, axis=1)
+    return least / 2 + largest / 2, across, up, largest / 2 - least / 2

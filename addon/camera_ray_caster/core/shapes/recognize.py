@@ -111,12 +111,12 @@ def recognize(mesh: MeshArrays) -> Primitive | str:
     _, areas = _faces(mesh, vertices)
     total, area = areas.sum(axis=0), np.linalg.norm(areas, axis=1).sum()
     if np.linalg.norm(total) > 0.99 * area:
-        found = _parallelogram(mesh, vertices, total, area, rounding)
+        form = _parallelogram(mesh, vertices, total, area, rounding)
     else:
-        found = _ellipsoid(mesh, vertices, rounding)
-    if isinstance(found, str):
-        return found
-    kind, center, axes, uncertainty, apart = found
+        form = _ellipsoid(mesh, vertices, rounding)
+    if isinstance(form, str):
+        return form
+    kind, center, axes, uncertainty, apart = form
     center = center + middle
     center[np.abs(center) <= uncertainty] = 0  # rounding: the user placed the center at the object's origin
     return Primitive(kind, center[None], axes, np.ones(1), apart=float(apart))

@@ -58,7 +58,7 @@ class SearchRays:
             for first, count, shape in zip(corner, t.shape[1:], ((-1, 1), (1, -1)), strict=True)
         )
         is_met = (t < np.inf) if where is None else (t < np.inf) & where
-        pixel, at = (np.broadcast_to(one, t.shape)[is_met] for one in (rows * self.shape[1] + columns, at))
+        pixel, at = (np.broadcast_to(values, t.shape)[is_met] for values in (rows * self.shape[1] + columns, at))
         self.met.append((pixel, t[is_met], at, np.full(len(at), -1)))
 
     @lazy
@@ -71,7 +71,7 @@ class SearchRays:
     @lazy
     def origin_ball(self) -> tuple[np.ndarray, float]:
         """The middle of the origins, (3,), and a radius around it within which they lie."""
-        ends = np.array([(np.fmin.reduce(part, axis=None), np.fmax.reduce(part, axis=None)) for part in self.origin])
+        ends = np.array([(np.fmin.reduce(c, axis=None), np.fmax.reduce(c, axis=None)) for c in self.origin])
         low, high = np.nan_to_num(ends.T)
         return low / 2 + high / 2, float(np.linalg.norm(high - low)) / 2
 
@@ -96,11 +96,11 @@ class SearchRays:
     def _at(self, components: Any, pixel: np.ndarray) -> np.ndarray:
         row, column = np.divmod(pixel, self.shape[1])
         values = np.empty((len(components), len(pixel)))
-        for own, component in zip(values, components, strict=True):
+        for out, component in zip(values, components, strict=True):
             rows, columns = np.shape(component) or (1, 1)
             if rows == columns == 1:
-                own[...] = component
+                out[...] = component
             else:
-                place = row if columns == 1 else column if rows == 1 else pixel
-                own[...] = taken(component.reshape(-1), place)
+                entry = row if columns == 1 else column if rows == 1 else pixel
+                out[...] = taken(component.reshape(-1), entry)
         return values

@@ -116,14 +116,14 @@ def _curved(shapes: InCamera, at: np.ndarray) -> PixelNormals:
     power = -np.frexp(np.abs(matrix).max(axis=(1, 2), initial=0.0))[1]
     matrix = np.ldexp(matrix, power[:, None, None]).transpose(1, 2, 0).copy()  # about 1; long arrays, so fast ones
     center = np.ldexp(shapes.offset[at], power[:, None]).T.copy()
-    place = np.zeros(len(shapes.shapes), np.intp)
-    place[at] = np.arange(len(at))
+    entry = np.zeros(len(shapes.shapes), np.intp)
+    entry[at] = np.arange(len(at))
 
     def normals(pixels: HitPixels, point, direction):
-        here = place[merged(pixels.at)]
-        own = taken(matrix, here)
-        q = difference(matvec(own, point), taken(center, here))
-        normal = unit(matvec(own.swapaxes(0, 1), q))
+        here = entry[merged(pixels.at)]
+        to_sphere = taken(matrix, here)
+        q = difference(matvec(to_sphere, point), taken(center, here))
+        normal = unit(matvec(to_sphere.swapaxes(0, 1), q))
         if direction is None:
             return normal
         towards = -np.sign(dot(normal, direction))

@@ -70,12 +70,12 @@ def outside(shapes: InCamera, at):
     """Return c = n^2 - 1 for rays from the eye, positive if the eye is outside. If the eye is CLOSE, where c cancels,
     it is still right to gamma(4) of itself.
     """
-    offset, rest = shapes.offset[at], shapes.offset_rest[at]
+    offset, correction = shapes.offset[at], shapes.offset_rest[at]
     distance = np.sqrt((offset * offset).sum(axis=-1))
     c = (distance - 1) * (distance + 1)
-    close = ~np.isnan(rest[..., 0])
+    close = ~np.isnan(correction[..., 0])
     if close.any():
-        c[close] = square_less_one(offset[close], rest[close])
+        c[close] = square_less_one(offset[close], correction[close])
     return c
 
 

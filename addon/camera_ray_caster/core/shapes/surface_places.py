@@ -52,22 +52,22 @@ class KindPlaces:
 class SurfacePlaces(Places):
     """Some of the points of a kind, (k,) indices: see ``materials.values.Places``."""
 
-    def __init__(self, places: KindPlaces, some: np.ndarray):
+    def __init__(self, places: KindPlaces, indices: np.ndarray):
         super().__init__()
-        self._places, self._some = places, some
+        self._places, self._indices = places, indices
 
     def coordinates(self, name: str) -> np.ndarray:
         """See ``Places``."""
-        found = np.zeros((3, len(self._some)))
+        result = np.zeros((3, len(self._indices)))
         if name == UV:
-            found[:2] = taken(self._places.uv, self._some)
+            result[:2] = taken(self._places.uv, self._indices)
         elif name == OBJECT:
-            found[:] = taken(self._places.place, self._some)
-        return found
+            result[:] = taken(self._places.place, self._indices)
+        return result
 
     def layer(self, name: str, channels: int) -> np.ndarray:
         """See ``Places``."""
-        return taken(self._places.layer(name, channels), self._some)
+        return taken(self._places.layer(name, channels), self._indices)
 
 
 def material_rows(shapes: Shapes, at: np.ndarray, slot: np.ndarray) -> np.ndarray:

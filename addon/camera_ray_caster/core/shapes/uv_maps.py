@@ -34,13 +34,13 @@ def with_map(primitive: Primitive, points: np.ndarray, uv: np.ndarray | None) ->
         return replace(primitive, uv=NO_MAP)
     places = np.linalg.pinv(primitive.axes) @ (points - primitive.centers[0]).T  # axes may lie in one plane
     is_sphere = primitive.kind == SPHERE
-    found = None
+    uv_map = None
     if np.isfinite(uv).all():
-        found = _spherical(places, uv) if is_sphere else _affine(places, uv)
-    if found is None:
+        uv_map = _spherical(places, uv) if is_sphere else _affine(places, uv)
+    if uv_map is None:
         note = OTHER_MAP.format("longitude and latitude" if is_sphere else "affine")
         return replace(primitive, uv=COORDINATES, note=note)
-    return replace(primitive, uv=found)
+    return replace(primitive, uv=uv_map)
 
 
 def _spherical(places: np.ndarray, uv: np.ndarray) -> np.ndarray | None:
@@ -53,6 +53,6 @@ def _spherical(places: np.ndarray, uv: np.ndarray) -> np.ndarray | None:
 def _affine(places: np.ndarray, uv: np.ndarray) -> np.ndarray | None:
     """Return the affine map, (2, 3), from a plane's coordinates of places (3, n) to uv (n, 2), or None."""
     terms = np.column_stack((*PLANES.surface_coordinates(places), np.ones(len(uv))))
-    found = np.linalg.lstsq(terms, uv.astype(np.float64), rcond=None)[0]
-    off = np.abs(terms @ found - uv).max()
-    return found.T if off <= AFFINE * max(1.0, float(np.abs(uv).max())) else None
+    affine = np.linalg.lstsq(terms, uv.astype(np.float64), rcond=None)[0]
+    off = np.abs(terms @ affine - uv).max()
+    return affine.T if off <= AFFINE * max(1.0, float(np.abs(uv).max())) else None

@@ -25,8 +25,8 @@ def in_tile(bounds: np.ndarray, corner: tuple[int, int], shape: tuple[int, int])
     for column, first, size in zip(parts.T, (left, left, low, low), (wide, wide, high, high), strict=True):
         np.clip(column, first, first + size, out=column)  # column by column: rows of four are short loops
         column -= first
-    some = np.flatnonzero((parts[:, 0] < parts[:, 1]) & (parts[:, 2] < parts[:, 3]))
-    return (here, parts) if len(some) == len(here) else (here[some], parts[some])
+    inside = np.flatnonzero((parts[:, 0] < parts[:, 1]) & (parts[:, 2] < parts[:, 3]))
+    return (here, parts) if len(inside) == len(here) else (here[inside], parts[inside])
 
 
 def union(bounds: np.ndarray) -> tuple[slice, slice]:
@@ -35,13 +35,13 @@ def union(bounds: np.ndarray) -> tuple[slice, slice]:
     return slice(int(y0.min()), int(y1.max())), slice(int(x0.min()), int(x1.max()))
 
 
-def banded(bounds: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:
-    """Cut bounds (n, 4) into bands of rows with at most ``most`` pixels, or of one row. Return for each band the index
+def banded(bounds: np.ndarray, limit: int) -> tuple[np.ndarray, np.ndarray]:
+    """Cut bounds (n, 4) into bands of rows with at most ``limit`` pixels, or of one row. Return for each band the index
     of its bounds, (k,), and the band, (k, 4).
     """
-    if (pixels_in(bounds) <= most).all():
+    if (pixels_in(bounds) <= limit).all():
         return np.arange(len(bounds)), bounds
-    rows = np.maximum(most // (bounds[:, 1] - bounds[:, 0]), 1)
+    rows = np.maximum(limit // (bounds[:, 1] - bounds[:, 0]), 1)
     count = -(-(bounds[:, 3] - bounds[:, 2]) // rows)
     at = np.repeat(np.arange(len(bounds)), count)
     band = np.arange(len(at)) - np.repeat(np.cumsum(count) - count, count)

@@ -39,17 +39,17 @@ class Blocks:
     @classmethod
     def joined(cls, parts: Sequence[Blocks]) -> Blocks:
         """Return the blocks of several parts, in their order."""
-        return cls(*(np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(cls)))
+        return cls(*(np.concatenate([getattr(blocks, field.name) for blocks in parts]) for field in fields(cls)))
 
     @lazy
     def start(self) -> np.ndarray:
         """(b + 1,): the number of triangles before each block, and of all."""
         return np.append(0, np.cumsum(self.count))
 
-    def numbers(self, which: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def numbers(self, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the shapes of some triangles of all blocks, and their indices in the meshes."""
-        block = np.searchsorted(self.start, which, side="right") - 1
-        return self.shape[block], which + (self.first - self.start[:-1])[block]
+        block = np.searchsorted(self.start, triangles, side="right") - 1
+        return self.shape[block], triangles + (self.first - self.start[:-1])[block]
 
 
 class BlockRows:
@@ -59,7 +59,7 @@ class BlockRows:
         self._shapes, self._rows, self._vertex = shapes, rows, vertex
         used, mesh = np.unique(shapes.shapes.mesh[rows], return_inverse=True)
         self._meshes = [shapes.shapes.meshes[k] for k in used.tolist()]
-        sizes = np.array([(_block_count(one), len(one)) for one in self._meshes]).reshape(-1, 2)
+        sizes = np.array([(_block_count(shown), len(shown)) for shown in self._meshes]).reshape(-1, 2)
         blocks, self._triangles = sizes[mesh].T
         self._row, self._block = counted(blocks, np.zeros_like(blocks))
         self._box = self._block + (np.cumsum(sizes[:, 0]) - sizes[:, 0])[mesh][self._row]
@@ -70,15 +70,15 @@ class BlockRows:
     @lazy
     def _boxes(self) -> tuple[np.ndarray, np.ndarray]:
         """The middles and half sizes of the boxes of all meshes: see ``Mesh.blocks``."""
-        middles, halves = zip(*(one.blocks for one in self._meshes), strict=True)
+        middles, halves = zip(*(mesh.blocks for mesh in self._meshes), strict=True)
         return np.concatenate(middles, axis=1), np.concatenate(halves, axis=1)
 
-    def in_view(self, pixels: PixelBounds, part: slice) -> Blocks:
+    def in_view(self, pixels: PixelBounds, chunk: slice) -> Blocks:
         """Return those of a part of the blocks that some pixel may see, from boxes in the camera's frame that hold the
         rounded vertices.
         """
-        row, block = self._row[part], self._block[part]
-        offset, half = (taken(own, self._box[part]) for own in self._boxes)
+        row, block = self._row[chunk], self._block[chunk]
+        offset, half = (taken(values, self._box[chunk]) for values in self._boxes)
         axes = taken(camera_axes(self._shapes, self._rows).transpose(1, 2, 0), row)
         center = taken(self._shapes.center[self._rows].T, row)
         size = np.abs(axes)

@@ -72,9 +72,9 @@ class TriangleBodies(Bodies):
         corners = self.corners(body, origin)
         longest = np.maximum.reduce([norm(corner) for corner in corners])
         met, open_ = _inside(volumes(corners, direction), VOLUME_ROUNDING * longest**2 * norm(direction))
-        met[open_] = _is_met(corners[:, :, open_], [part[open_] for part in direction])
-        some = np.flatnonzero(met)
-        return _crossings(len(met), some, corners[:, :, some], direction, start)
+        met[open_] = _is_met(corners[:, :, open_], [component[open_] for component in direction])
+        hit = np.flatnonzero(met)
+        return _crossings(len(met), hit, corners[:, :, hit], direction, start)
 
     def prepared(self, origin: np.ndarray) -> Bodies:
         """See ``Bodies``."""
@@ -89,13 +89,13 @@ class TriangleBodies(Bodies):
         """See ``Bodies``."""
         if self._cutouts is None:
             return True
-        found, at = np.ones(len(t), bool), self.at[body]
-        some = np.flatnonzero(self._cutouts.may[at])
-        at, own_t = at[some], t[some]
-        triangles = HitTriangles(self._shapes, np.arange(len(some)), at, self.number[body[some]], from_eye=False)
-        point = along(tuple(part[some] for part in origin), tuple(part[some] for part in direction), own_t)
-        found[some] = self._cutouts.hit(crossings(at, own_t, False, **{TRIANGLES: triangles}), point)
-        return found
+        hit, at = np.ones(len(t), bool), self.at[body]
+        cut = np.flatnonzero(self._cutouts.may[at])
+        at, t_there = at[cut], t[cut]
+        triangles = HitTriangles(self._shapes, np.arange(len(cut)), at, self.number[body[cut]], from_eye=False)
+        point = along(tuple(c[cut] for c in origin), tuple(c[cut] for c in direction), t_there)
+        hit[cut] = self._cutouts.hit(crossings(at, t_there, False, **{TRIANGLES: triangles}), point)
+        return hit
 
 
 def _placed(shapes: InCamera, at: Any, q: np.ndarray) -> list[np.ndarray]:
@@ -126,19 +126,19 @@ class PreparedTriangles(Bodies):
         """See ``Bodies``."""
         longest = places_of(self._longest, body)
         if self._from_one:
-            found = tuple(dot(direction, places_of(edge, body)) for edge in self._edges)
-            met, open_ = _inside(found, VOLUME_ROUNDING * longest**2 * norm(direction))
+            volumes = tuple(dot(direction, places_of(edge, body)) for edge in self._edges)
+            met, open_ = _inside(volumes, VOLUME_ROUNDING * longest**2 * norm(direction))
         else:
             away = difference(origin, self._middle)
             factors = np.concatenate((direction, cross(away, direction)))
             edges = (places_of(edge, body) for edge in self._edges)
-            found = tuple(dot(factors[:3], edge[:3]) + dot(factors[3:], edge[3:]) for edge in edges)
-            met, open_ = _inside(found, MOVED * VOLUME_ROUNDING * (longest + norm(away)) ** 2 * norm(direction))
+            volumes = tuple(dot(factors[:3], edge[:3]) + dot(factors[3:], edge[3:]) for edge in edges)
+            met, open_ = _inside(volumes, MOVED * VOLUME_ROUNDING * (longest + norm(away)) ** 2 * norm(direction))
         body = np.broadcast_to(body, len(met))
         corners = self._triangles.corners(body[open_], origin[:, open_])
-        met[open_] = _is_met(corners, [part[open_] for part in direction])
-        some = np.flatnonzero(met)
-        return _crossings(len(met), some, self._triangles.corners(body[some], origin[:, some]), direction, start)
+        met[open_] = _is_met(corners, [component[open_] for component in direction])
+        hit = np.flatnonzero(met)
+        return _crossings(len(met), hit, self._triangles.corners(body[hit], origin[:, hit]), direction, start)
 
     def is_hit(self, body: np.ndarray, origin: Any, direction: Any, t: np.ndarray, scratch: Scratch) -> Any:
         """See ``Bodies``."""
@@ -159,9 +159,9 @@ def _is_met(corners: np.ndarray, direction: Any) -> np.ndarray:
     return ((exact >= 0).all(axis=0) | (exact <= 0).all(axis=0)) & exact.any(axis=0)
 
 
-def _crossings(count: int, some: np.ndarray, corners: np.ndarray, direction: Any, start: Any) -> np.ndarray:
+def _crossings(count: int, hit: np.ndarray, corners: np.ndarray, direction: Any, start: Any) -> np.ndarray:
     """Return t of the rays that hit, by index, from ``start`` on, NaN of the others; the corners are those of hits."""
     t = np.full(count, np.nan)
-    t[some] = crossing(corners, None, tuple(part[some] for part in direction))
+    t[hit] = crossing(corners, None, tuple(component[hit] for component in direction))
     t[~(t >= start)] = np.nan
     return t

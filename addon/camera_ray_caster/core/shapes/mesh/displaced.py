@@ -44,16 +44,16 @@ class MeshNormals:
 def displaced(mesh: Mesh, before: MeshNormals, materials: Sequence[Displacement | None]) -> Mesh:
     """Return a mesh moved by the displacement of its material slots; of slots after the last one that of the last."""
     slots = np.zeros(len(mesh), int) if mesh.slot is None else np.minimum(mesh.slot, len(materials) - 1)
-    moves = np.array([one is not None for one in materials])[slots]
+    moves = np.array([material is not None for material in materials])[slots]
     vertices = mesh.vertices.astype(np.float64)
     corner, triangle = _first_corners(mesh, np.flatnonzero(moves))
     at = mesh.triangles[corner, triangle]
     for slot in np.unique(slots[triangle]).tolist():
-        some = np.flatnonzero(slots[triangle] == slot)
-        offset = materials[slot].offset.at(_Corners(mesh, corner[some], triangle[some]))
+        of_slot = np.flatnonzero(slots[triangle] == slot)
+        offset = materials[slot].offset.at(_Corners(mesh, corner[of_slot], triangle[of_slot]))
         offset = np.where(np.abs(offset) < FARTHEST, offset, 0.0)
-        vertices[:, at[some]] += offset if len(offset) == 3 else offset * before.vertices[:, at[some]]
-    turns = any(one is not None and one.turns for one in materials)
+        vertices[:, at[of_slot]] += offset if len(offset) == 3 else offset * before.vertices[:, at[of_slot]]
+    turns = any(material is not None and material.turns for material in materials)
     return _with_normals(replace(mesh, vertices=vertices.astype(np.float32)), mesh, before, turns)
 
 
@@ -66,9 +66,9 @@ def _first_corners(mesh: Mesh, triangles: np.ndarray) -> tuple[np.ndarray, np.nd
 def _normals(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """Return the unit normals of triangles, (3, k); 0 without an area."""
     a, b, c = (vertices[:, corner] for corner in triangles)
-    found = np.cross(b - a, c - a, axis=0)
-    length = np.sqrt((found * found).sum(axis=0))
-    return found / np.where(length > 0, length, 1.0)
+    normals = np.cross(b - a, c - a, axis=0)
+    length = np.sqrt((normals * normals).sum(axis=0))
+    return normals / np.where(length > 0, length, 1.0)
 
 
 def _with_normals(moved: Mesh, mesh: Mesh, before: MeshNormals, turns: bool) -> Mesh:
@@ -96,12 +96,12 @@ class _Corners(Places):
 
     def coordinates(self, name: str) -> np.ndarray:
         """See ``Places``."""
-        mesh, found = self._mesh, np.zeros((3, len(self._corner)))
+        mesh, result = self._mesh, np.zeros((3, len(self._corner)))
         if name == UV and mesh.uv is not None and mesh.loops is not None:
-            found[:2] = mesh.uv[mesh.loops[self._corner, self._triangle]].T
+            result[:2] = mesh.uv[mesh.loops[self._corner, self._triangle]].T
         elif name == OBJECT:
-            found[:] = mesh.vertices[:, mesh.triangles[self._corner, self._triangle]]
-        return found
+            result[:] = mesh.vertices[:, mesh.triangles[self._corner, self._triangle]]
+        return result
 
     def layer(self, name: str, channels: int) -> np.ndarray:
         """See ``Places``."""

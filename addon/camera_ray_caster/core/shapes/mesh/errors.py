@@ -19,7 +19,7 @@ class TriangleErrors(ShapeErrors):
     """The error bounds of hits on the triangles found; that rounding may move a ray to a neighbor is not included."""
 
     triangles: HitTriangles
-    found: np.ndarray
+    hit_t: np.ndarray
     """(m,): t of the hits."""
     rays: WorldRays
 
@@ -42,10 +42,10 @@ class TriangleErrors(ShapeErrors):
         each, rays, corners = self.triangles.each, self.rays, self.triangles.corners
         moved, turned, normal = each(self._moved), each(self._turned), each(np.array(self.triangles.area))
         corner = each(np.array(corners[0]))
-        place = along(rays.origin, rays.direction, self.found)
-        offset, length, steep = difference(place, corner), norm(normal), norm(rays.direction)
-        beside = np.abs(self.found) * rays.direction_error + rays.origin_error
-        place_error = beside + moved + gamma(4) * (norm(rays.origin) + np.abs(self.found) * steep + norm(corner))
+        point = along(rays.origin, rays.direction, self.hit_t)
+        offset, length, steep = difference(point, corner), norm(normal), norm(rays.direction)
+        beside = np.abs(self.hit_t) * rays.direction_error + rays.origin_error
+        place_error = beside + moved + gamma(4) * (norm(rays.origin) + np.abs(self.hit_t) * steep + norm(corner))
         residual = np.abs(dot(normal, offset)) + gamma(3) * length * norm(offset)
         residual += length * place_error + turned * (norm(offset) + place_error)
         slope = np.abs(dot(normal, rays.direction)) - gamma(3) * length * steep
@@ -57,14 +57,14 @@ class TriangleErrors(ShapeErrors):
         """The largest distance of t from the t of a corner: the exact t lies between the exact t of the corners."""
         rays, each = self.rays, self.triangles.each
         square = dot(rays.direction, rays.direction)
-        worst = np.zeros(len(self.found))
+        worst = np.zeros(len(self.hit_t))
         for corner in self.triangles.corners:
             towards = difference(each(np.array(corner)), rays.origin)
             moved = each(self._moved) + rays.origin_error + EPS * norm(towards)
             error = moved / np.sqrt(square) + norm(towards) * (
                 3 * rays.direction_error / square + gamma(8) / np.sqrt(square)
             )
-            worst = np.maximum(worst, np.abs(dot(towards, rays.direction) / square - self.found) + error)
+            worst = np.maximum(worst, np.abs(dot(towards, rays.direction) / square - self.hit_t) + error)
         return worst
 
     def normal(self, point: np.ndarray) -> np.ndarray:
@@ -79,7 +79,7 @@ class TriangleErrors(ShapeErrors):
         reach = np.maximum.reduce([norm(corner) for corner in triangles.corners])
         each = triangles.each
         change = each(2 * spread * weights) * (point + each(self._moved + gamma(16) * reach))
-        place = along(self.rays.origin, self.rays.direction, self.found)
-        left = norm(triangles.interpolated(corner_normals, place)) - change
+        hit = along(self.rays.origin, self.rays.direction, self.hit_t)
+        left = norm(triangles.interpolated(corner_normals, hit)) - change
         smooth = np.where(left > 0, change / left, 2.0) + gamma(64)
         return np.where(each(spread > 0), smooth, each(turn))

@@ -18,14 +18,14 @@ def follow_meshes(with_frames: Follow, all_triangles: HitTriangles, point: Any) 
     enough, else with their triangles.
     """
 
-    def moved(then: Shapes, rows: np.ndarray, some: np.ndarray) -> Moved:
-        found, triangles = with_frames(then, rows, some), all_triangles.only(some)
+    def moved(then: Shapes, rows: np.ndarray, indices: np.ndarray) -> Moved:
+        result, triangles = with_frames(then, rows, indices), all_triangles.only(indices)
         others = np.flatnonzero(triangles.each(_are_flat(triangles) | _are_others(triangles, then, rows)))
         if others.size:
-            own = _with_triangles(triangles.only(others), then, rows, tuple(part[some[others]] for part in point))
-            for values, new in zip(found, own, strict=True):
+            by_triangles = _with_triangles(triangles.only(others), then, rows, tuple(c[indices[others]] for c in point))
+            for values, new in zip(result, by_triangles, strict=True):
                 values[..., others] = new
-        return found
+        return result
 
     return moved
 
@@ -38,8 +38,8 @@ def _are_flat(triangles: HitTriangles) -> np.ndarray:
 
 def _are_others(triangles: HitTriangles, then: Shapes, rows: np.ndarray) -> np.ndarray:
     """Return which triangles, (k,) bool, belong to another mesh in ``then``, where their shapes have the rows (n,)."""
-    pairs, which = _pairs(triangles, then, rows)
-    return np.array([triangles.shapes.shapes.meshes[one] is not then.meshes[other] for one, other in pairs.T])[which]
+    pairs, pair = _pairs(triangles, then, rows)
+    return np.array([triangles.shapes.shapes.meshes[here] is not then.meshes[there] for here, there in pairs.T])[pair]
 
 
 def _with_triangles(triangles: HitTriangles, then: Shapes, rows: np.ndarray, point: Any) -> Moved:
@@ -47,11 +47,11 @@ def _with_triangles(triangles: HitTriangles, then: Shapes, rows: np.ndarray, poi
     the face is divided otherwise in ``then``, they move with the triangles that it has here.
     """
     corners = np.empty_like(triangles.local)
-    pairs, which = _pairs(triangles, then, rows)
-    for pair, (own, other) in enumerate(pairs.T.tolist()):
-        some = which == pair
-        corner = triangles.shapes.shapes.meshes[own].triangles.take(triangles.number[some], axis=1)
-        corners[..., some] = places_from_middle(then.meshes[other], corner)
+    pairs, pair_of = _pairs(triangles, then, rows)
+    for pair, (here, counterpart) in enumerate(pairs.T.tolist()):
+        of_pair = pair_of == pair
+        corner = triangles.shapes.shapes.meshes[here].triangles.take(triangles.number[of_pair], axis=1)
+        corners[..., of_pair] = places_from_middle(then.meshes[counterpart], corner)
     there = rows[triangles.at]
     axes, shift = matrix_rows(then.axes[there]), (then.center[there] - triangles.shapes.shapes.center[triangles.at]).T
     steps = np.array([
@@ -72,7 +72,7 @@ def _pairs(triangles: HitTriangles, then: Shapes, rows: np.ndarray) -> tuple[np.
     of_shape = np.zeros(len(rows), int)
     of_shape[triangles.at] = 1
     seen = np.flatnonzero(of_shape)  # triangles are many, shapes are few
-    own = triangles.shapes.shapes.mesh[seen], then.mesh[rows[seen]]
-    pairs, which = np.unique(own, axis=1, return_inverse=True)
-    of_shape[seen] = which.reshape(-1)
+    meshes = triangles.shapes.shapes.mesh[seen], then.mesh[rows[seen]]
+    pairs, pair = np.unique(meshes, axis=1, return_inverse=True)
+    of_shape[seen] = pair.reshape(-1)
     return pairs, of_shape[triangles.at]

@@ -34,7 +34,7 @@ FEWER = "show fewer instances, or reduce the subdivision"
 class Triangles:
     """Some triangles that some pixel may see."""
 
-    which: np.ndarray
+    index: np.ndarray
     """(k,): their indices among the triangles of all blocks; in a search their numbers there, see ``Nearest.enter``."""
     corners: np.ndarray
     """(3, k) indices of vertices."""
@@ -44,14 +44,14 @@ class Triangles:
     """(k,): lower bounds of t; -inf where none is known."""
 
     def __len__(self) -> int:
-        return len(self.which)
+        return len(self.index)
 
-    def only(self, some: np.ndarray | slice, bounds: np.ndarray | None = None) -> Triangles:
+    def only(self, indices: np.ndarray | slice, bounds: np.ndarray | None = None) -> Triangles:
         """Return some of them, by index, with other bounds if these are given; or a part of them, as views."""
-        if isinstance(some, slice):
-            return Triangles(self.which[some], self.corners[:, some], self.bounds[some], self.near[some])
-        bounds = self.bounds.take(some, axis=0) if bounds is None else bounds
-        return Triangles(taken(self.which, some), taken(self.corners, some), bounds, taken(self.near, some))
+        if isinstance(indices, slice):
+            return Triangles(self.index[indices], self.corners[:, indices], self.bounds[indices], self.near[indices])
+        bounds = self.bounds.take(indices, axis=0) if bounds is None else bounds
+        return Triangles(taken(self.index, indices), taken(self.corners, indices), bounds, taken(self.near, indices))
 
 
 class MeshesInView:
@@ -77,14 +77,14 @@ class MeshesInView:
         self._index = np.int32 if total < 2**31 else np.int64
         rows = BlockRows(shapes, visible.at, self._start)
         self._boxing = Shared([
-            partial(rows.in_view, visible.pixels, part)
-            for part in _parts(max(len(rows), 1), self.chunk)
+            partial(rows.in_view, visible.pixels, chunk)
+            for chunk in _parts(max(len(rows), 1), self.chunk)
         ])  # fmt: skip
         placing: list[Callable[[], None]] = []
         self._placed_by = np.zeros((2, len(visible.at)), np.intp)
-        for some in _together(self._mesh, visible.near, sizes.max(axis=1)):
-            parts = [partial(self._place, some, part) for part in _parts(sizes[some[0], 0], tuning.CHUNK)]
-            self._placed_by[:, some] = [[len(placing)], [len(parts)]]
+        for group in _together(self._mesh, visible.near, sizes.max(axis=1)):
+            parts = [partial(self._place, group, chunk) for chunk in _parts(sizes[group[0], 0], tuning.CHUNK)]
+            self._placed_by[:, group] = [[len(placing)], [len(parts)]]
             placing += parts
         self._placing = Shared(placing)
 
@@ -92,9 +92,9 @@ class MeshesInView:
         """Compute the bounds of the blocks, in small steps."""
         yield from self._boxing.work()
 
-    def place(self, some: np.ndarray) -> Iterator[None]:
+    def place(self, blocks: np.ndarray) -> Iterator[None]:
         """Place the shapes of some blocks, in small steps."""
-        first, count = self._placed_by[:, np.searchsorted(self._at, np.unique(self.blocks.shape[some]))]
+        first, count = self._placed_by[:, np.searchsorted(self._at, np.unique(self.blocks.shape[blocks]))]
         yield from self._placing.work(np.unique(counted(count, first)[1]))
 
     @lazy
@@ -102,20 +102,20 @@ class MeshesInView:
         """The blocks that some pixel may see."""
         return Blocks.joined(self._boxing.results())
 
-    def triangles(self, some: np.ndarray) -> Triangles:
+    def triangles(self, indices: np.ndarray) -> Triangles:
         """Return the triangles of some blocks, ascending, that some pixel may see."""
         blocks = self.blocks
-        run, number = counted(blocks.count[some], blocks.first[some])
-        corners = taken(blocks.vertex[some].astype(self._index), run) + np.zeros((3, 1), self._index)
-        mesh = self._shapes.shapes.mesh[blocks.shape[some]]
+        run, number = counted(blocks.count[indices], blocks.first[indices])
+        corners = taken(blocks.vertex[indices].astype(self._index), run) + np.zeros((3, 1), self._index)
+        mesh = self._shapes.shapes.mesh[blocks.shape[indices]]
         cuts = np.searchsorted(run, np.flatnonzero(np.diff(mesh)) + 1)
         for first, last in pairwise((0, *cuts.tolist(), len(run))):
             if first < last:
                 shown = self._shapes.shapes.meshes[mesh[run[first]]]
                 corners[:, first:last] += taken(shown.triangles, number[first:last])
         bounds, near, seen = self._vertices.hulls(corners)
-        which = taken(number, seen) + taken((blocks.start[:-1] - blocks.first)[some], taken(run, seen))
-        return Triangles(which, taken(corners, seen), bounds, near)
+        index = taken(number, seen) + taken((blocks.start[:-1] - blocks.first)[indices], taken(run, seen))
+        return Triangles(index, taken(corners, seen), bounds, near)
 
     def places(self, corners: np.ndarray) -> np.ndarray:
         """Return the places of vertices, (3, 3, m): corner, component."""
@@ -134,27 +134,27 @@ class MeshesInView:
         corners[1:] = np.where(turn > 0, corners[1:], corners[:0:-1])
         return meets, corners
 
-    def _place(self, some: np.ndarray, part: slice) -> None:
+    def _place(self, group: np.ndarray, chunk: slice) -> None:
         """Transform a part of the vertices of some shapes in view, which show the same mesh."""
-        mesh, own = self._shapes.shapes.meshes[self._mesh[some[0]]], self._at[some]
-        axes = camera_axes(self._shapes, own)[..., None]
-        q = mesh.vertices[:, part] - mesh.middle[:, None]
-        places = np.empty((3, len(some), q.shape[1]))
-        for i, place in enumerate(places):
-            np.add(axes[:, i, 1] * q[1], axes[:, i, 2] * q[2], out=place)
-            place += axes[:, i, 0] * q[0]
-            place += self._shapes.center[own, i, None]
-        first = self._start[some]
-        at: Any = slice(first[0] + part.start, first[0] + part.stop)
-        if len(some) > 1:
-            at = (first[:, None] + np.arange(part.start, part.stop)).reshape(-1)
+        mesh, rows = self._shapes.shapes.meshes[self._mesh[group[0]]], self._at[group]
+        axes = camera_axes(self._shapes, rows)[..., None]
+        q = mesh.vertices[:, chunk] - mesh.middle[:, None]
+        places = np.empty((3, len(group), q.shape[1]))
+        for i, component in enumerate(places):
+            np.add(axes[:, i, 1] * q[1], axes[:, i, 2] * q[2], out=component)
+            component += axes[:, i, 0] * q[0]
+            component += self._shapes.center[rows, i, None]
+        first = self._start[group]
+        at: Any = slice(first[0] + chunk.start, first[0] + chunk.stop)
+        if len(group) > 1:
+            at = (first[:, None] + np.arange(chunk.start, chunk.stop)).reshape(-1)
         self._vertices.write(at, places.reshape(3, -1))
 
 
-def _parts(count: int, most: int) -> Iterator[slice]:
-    """Yield slices that divide ``count`` items into parts of at most ``most``."""
-    for first in range(0, count, most):
-        yield slice(first, min(first + most, count))
+def _parts(count: int, limit: int) -> Iterator[slice]:
+    """Yield slices that divide ``count`` items into parts of at most ``limit``."""
+    for first in range(0, count, limit):
+        yield slice(first, min(first + limit, count))
 
 
 def _together(mesh: np.ndarray, near: np.ndarray, size: np.ndarray) -> Iterator[np.ndarray]:
@@ -162,6 +162,6 @@ def _together(mesh: np.ndarray, near: np.ndarray, size: np.ndarray) -> Iterator[
     CHUNK of these: neighbors in depth that show one mesh.
     """
     order = np.lexsort((near, mesh))
-    for own in np.split(order, np.flatnonzero(np.diff(mesh[order])) + 1):
-        for part in _parts(len(own), max(1, tuning.CHUNK // max(1, size[own[0]]))):
-            yield own[part]
+    for of_mesh in np.split(order, np.flatnonzero(np.diff(mesh[order])) + 1):
+        for chunk in _parts(len(of_mesh), max(1, tuning.CHUNK // max(1, size[of_mesh[0]]))):
+            yield of_mesh[chunk]

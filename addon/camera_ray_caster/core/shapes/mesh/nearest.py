@@ -56,22 +56,22 @@ class Nearest:
         number.fill(NONE)
         return cls(t, number)
 
-    def enter(self, which: np.ndarray) -> np.ndarray:
+    def enter(self, indices: np.ndarray) -> np.ndarray:
         """Give triangles, by index, numbers: those that are tested are far fewer than those of a mesh."""
         first = sum(map(len, self.entered))
-        self.entered.append(which)
-        return np.arange(first, first + len(which))
+        self.entered.append(indices)
+        return np.arange(first, first + len(indices))
 
     def seen(self) -> tuple[np.ndarray, np.ndarray]:
         """Return the indices of the triangles that pixels see, and which of these each pixel sees, 0 for none."""
-        which = self._which()
-        is_seen = np.zeros(len(which) + 1, bool)  # the last for NONE
+        indices = self._indices()
+        is_seen = np.zeros(len(indices) + 1, bool)  # the last for NONE
         pixels = self.number.reshape(-1)  # most are like the one before
         is_seen[taken(pixels, np.flatnonzero(np.append(True, pixels[1:] != pixels[:-1])))] = True
         seen = np.flatnonzero(is_seen[:NONE])
-        place = np.zeros(len(is_seen), np.int32)
-        place[seen] = np.arange(len(seen))
-        return which[seen], taken(place, self.number)
+        rank = np.zeros(len(is_seen), np.int32)
+        rank[seen] = np.arange(len(seen))
+        return indices[seen], taken(rank, self.number)
 
     def keep(self, pixel: np.ndarray, t: np.ndarray, number: np.ndarray) -> None:
         """Note the hits that are the nearest so far; a pixel may have several."""
@@ -85,23 +85,23 @@ class Nearest:
             tied = np.flatnonzero(t == before)
             if tied.size:
                 closer[tied] = self._precede(number[tied], first[pixel[tied]])
-            some = np.flatnonzero(closer)
-            if len(some) < len(pixel):
-                pixel, t, number = taken(pixel, some), taken(t, some), taken(number, some)
+            nearer = np.flatnonzero(closer)
+            if len(nearer) < len(pixel):
+                pixel, t, number = taken(pixel, nearer), taken(t, nearer), taken(number, nearer)
             nearest[pixel], first[pixel] = t, number  # of several hits in a pixel the last stays: others try again
             lost = np.flatnonzero(taken(first, pixel) != number)
             pixel, t, number = pixel[lost], t[lost], number[lost]
 
     def _precede(self, number: Any, other: np.ndarray) -> np.ndarray:
         """Return whether triangles have lower indices than others; any triangle precedes NONE."""
-        which = self._which()
-        return (other == NONE) | (which[number] < which[other])
+        indices = self._indices()
+        return (other == NONE) | (indices[number] < indices[other])
 
     def entry(self, number: np.ndarray) -> np.ndarray:
         """Return the indices of triangles by their numbers."""
-        return self._which()[number]
+        return self._indices()[number]
 
-    def _which(self) -> np.ndarray:
+    def _indices(self) -> np.ndarray:
         """The indices of all triangles that have numbers."""
         self.entered[:] = [np.concatenate(self.entered)] if self.entered else [np.zeros(0, np.intp)]
         return self.entered[0]
@@ -113,21 +113,21 @@ class Nearest:
         x0, x1, y0, y1 = bounds.T
         column, row = x0 // tuning.CELL, y0 // tuning.CELL
         cells = np.maximum((x1 - 1) // tuning.CELL - column, (y1 - 1) // tuning.CELL - row) + 1
-        most = int(cells.max(initial=1))
-        farthest = self._cells(most)
+        largest = int(cells.max(initial=1))
+        farthest = self._cells(largest)
         _, high, wide = farthest.shape
-        level = np.frexp(np.arange(most) + 0.5)[1].astype(np.intp)  # exactly: of 1, 2, 3 and 4, 5 to 8 cells ...
-        place = taken(level * (high * wide), cells - 1)
-        place += row * np.intp(wide)
-        place += column
-        return np.flatnonzero(near <= taken(farthest.reshape(-1), place))
+        level = np.frexp(np.arange(largest) + 0.5)[1].astype(np.intp)  # exactly: of 1, 2, 3 and 4, 5 to 8 cells ...
+        entry = taken(level * (high * wide), cells - 1)
+        entry += row * np.intp(wide)
+        entry += column
+        return np.flatnonzero(near <= taken(farthest.reshape(-1), entry))
 
-    def _cells(self, most: int) -> np.ndarray:
-        """Return the farthest t in squares of up to ``most`` cells, (levels, rows, columns)."""
+    def _cells(self, largest: int) -> np.ndarray:
+        """Return the farthest t in squares of up to ``largest`` cells, (levels, rows, columns)."""
         levels = self._farthest
         if not levels:
             levels.append(_largest(_largest(self.t, tuning.CELL).T, tuning.CELL).T)
-        while (size := 1 << len(levels) - 1) < most:
+        while (size := 1 << len(levels) - 1) < largest:
             cells = levels[-1].copy()
             np.maximum(cells[:-size], cells[size:], out=cells[:-size])
             np.maximum(cells[:, :-size], cells[:, size:], out=cells[:, :-size])

@@ -47,15 +47,15 @@ class TriangleNormals:
         constant = np.empty((3, count))
         slope = None if are_flat else np.empty((3, 3, count))
         area = None if from_eye else np.empty((3, count))
-        for own in (slice(first, first + step) for first in range(0, count, step)):
-            some = HitTriangles(shapes, seen.at[:0], seen.at[own], seen.number[own], from_eye)
-            turn = -np.sign(dot(some.area, some.corners[0])) if from_eye else 1.0
+        for chunk in (slice(first, first + step) for first in range(0, count, step)):
+            triangles = HitTriangles(shapes, seen.at[:0], seen.at[chunk], seen.number[chunk], from_eye)
+            turn = -np.sign(dot(triangles.area, triangles.corners[0])) if from_eye else 1.0
             if area is not None:
-                area[:, own] = some.area
+                area[:, chunk] = triangles.area
             if slope is None:
-                constant[:, own] = turn * np.array(some.area)
+                constant[:, chunk] = turn * np.array(triangles.area)
                 continue
-            constant[:, own], slope[..., own] = some.affine(turn * some.corner_normals)
+            constant[:, chunk], slope[..., chunk] = triangles.affine(turn * triangles.corner_normals)
         if slope is None:
             constant *= _over_length(constant)
         return cls(constant, slope, area)
@@ -66,14 +66,14 @@ class TriangleNormals:
         The sign comes from the side of the face that is hit, not from the interpolated normal. The result is 0 where
         the interpolated normals cancel.
         """
-        which = pixels.in_tile(pixels.known[MESH].of_pixel).astype(np.intp)
+        triangle = pixels.in_tile(pixels.known[MESH].of_pixel).astype(np.intp)
         if self.slope is None:
-            normal = taken(self.constant, which)
+            normal = taken(self.constant, triangle)
         else:
-            normal = affine_at(which, self.constant, self.slope, point)
+            normal = affine_at(triangle, self.constant, self.slope, point)
             normal *= _over_length(normal)
         if self.area is not None:
-            normal *= -np.sign(dot(taken(self.area, which), direction))
+            normal *= -np.sign(dot(taken(self.area, triangle), direction))
         return normal
 
 

@@ -12,11 +12,11 @@ from ..windows import pixels_in
 from .in_camera import Triangles
 
 
-def nearest_first(near: np.ndarray, count: np.ndarray, most: int) -> Iterator[np.ndarray]:
-    """Yield blocks in parts of about ``most`` triangles, those with the least t first."""
+def nearest_first(near: np.ndarray, count: np.ndarray, size: int) -> Iterator[np.ndarray]:
+    """Yield blocks in parts of about ``size`` triangles, those with the least t first."""
     order = np.argsort(near, kind="stable")
-    part = (np.cumsum(count[order]) - 1) // most
-    yield from np.split(order, np.flatnonzero(np.diff(part)) + 1)
+    batch = (np.cumsum(count[order]) - 1) // size
+    yield from np.split(order, np.flatnonzero(np.diff(batch)) + 1)
 
 
 def slabs(triangles: Triangles, pixels: int) -> Iterator[np.ndarray]:
@@ -27,20 +27,20 @@ def slabs(triangles: Triangles, pixels: int) -> Iterator[np.ndarray]:
     if not near.size:
         return
     count = max(1, round(math.sqrt(work.sum() / (pixels + tuning.SLAB_PIXELS))))
-    some = np.arange(0, len(near), max(1, len(near) >> 12))
-    some = some[np.argsort(near[some])]
-    done = np.cumsum(work[some])
-    cuts = near[some[np.searchsorted(done, done[-1] * np.arange(1, count) / count)]]
+    sample = np.arange(0, len(near), max(1, len(near) >> 12))
+    sample = sample[np.argsort(near[sample])]
+    done = np.cumsum(work[sample])
+    cuts = near[sample[np.searchsorted(done, done[-1] * np.arange(1, count) / count)]]
     slab = np.searchsorted(cuts, near)
     for k in range(count):
         yield np.flatnonzero(slab == k)
 
 
-def pieces(bounds: np.ndarray, most: int) -> Iterator[slice]:
-    """Yield slices of at most SPANNED triangles, which end once their bounds have more than ``most`` pixels."""
+def pieces(bounds: np.ndarray, limit: int) -> Iterator[slice]:
+    """Yield slices of at most SPANNED triangles, which end once their bounds have more than ``limit`` pixels."""
     pixels = np.cumsum(pixels_in(bounds))
     first = 0
     while first < len(bounds):
-        end = min(first + tuning.SPANNED, int(np.searchsorted(pixels, pixels[first] + most)) + 1)
+        end = min(first + tuning.SPANNED, int(np.searchsorted(pixels, pixels[first] + limit)) + 1)
         yield slice(first, end)
         first = end

@@ -44,7 +44,7 @@ Reach = tuple[float, float]
 class Open(NamedTuple):
     """Triangles and pixels in which they still have to be tested."""
 
-    which: np.ndarray
+    number: np.ndarray
     """(m,) numbers of triangles."""
     vertices: np.ndarray
     """(3, m) indices of their vertices."""
@@ -54,7 +54,7 @@ class Open(NamedTuple):
     @classmethod
     def of(cls, triangles: Triangles, k: np.ndarray, pixel: np.ndarray) -> Open:
         """Return the triangles with some indices, one for each pixel."""
-        return cls(taken(triangles.which, k), taken(triangles.corners, k), pixel)
+        return cls(taken(triangles.index, k), taken(triangles.corners, k), pixel)
 
     @classmethod
     def none(cls) -> Open:
@@ -88,45 +88,45 @@ class MeshSet(ShapeSet):
             return
         window = union(bounds)
         whole, rays = rays, rays.within(window)
-        first_row, first_column = (own.start for own in window)
+        first_row, first_column = (side.start for side in window)
         bounds -= np.array([first_column, first_column, first_row, first_row], bounds.dtype)
-        found = Nearest.of(nearest[window], rays)
-        found.met = None if whole.met is None else []
+        hits = Nearest.of(nearest[window], rays)
+        hits.met = None if whole.met is None else []
         lattice = RayLattice.of(rays)
         reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
         near = self._least_t(rays, reach, blocks.near.take(here))
         cast = partial(self._in_spans, lattice) if lattice else self._in_cells
         for batch in nearest_first(near, blocks.count[here], self.meshes.chunk):
-            batch = batch.take(found.may_show(bounds.take(batch, axis=0), near.take(batch)))
-            some = np.sort(here.take(batch))
-            for _ in self.meshes.place(some):
+            batch = batch.take(hits.may_show(bounds.take(batch, axis=0), near.take(batch)))
+            chosen = np.sort(here.take(batch))
+            for _ in self.meshes.place(chosen):
                 yield None
-            triangles = self.meshes.triangles(some)
+            triangles = self.meshes.triangles(chosen)
             inside, parts = in_tile(self._in_plan(triangles.bounds), rays.corner, rays.shape)
             triangles = triangles.only(inside, parts.astype(np.intp))  # their products may exceed the type of bounds
             triangles = replace(triangles, near=self._least_t(rays, reach, triangles.near))
-            for slab in slabs(triangles, found.t.size):
-                slab = slab.take(found.may_show(triangles.bounds.take(slab, axis=0), triangles.near.take(slab)))
+            for slab in slabs(triangles, hits.t.size):
+                slab = slab.take(hits.may_show(triangles.bounds.take(slab, axis=0), triangles.near.take(slab)))
                 tested = triangles.only(slab)
-                for _ in cast(rays, reach, replace(tested, which=found.enter(tested.which)), found):
+                for _ in cast(rays, reach, replace(tested, index=hits.enter(tested.index)), hits):
                     yield None
             yield None
         if whole.met is not None:
-            for pixel, t, number in found.met or ():
+            for pixel, t, number in hits.met or ():
                 row, column = np.divmod(pixel, rays.shape[1])
-                place = (row + first_row) * whole.shape[1] + column + first_column
-                whole.met.append((place, t, *blocks.numbers(found.entry(number))))
-        seen, of_pixel = found.seen()
+                pixels = (row + first_row) * whole.shape[1] + column + first_column
+                whole.met.append((pixels, t, *blocks.numbers(hits.entry(number))))
+        seen, of_pixel = hits.seen()
         if not seen.size:
             return
         of_tile = whole.scratch("triangles seen", whole.shape, np.int32)
         of_tile[window] = of_pixel
         whole.known[MESH] = known = SeenTriangles(*blocks.numbers(seen), of_tile)
         corner = np.array([first_row]), np.array([first_column])
-        met = found.number != NONE
+        met = hits.number != NONE
         at = merged(known.at)
         at = at[None, None] if len(at) == 1 else at.take(of_pixel)[None]
-        yield Candidates(at, corner, found.t[None], met[None])
+        yield Candidates(at, corner, hits.t[None], met[None])
 
     def _least_t(self, rays: SearchRays, reach: Reach, near: np.ndarray) -> np.ndarray:
         """Return lower bounds of t, given those of ``PixelBounds.least_t``."""
@@ -139,26 +139,26 @@ class MeshSet(ShapeSet):
         return bounds if self.pixels is None else self.pixels.within(bounds)
 
     def _in_spans(
-        self, lattice: RayLattice, rays: SearchRays, reach: Reach, triangles: Triangles, found: Nearest
+        self, lattice: RayLattice, rays: SearchRays, reach: Reach, triangles: Triangles, hits: Nearest
     ) -> Iterator[None]:
         """Keep the hits of a lattice of rays on triangles, in small steps."""
         at, bands = banded(triangles.bounds, tuning.SPANNED_PIXELS)
         triangles = triangles.only(at, bands)
-        rest: list[Open] = []
-        for some in pieces(bands, tuning.SPANNED_PIXELS):
-            rest.append(self._span(rays, lattice, reach, triangles.only(some), found))
+        untested: list[Open] = []
+        for piece in pieces(bands, tuning.SPANNED_PIXELS):
+            untested.append(self._span(rays, lattice, reach, triangles.only(piece), hits))
             yield
-        self._test(rays, rest, found)
+        self._test(rays, untested, hits)
 
-    def _in_cells(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Nearest) -> Iterator[None]:
+    def _in_cells(self, rays: SearchRays, reach: Reach, triangles: Triangles, hits: Nearest) -> Iterator[None]:
         """Keep the hits of any rays on triangles, in small steps."""
         triangles = self._in_windows(rays, reach, triangles)
         triangles = triangles.only(*banded(triangles.bounds, tuning.BOXED_PIXELS))
-        rest: list[Open] = []
-        for some in pieces(triangles.bounds, tuning.BOXED_PIXELS):
-            rest.append(self._in_some_cells(rays, reach, triangles.only(some), found))
+        untested: list[Open] = []
+        for piece in pieces(triangles.bounds, tuning.BOXED_PIXELS):
+            untested.append(self._in_some_cells(rays, reach, triangles.only(piece), hits))
             yield
-        self._test(rays, rest, found)
+        self._test(rays, untested, hits)
 
     def _in_windows(self, rays: SearchRays, reach: Reach, triangles: Triangles) -> Triangles:
         """Return the triangles; if many have wide bounds, these once for each wide cell in which a ray may hit them."""
@@ -167,14 +167,14 @@ class MeshSet(ShapeSet):
         if pixels[is_wide].sum() < tuning.WIDE_TILES * math.prod(rays.shape):
             return triangles
         parts = [(np.flatnonzero(~is_wide), triangles.bounds[~is_wide])]
-        place = np.flatnonzero(is_wide)
-        wide = triangles.only(place)
-        which, bounds = banded(wide.bounds, tuning.WIDE_PIXELS)
-        for some in pieces(bounds, tuning.WIDE_PIXELS):
-            meets, corners, turns = self._facing(rays, taken(wide.corners, which[some]))
+        wide_index = np.flatnonzero(is_wide)
+        wide = triangles.only(wide_index)
+        banded_index, bounds = banded(wide.bounds, tuning.WIDE_PIXELS)
+        for piece in pieces(bounds, tuning.WIDE_PIXELS):
+            meets, corners, turns = self._facing(rays, taken(wide.corners, banded_index[piece]))
             edges, doubt = edge_vectors(corners, rays.origin is None), _doubt(corners, reach)
-            at, windows = rays.wide_cells.windows(edges, CELLS_ROUNDING * doubt, bounds[some][meets], turns)
-            parts.append((place[which[some][meets][at]], windows))
+            at, windows = rays.wide_cells.windows(edges, CELLS_ROUNDING * doubt, bounds[piece][meets], turns)
+            parts.append((wide_index[banded_index[piece][meets][at]], windows))
         at, windows = map(np.concatenate, zip(*parts, strict=True))
         order = np.argsort(at, kind="stable")
         return triangles.only(at[order], windows[order])
@@ -193,7 +193,7 @@ class MeshSet(ShapeSet):
         corners[1:] = np.where(turns | (side > 0), corners[1:], corners[:0:-1])
         return meets, corners, np.flatnonzero(turns)
 
-    def _in_some_cells(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Nearest) -> Open:
+    def _in_some_cells(self, rays: SearchRays, reach: Reach, triangles: Triangles, nearest: Nearest) -> Open:
         """Keep the hits on triangles that are certain, and return those pixels in which rounding could decide."""
         meets, corners, turns = self._facing(rays, triangles.corners)
         if len(meets) < len(triangles):
@@ -202,19 +202,19 @@ class MeshSet(ShapeSet):
         met, open_ = rays.cells.spans(edges, CELLS_ROUNDING * doubt, triangles.bounds, turns)
         hits, left = [met], []
         for first in range(0, len(open_.at), tuning.TRACED_PIXELS):
-            some = open_.only(slice(first, first + tuning.TRACED_PIXELS))
-            vectors = rays.factors(some.pixel)
-            volumes = tuple(np.einsum("ij,ij->j", taken(edge, some.at), vectors) for edge in edges)
-            inner, most = _inside(volumes, is_turned=rays.origin is None), taken(doubt, some.at)
-            hits.append(some.only(inner > most))
-            left.append(some.only(np.abs(inner) <= most))
+            piece = open_.only(slice(first, first + tuning.TRACED_PIXELS))
+            vectors = rays.factors(piece.pixel)
+            volumes = tuple(np.einsum("ij,ij->j", taken(edge, piece.at), vectors) for edge in edges)
+            inner, limit = _inside(volumes, is_turned=rays.origin is None), taken(doubt, piece.at)
+            hits.append(piece.only(inner > limit))
+            left.append(piece.only(np.abs(inner) <= limit))
         at, pixel = map(np.concatenate, zip(*hits, strict=True))
         t = crossings_of(corners, at, *rays.at(pixel), reach[0])
-        self._keep(rays, found, pixel, t, taken(triangles.which, at))
+        self._keep(rays, nearest, pixel, t, taken(triangles.index, at))
         at, pixel = map(np.concatenate, zip(*left, strict=True)) if left else (met.at[:0], met.pixel[:0])
         return Open.of(triangles, at, pixel)
 
-    def _span(self, rays: SearchRays, lattice: RayLattice, reach: Reach, triangles: Triangles, found: Nearest) -> Open:
+    def _span(self, rays: SearchRays, lattice: RayLattice, reach: Reach, triangles: Triangles, hits: Nearest) -> Open:
         """Keep the hits on triangles in spans, and ray by ray on triangles without spans. Return the pixels in which
         triangles still have to be tested.
         """
@@ -223,21 +223,21 @@ class MeshSet(ShapeSet):
             triangles = triangles.only(meets)
         seen = spans(lattice, corners, triangles.bounds, rays.shape[1])
         at, pixel = seen.met
-        self._keep(rays, found, pixel, seen.t, taken(triangles.which, at))
+        self._keep(rays, hits, pixel, seen.t, taken(triangles.index, at))
         if not seen.clear.all():
-            for _ in self._in_cells(rays, reach, triangles.only(np.flatnonzero(~seen.clear)), found):
+            for _ in self._in_cells(rays, reach, triangles.only(np.flatnonzero(~seen.clear)), hits):
                 pass
         return Open.of(triangles, *seen.open)
 
-    def _test(self, rays: SearchRays, rest: list[Open], found: Nearest) -> None:
+    def _test(self, rays: SearchRays, untested: list[Open], hits: Nearest) -> None:
         """Keep the hits among triangles that have to be tested, by exact signs where rounding could decide. All are
         tested at once, since one computation of exact signs takes a millisecond.
         """
-        if not any(len(one.which) for one in rest):
+        if not any(len(triangles.number) for triangles in untested):
             return
-        some = Open(*(np.concatenate(part, axis=-1) for part in zip(*rest, strict=True)))
-        origin, direction = rays.at(some.pixel)
-        corners = np.array([from_origin(corner, origin) for corner in self.meshes.places(some.vertices)])
+        tested = Open(*(np.concatenate(values, axis=-1) for values in zip(*untested, strict=True)))
+        origin, direction = rays.at(tested.pixel)
+        corners = np.array([from_origin(corner, origin) for corner in self.meshes.places(tested.vertices)])
         doubt = VOLUME_ROUNDING * np.maximum.reduce([norm(corner) for corner in corners]) ** 2 * norm(direction)
         inner = _inside(volumes(corners, direction), is_turned=False)
         met = inner > doubt
@@ -245,35 +245,35 @@ class MeshSet(ShapeSet):
         if open_.size:
             exact = signs(corners[:, :, open_], direction[:, open_])
             met[open_] = ((exact >= 0).all(axis=0) | (exact <= 0).all(axis=0)) & exact.any(axis=0)
-        self._meet(rays, Open(some.which[met], some.vertices[:, met], some.pixel[met]), found)
+        self._meet(rays, Open(tested.number[met], tested.vertices[:, met], tested.pixel[met]), hits)
 
-    def _meet(self, rays: SearchRays, met: Open, found: Nearest) -> None:
+    def _meet(self, rays: SearchRays, met: Open, hits: Nearest) -> None:
         """Keep the hits on triangles that are known to be hit, one per pixel."""
         t = crossing(self.meshes.places(met.vertices), *rays.at(met.pixel))
-        self._keep(rays, found, met.pixel, t, met.which)
+        self._keep(rays, hits, met.pixel, t, met.number)
 
-    def _keep(self, rays: SearchRays, found: Nearest, pixel: np.ndarray, t: np.ndarray, which: np.ndarray) -> None:
+    def _keep(self, rays: SearchRays, hits: Nearest, pixel: np.ndarray, t: np.ndarray, numbers: np.ndarray) -> None:
         """Keep hits at or beyond the clip start, on points that are not transparent."""
         met = (t >= self.clip_start) & (t < np.inf)
         if self.cutouts is not None:
-            met &= t <= taken(found.t.reshape(-1), pixel)
-            met[met] = self._is_hit(self.cutouts, rays, found, pixel[met], t[met], which[met])
+            met &= t <= taken(hits.t.reshape(-1), pixel)
+            met[met] = self._is_hit(self.cutouts, rays, hits, pixel[met], t[met], numbers[met])
         if not met.all():
-            pixel, t, which = pixel[met], t[met], which[met]
-        found.keep(pixel, t, which)
+            pixel, t, numbers = pixel[met], t[met], numbers[met]
+        hits.keep(pixel, t, numbers)
 
-    def _is_hit(self, cutouts: Cutouts, rays: SearchRays, found: Nearest, pixel, t, which) -> np.ndarray:
+    def _is_hit(self, cutouts: Cutouts, rays: SearchRays, hits: Nearest, pixel, t, numbers) -> np.ndarray:
         """Return which crossings with triangles, (m,), are hits: all but those with transparent points."""
-        own, triangle = np.unique(which, return_inverse=True)
-        at, number = self.meshes.blocks.numbers(found.entry(own))
+        distinct, triangle = np.unique(numbers, return_inverse=True)
+        at, number = self.meshes.blocks.numbers(hits.entry(distinct))
         is_hit = np.ones(len(pixel), bool)
-        some = np.flatnonzero(cutouts.may[at][triangle])
-        if some.size:
-            origin, direction = rays.at(pixel[some])
-            point = direction * t[some] if origin is None else origin + direction * t[some]
-            hit = HitTriangles(cutouts.shapes, triangle[some], at, number, origin is None).only(slice(None))
-            pixels = crossings(at[triangle[some]], t[some], origin is None, **{TRIANGLES: hit})
-            is_hit[some] = cutouts.hit(pixels, point)
+        may_be_cut = np.flatnonzero(cutouts.may[at][triangle])
+        if may_be_cut.size:
+            origin, direction = rays.at(pixel[may_be_cut])
+            point = direction * t[may_be_cut] if origin is None else origin + direction * t[may_be_cut]
+            hit = HitTriangles(cutouts.shapes, triangle[may_be_cut], at, number, origin is None).only(slice(None))
+            pixels = crossings(at[triangle[may_be_cut]], t[may_be_cut], origin is None, **{TRIANGLES: hit})
+            is_hit[may_be_cut] = cutouts.hit(pixels, point)
         return is_hit
 
 

@@ -131,28 +131,28 @@ def spans(lattice: RayLattice, corners: Any, bounds: np.ndarray, width: int) -> 
     doubt = taken(np.where(is_level, 0, doubt).max(axis=0), at)
     first = np.maximum(np.ceil(low - doubt), taken(x0, at))
     last = np.minimum(np.floor(high + doubt), taken(x1, at) - 1)
-    some = np.flatnonzero(first <= last)
-    at, row, is_open = taken(at, some), taken(row, some), taken(is_open, some)
-    left, right = taken(first < low + doubt, some), taken(last > high - doubt, some)
-    first, last = taken(first, some).astype(np.intp), taken(last, some).astype(np.intp)
-    place = row * width
-    rest = [(at[:0], at[:0])]
+    chosen = np.flatnonzero(first <= last)
+    at, row, is_open = taken(at, chosen), taken(row, chosen), taken(is_open, chosen)
+    left, right = taken(first < low + doubt, chosen), taken(last > high - doubt, chosen)
+    first, last = taken(first, chosen).astype(np.intp), taken(last, chosen).astype(np.intp)
+    begin = row * width
+    untested = [(at[:0], at[:0])]
     if is_open.any() or left.any() or right.any():
         span, column = counted(np.where(is_open, last - first + 1, 0), first)
-        rest.append((at[span], place[span] + column))
+        untested.append((at[span], begin[span] + column))
         left, right = left & ~is_open, right & ~is_open & ((last > first) | ~left)  # a pixel is tested once
-        rest += [(at[some], place[some] + end[some]) for some, end in ((left, first), (right, last))]
+        untested += [(at[is_end], begin[is_end] + end[is_end]) for is_end, end in ((left, first), (right, last))]
         first += left
         last -= right
         last[is_open] = first[is_open] - 1
     span, column = counted(last - first + 1, first)
     t = _crossing(lattice, corners[0], normal, at, row, span, column)
-    column += taken(place, span)
+    column += taken(begin, span)
     return Spans(
         clear=np.broadcast_to(clear, len(bounds)),
         met=(taken(at, span), column),
         t=t,
-        open=(np.concatenate([one for one, _ in rest]), np.concatenate([one for _, one in rest])),
+        open=(np.concatenate([values for values, _ in untested]), np.concatenate([values for _, values in untested])),
     )
 
 
@@ -162,13 +162,13 @@ def _crossing(lattice: RayLattice, corner: Any, normal: Any, at: np.ndarray, row
     if lattice.is_parallel:
         terms = np.array((normal[0], normal[1], normal[2] * corner[2], normal[2] * lattice.z, corner[0], corner[1]))
         first, second, third, slope, right, up = taken(terms, at)
-        first, rest, slope, right = taken(np.array((first, second * (up - y) + third, slope, right)), span)
-        return (first * (right - x) + rest) / slope
+        first, constant, slope, right = taken(np.array((first, second * (up - y) + third, slope, right)), span)
+        return (first * (right - x) + constant) / slope
     terms = np.array((normal[0], normal[1], normal[2] * lattice.z, dot(normal, corner)))
     first, second, third, height = taken(terms, at)
-    first, rest, height = taken(np.array((first, second * y + third, height)), span)
+    first, constant, height = taken(np.array((first, second * y + third, height)), span)
     first *= x
-    first += rest
+    first += constant
     return np.divide(height, first, out=first)
 
 
@@ -177,13 +177,13 @@ def _level(lattice: RayLattice, edges: Any, is_level: np.ndarray, scale, bounds:
     the rows, and in which of them rounding could decide.
     """
     gone, is_open = np.zeros((2, len(at)), bool)
-    some = np.flatnonzero(is_level.any(axis=0)[at])
-    k = at[some]
+    rows = np.flatnonzero(is_level.any(axis=0)[at])
+    k = at[rows]
     x = lattice.first[0] + lattice.step[0] * np.stack((bounds[k, 0], bounds[k, 1] - 1))
-    y = lattice.first[1] + lattice.step[1] * row[some]
+    y = lattice.first[1] + lattice.step[1] * row[rows]
     for to_x, to_y, to_z, meant in zip(*edges, is_level, strict=True):
         ends = to_x[k] * x + (to_y[k] * y + to_z[k])
-        gone[some] |= meant[k] & (ends.max(axis=0) < -scale[k])
-        is_open[some] |= meant[k] & (ends.min(axis=0) <= scale[k])
+        gone[rows] |= meant[k] & (ends.max(axis=0) < -scale[k])
+        is_open[rows] |= meant[k] & (ends.min(axis=0) <= scale[k])
     stay = ~gone
     return at[stay], row[stay], is_open[stay]

@@ -32,7 +32,7 @@ class HitTriangles:
     """The k triangles that m pixels see; vectors in the world."""
 
     shapes: InCamera
-    which: np.ndarray
+    of_pixel: np.ndarray
     """(m,) indices into these triangles."""
     at: np.ndarray
     """(k,) indices into ``Shapes``."""
@@ -46,22 +46,22 @@ class HitTriangles:
         """Return the triangles of one or more pixels that see meshes; they are made at first use and noted."""
         if TRIANGLES not in pixels.noted:
             seen = pixels.known[MESH]
-            own = cls(shapes, pixels.in_tile(seen.of_pixel), seen.at, seen.number, pixels.from_eye)
-            pixels.noted[TRIANGLES] = own.only(slice(None))
+            triangles = cls(shapes, pixels.in_tile(seen.of_pixel), seen.at, seen.number, pixels.from_eye)
+            pixels.noted[TRIANGLES] = triangles.only(slice(None))
         return pixels.noted[TRIANGLES]
 
-    def only(self, some: Any) -> HitTriangles:
+    def only(self, pixels: Any) -> HitTriangles:
         """Return the triangles that some of the pixels, indices or a slice, see."""
-        which = self.which[some]
-        place = np.zeros(len(self.at), np.int32)
-        place[which] = 1
-        seen = np.flatnonzero(place)
-        place[seen] = np.arange(len(seen))
-        return HitTriangles(self.shapes, place.take(which), self.at[seen], self.number[seen], self.from_eye)
+        of_pixel = self.of_pixel[pixels]
+        rank = np.zeros(len(self.at), np.int32)
+        rank[of_pixel] = 1
+        seen = np.flatnonzero(rank)
+        rank[seen] = np.arange(len(seen))
+        return HitTriangles(self.shapes, rank.take(of_pixel), self.at[seen], self.number[seen], self.from_eye)
 
     def each(self, values: Any) -> np.ndarray:
         """Return the values of triangles (..., k) for the pixels that see them, (..., m)."""
-        return taken(values, self.which)
+        return taken(values, self.of_pixel)
 
     @property
     def polygon(self) -> np.ndarray:
@@ -126,11 +126,11 @@ class HitTriangles:
     def gradients(self) -> tuple[Any, Any]:
         """The gradients of the second and third barycentric coordinates; 0 for triangles that are too thin (LOST)."""
         square = dot(self.area, self.area)
-        found = cross(self.edges[1], self.area), cross(self.area, self.edges[0])
-        both = tuple(tuple(component / square for component in vector) for vector in found)
+        towards = cross(self.edges[1], self.area), cross(self.area, self.edges[0])
+        gradients = tuple(tuple(component / square for component in vector) for vector in towards)
         reach = np.maximum.reduce([norm(corner) for corner in self.corners])
-        lost = ~(16 * EPS * reach * np.maximum(norm(both[0]), norm(both[1])) < LOST)
-        second, third = (tuple(np.where(lost, 0.0, component) for component in vector) for vector in both)
+        lost = ~(16 * EPS * reach * np.maximum(norm(gradients[0]), norm(gradients[1])) < LOST)
+        second, third = (tuple(np.where(lost, 0.0, component) for component in vector) for vector in gradients)
         return second, third
 
     def affine(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -143,27 +143,27 @@ class HitTriangles:
 
     def interpolated(self, values: np.ndarray, point: Any) -> np.ndarray:
         """Return values at the corners, (3, c, k), at hit points relative to the eye, (c, m)."""
-        return affine_at(self.which, *self.affine(values), point)
+        return affine_at(self.of_pixel, *self.affine(values), point)
 
     def uv(self, point: Any) -> tuple[np.ndarray, np.ndarray]:
         """Return u and v, (m,) each; 0 if the mesh has no map."""
         if all(self.shapes.shapes.meshes[k].uv is None for k in self._meshes):
-            return np.zeros(len(self.which)), np.zeros(len(self.which))
+            return np.zeros(len(self.of_pixel)), np.zeros(len(self.of_pixel))
         u, v = self.interpolated(self._gather((3, 2), float, _uv), point)
         return u, v
 
     def layer(self, point: Any, name: str, channels: int) -> np.ndarray:
         """Return a layer of the meshes, (channels, m); 0 where a mesh has none of this name."""
 
-        def at_corners(mesh: Mesh, which: np.ndarray) -> Any:
+        def at_corners(mesh: Mesh, number: np.ndarray) -> Any:
             values = dict(mesh.layers).get(name)
-            return 0.0 if values is None else values.take(which, axis=1).swapaxes(1, 2)
+            return 0.0 if values is None else values.take(number, axis=1).swapaxes(1, 2)
 
         return self.interpolated(self._gather((3, channels), float, at_corners), point)
 
     def in_object(self, point: Any) -> np.ndarray:
         """Return the points in the spaces of their objects, (3, m)."""
-        middle = self._gather((3,), float, lambda mesh, which: mesh.middles(which))
+        middle = self._gather((3,), float, lambda mesh, number: mesh.middles(number))
         return self.interpolated(self.local + middle, point)
 
     def from_edge(self, point: Any) -> np.ndarray:
@@ -192,24 +192,24 @@ class HitTriangles:
         """Return the values, (*shape, k), of a function that takes a mesh and the indices of some of its triangles."""
         result: np.ndarray = np.empty((*shape, len(self.at)), dtype)
         for k in self._meshes:
-            some = self.mesh == k if len(self._meshes) > 1 else slice(None)
-            result[..., some] = of(self.shapes.shapes.meshes[k], self.number[some])
+            of_mesh = self.mesh == k if len(self._meshes) > 1 else slice(None)
+            result[..., of_mesh] = of(self.shapes.shapes.meshes[k], self.number[of_mesh])
         return result
 
 
-def affine_at(which: np.ndarray, constant: np.ndarray, slope: np.ndarray, point: Any) -> np.ndarray:
-    """Return constant + slope . point, (c, m), with constants (c, k) and slopes (3, c, k) at the indices ``which``."""
-    total = taken(constant, which)
+def affine_at(index: np.ndarray, constant: np.ndarray, slope: np.ndarray, point: Any) -> np.ndarray:
+    """Return constant + slope . point, (c, m), with constants (c, k) and slopes (3, c, k) at the indices ``index``."""
+    total = taken(constant, index)
     for along, component in zip(slope, point, strict=True):
-        part = taken(along, which)
-        part *= component
-        total += part
+        term = taken(along, index)
+        term *= component
+        total += term
     return total
 
 
-def corners_from_middle(mesh: Mesh, which: np.ndarray) -> np.ndarray:
+def corners_from_middle(mesh: Mesh, number: np.ndarray) -> np.ndarray:
     """Return the corners of triangles (k,) relative to the mesh's middle, (3, 3, k): corner, component."""
-    return mesh.vertices.take(mesh.triangles.take(which, axis=1), axis=1).swapaxes(0, 1) - mesh.middles(which)
+    return mesh.vertices.take(mesh.triangles.take(number, axis=1), axis=1).swapaxes(0, 1) - mesh.middles(number)
 
 
 def places_from_middle(mesh: Mesh, vertices: np.ndarray) -> np.ndarray:
@@ -217,16 +217,16 @@ def places_from_middle(mesh: Mesh, vertices: np.ndarray) -> np.ndarray:
     return mesh.vertices.take(vertices, axis=1).swapaxes(0, 1) - mesh.middle[:, None]
 
 
-def _at_loops(values: np.ndarray, loops: Any, which: np.ndarray) -> np.ndarray:
+def _at_loops(values: np.ndarray, loops: Any, number: np.ndarray) -> np.ndarray:
     """Return the values (l, c) at the loops of triangles, (3, c, k)."""
-    return values.take(loops.take(which, axis=1), axis=0).swapaxes(1, 2)
+    return values.take(loops.take(number, axis=1), axis=0).swapaxes(1, 2)
 
 
-def _normals(mesh: Mesh, which: np.ndarray) -> Any:
+def _normals(mesh: Mesh, number: np.ndarray) -> Any:
     """Return the normals of triangles at their corners, (3, 3, k); 0 if the mesh is shaded flat."""
-    return 0.0 if mesh.normals is None else _at_loops(mesh.normals, mesh.loops, which)
+    return 0.0 if mesh.normals is None else _at_loops(mesh.normals, mesh.loops, number)
 
 
-def _uv(mesh: Mesh, which: np.ndarray) -> Any:
+def _uv(mesh: Mesh, number: np.ndarray) -> Any:
     """Return u and v of triangles at their corners, (3, 2, k); 0 if the mesh has no map."""
-    return 0.0 if mesh.uv is None else _at_loops(mesh.uv, mesh.loops, which)
+    return 0.0 if mesh.uv is None else _at_loops(mesh.uv, mesh.loops, number)

@@ -70,10 +70,10 @@ def edge_vectors(corners: Any, from_eye: bool) -> np.ndarray:
     only d and the moment depend on the ray. The error of these volumes is at most VOLUME_ROUNDING |d| (r + |o|)^2, with
     r the length of the longest corner.
     """
-    found = [np.array(cross(corners[i], corners[j])) for i, j in EDGES]
+    vectors = [np.array(cross(corners[i], corners[j])) for i, j in EDGES]
     if not from_eye:
-        found = [np.append(own, corners[j] - corners[i], axis=0) for own, (i, j) in zip(found, EDGES, strict=True)]
-    return np.array(found)
+        vectors = [np.append(vectors[k], corners[j] - corners[i], axis=0) for k, (i, j) in enumerate(EDGES)]
+    return np.array(vectors)
 
 
 def signs(corners: np.ndarray, d: np.ndarray) -> np.ndarray:
@@ -92,10 +92,10 @@ def side(corners: np.ndarray) -> np.ndarray:
     """Return the exact sign of a . (b x c), (m,), of corners (3, 3, m): the sign of all volumes of a ray from the
     origin that hits the triangle. It is 0 if the triangle is in a plane with the origin, from where no ray hits it.
     """
-    found = volume(corners[0], corners[1], corners[2])
-    most = norm(corners[0]) * norm(corners[1]) * norm(corners[2])
-    sign = np.sign(found)
-    open_ = np.flatnonzero(~(np.abs(found) > VOLUME_ROUNDING * most))
+    product = volume(corners[0], corners[1], corners[2])
+    lengths = norm(corners[0]) * norm(corners[1]) * norm(corners[2])
+    sign = np.sign(product)
+    open_ = np.flatnonzero(~(np.abs(product) > VOLUME_ROUNDING * lengths))
     if open_.size:
         sign[open_] = volume_sign(*corners[:, :, open_])
     return sign
@@ -110,8 +110,8 @@ def crossing(corners: Any, origin: Any, d: Any) -> np.ndarray:
     t = dot(normal, from_origin(corners[0], origin)) / slope
     poor = np.flatnonzero(~(np.abs(slope) > STEEP * product * norm(d)))
     if poor.size:
-        own, start = (None if vector is None else tuple(part[poor] for part in vector) for vector in (d, origin))
-        ends = [dot(from_origin([c[poor] for c in corner], start), own) / dot(own, own) for corner in corners]
+        ahead, start = (None if vector is None else tuple(c[poor] for c in vector) for vector in (d, origin))
+        ends = [dot(from_origin([c[poor] for c in corner], start), ahead) / dot(ahead, ahead) for corner in corners]
         t[poor] = np.fmax(np.fmin(t[poor], np.maximum.reduce(ends)), np.minimum.reduce(ends))
     return t
 
