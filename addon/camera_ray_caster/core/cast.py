@@ -174,7 +174,7 @@ class _Work:
                 self._plans[wanted] = self.plan if count == 1 else make_plan(scene.camera, scene.shapes, wanted)
             self.tiles = list(shares(self._plans[self._requests[-1][0]], threads, self._requests[-1][1]))
         elif self.by_beam:
-            self.tiles = list(sweep_tiles(scene.camera.raster.shape))
+            self.tiles = list(sweep_tiles(scene, request.passes))
         else:
             self.tiles = list(listening(moments(scene.camera, time), progress))
         amount = self.plan.work.sum()

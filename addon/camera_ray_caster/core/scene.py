@@ -64,7 +64,7 @@ class Scene:
     def at_rest(self) -> Scene:
         """Return the scene without pixel times if nothing moves meanwhile, else itself."""
         motions = self.camera.timeline.motion, self.shapes.timeline.motion
-        if not all(motion is None or motion.is_still for motion in motions):
+        if self.camera.pixel_time is None or not all(motion is None or motion.is_still for motion in motions):
             return self
         return Scene(replace(self.camera, pixel_time=None), self.shapes)
 

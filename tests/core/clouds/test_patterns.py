@@ -73,6 +73,7 @@ def test_presets_of_range_scanners():
     [
         ("livox.csv", ("90,60", "90,x"), "its lines must have 3 numbers"),
         ("livox.csv", ("90,60", "90,inf"), "numbers that are not finite"),
+        ("livox.csv", ("\n", "\n# "), "it has no rays"),
         ("isaac_lidar.rotary.json", (), "its scanType is rotary: load it as a calibration"),
         ("hesai.csv", (), "it has no rays of a scanner: give a file of Livox or Isaac Sim lidars"),
     ],

@@ -207,8 +207,10 @@ def test_a_plane_of_a_plate_is_not_the_stop(tmp_path, ior):
         (optiland().replace("true", "false"), "0 surfaces that are the stop"),
         (optiland(aperture={"type": "objectNA", "value": 0.1}), "the stop, has no radius"),
         (optiland().replace('"cs"', '"frame"'), "its group of surfaces cannot be read"),
+        (isetcam().replace("60.0", "9" * 400), "a number that is too large"),
+        (isetcam().replace("60.0", "[" * 9999 + "]" * 9999), "nested too deeply"),
     ],
-    ids=range(27),
+    ids=range(29),
 )
 def test_what_is_no_lens_is_refused_in_one_line_that_names_the_file(tmp_path, text, words):
     with pytest.raises(crc.InputError, match=words) as caught:

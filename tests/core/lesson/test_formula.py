@@ -76,6 +76,7 @@ def test_what_is_zero_to_the_digits_of_a_vector_is_shown_as_zero():
     assert shown(np.array([1e6, 0.2, np.inf])) == "(1e+06, 0.2, inf)"
     assert shown(-4e-8) == "-4e-08", "a number of its own keeps its digits"
     assert (shown(np.cos(np.pi / 2)), shown(8.63851e-17)) == ("0", "0"), "what rounding leaves of numbers around 1"
+    assert worked_out([("y = tan(a)", {})], {"a": np.pi / 2})[0][0].endswith("= 1.63312e+16"), "a pole is no zero"
     assert (digits(-1e-16, "+"), digits(2.5, "+"), digits(-1e-13)) == ("+0", "+2.5", "-1e-13")
 
 

@@ -61,6 +61,15 @@ def test_rows_have_the_poses_between(tmp_path):
     assert camera.at(camera.pixel_time.last).pose.eye == pytest.approx((1, 3, -2), abs=1e-12)
 
 
+@pytest.mark.parametrize("frame", [1.0, 3.5, 100.0])
+def test_a_frame_that_is_neither_the_files_nor_a_time_of_its_rows_has_no_pose(frame, tmp_path):
+    camera = crc.load_rig(written(tmp_path, times(-0.5, 0.5, 0, HEIGHT)), frame_rate=RATE)["a"]
+    first, last = camera.pixel_time.span
+    assert 2.75 < first < 3 < last < 3.25
+    with pytest.raises(crc.InputError, match="no pose at frame"):
+        camera.at(frame)
+
+
 def test_times_that_no_shutter_has_are_moved_and_rows_keep_their_poses(tmp_path):
     camera = crc.load_rig(written(tmp_path, (0.0, 0.01)), frame_rate=RATE)["a"]
     origins = camera.rays().origins

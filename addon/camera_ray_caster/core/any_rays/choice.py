@@ -19,7 +19,7 @@ from ..casting.tiles import Effort, Tile, bands
 from ..maths.vector import matvec
 from ..scene import Scene
 from .door import times_of
-from .moving import write_nearest
+from .moving import prepare, write_nearest
 from .search import RAYS, BodySearch, search_of
 
 TRIANGLES, TRIANGLES_OF_SHAPE = 10_000, 40
@@ -67,14 +67,15 @@ def _by_tree(bodies: BodySearch, plan: Plan, rays: TileRays, listen: Callable[[]
     return bodies.hits_of(plan.target, rays, t.reshape(shape), body.reshape(shape))
 
 
-def sweep_tiles(shape: tuple[int, int]) -> Iterator[Tile]:
-    """Yield a picture, (rows, columns), in tiles for ``cast_sweep``."""
-    height, width = shape
+def sweep_tiles(scene: Scene, passes: tuple[str, ...]) -> Iterator[Tile]:
+    """Return a picture in tiles for ``cast_sweep``, and make the trees that its threads share."""
+    prepare(scene.shapes, passes)
+    height, width = scene.camera.raster.shape
     return bands(slice(0, height), slice(0, width), RAYS)
 
 
 def cast_sweep(scene: Scene, tile: Tile, images: dict[str, np.ndarray], effort: Effort) -> np.ndarray:
-    """Cast the beams of a tile of whole rows and store their passes in ``images``; return the seconds of STEPS."""
+    """Cast the beams of a tile of whole rows and store their passes in ``images``; return their TIMED_STEPS."""
     began, camera, shapes = perf_counter(), scene.camera, scene.shapes
     raster = replace(camera.raster, y0=camera.raster.y0 + tile.rows.start, y1=camera.raster.y0 + tile.rows.stop)
     rays = replace(camera, raster=raster).rays()

@@ -137,6 +137,13 @@ class HitGroup:
         return cls(bodies, every, rows[bodies.at[hits.body]], bodies.number[hits.body])
 
 
+def prepare(shapes: Shapes, passes: tuple[str, ...]) -> None:
+    """Make the trees of shapes that do not move, before several threads need them for rays with times."""
+    apart = _apart(shapes, np.zeros(1), passes)
+    if apart is not None or shapes.timeline.motion is None:
+        search_of(shapes if apart is None else apart.still)
+
+
 def write_nearest(
     shapes: Shapes, origin: np.ndarray, direction: np.ndarray, times: np.ndarray | None, span: Span, images
 ) -> None:

@@ -20,7 +20,7 @@ Values = Mapping[str, Any]
 def completed(model: str, declared: Settings, explicit: Values, frame: tuple[int, int]) -> dict[str, Any]:
     """Return the settings that follow from those given, by name, for a picture of ``frame`` = (width, height) pixels.
 
-    declared: the settings of the model, whose key is ``model``; given: values as records hold them. A calibrated
+    declared: the settings of the model, whose key is ``model``; explicit: values as records hold them. A calibrated
     picture of which no number is given is the declared one, scaled to the frame's longer side, with square pixels.
     Raises InputError for half of a pair that makes no sense alone, and for a setting that would have no effect.
     """

@@ -83,7 +83,7 @@ def fit_model(
     """Return the camera of a model nearest to a camera.
 
     region: bool, (rows, columns) of the full frame; None for all of it. free: names of the parameters to fit; None for
-    all but HELD and those that are given. given: values in records of settings, from which the search starts.
+    all but HELD and those that are given. explicit: values in records of settings, from which the search starts.
 
     Raises InputError, in one line, if there is nothing to fit, for a parameter that does not exist, and if the model
     sees fewer than LEFT of the rays; it then names a smaller region.

@@ -100,10 +100,10 @@ def faces_of(
 ) -> tuple[Face, ...]:
     """Return the faces that hold a camera's picture; none if no pixel has a ray.
 
-    pixel: side of a pixel of the picture that is made of them, in pixels of the camera. most: largest side of a face.
-    part: left, bottom, right and top of the pixels that are needed; default the full frame. lens: the point of the
-    aperture from which the faces are seen; default its center. The frame of the faces is
-    that of ``turn_of``. Raises InputError for a camera that has a ``refusal``.
+    pixel: side of a pixel of the picture that is made of them, in pixels of the camera. largest: side of a face at
+    most. region: left, bottom, right and top of the pixels that are needed; default the full frame. lens: the point of
+    the aperture from which the faces are seen; default its center. The frame of the faces is that of ``turn_of``.
+    Raises InputError for a camera that has a ``refusal``.
     """
     if reason := refusal(camera):
         raise InputError(f"{reason}: its picture is not a warp of perspective pictures")

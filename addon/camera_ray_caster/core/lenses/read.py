@@ -64,6 +64,10 @@ def _read(path: str, modified: int, size: int) -> Prescription:
         raise InputError("it is none of the known formats: pbrt, Optical Bench, ISETCam, Zemax, RayOptics, Optiland")
     except InputError as error:
         raise InputError(f"lens file {path!r}: {error}") from error
+    except OverflowError as error:
+        raise InputError(f"lens file {path!r} has a number that is too large") from error
+    except RecursionError as error:
+        raise InputError(f"lens file {path!r} is nested too deeply") from error
 
 
 def _text(data: bytes) -> str:

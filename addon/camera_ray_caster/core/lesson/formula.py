@@ -168,7 +168,8 @@ def digits(number: float, sign: str = "-", noise: float = NOISE, count: int = 6)
     It has ``count`` significant digits, or fewer within ``at_most``, but all digits of its whole part up to a million.
     With ``sign`` "+" it has a sign in any case.
     """
-    count, number = min(count, _most.get()), 0.0 if abs(number) <= noise else number
+    # At a pole noise is as large as the number, which is no zero for that.
+    count, number = min(count, _most.get()), 0.0 if abs(number) <= min(noise, 1.0) else number
     return f"{number:{sign}.0f}" if 10**count <= abs(number) < 1e6 else f"{number:{sign}.{count}g}"
 
 

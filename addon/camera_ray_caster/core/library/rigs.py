@@ -51,7 +51,8 @@ class RigCamera(Camera):
         frame at which the file has no pose.
         """
         camera = next((other for other, time in zip(self.others, self.frames, strict=True) if time == frame), None)
-        if camera is None and (not self.others or self.pixel_time is not None):
+        rows = self.pixel_time
+        if camera is None and (not self.others or (rows is not None and rows.span[0] <= frame <= rows.span[1])):
             return super().at(frame)
         if camera is None:
             nearest = min(self.frames, key=lambda time: abs(time - frame))

@@ -175,10 +175,9 @@ def resolving(
 ) -> Generator[float, State | None, Motion]:
     """Yield the frames that ``resolve`` evaluates, receive their states, and return the motion.
 
-    Whole frames, since cuts lie
-    there, and ``keys``, the frames with keys, are evaluated first; if these are more than a quarter of ``limit``, those
-    with keys only, or else whole frames only, or else evenly spaced ones of both. Then intervals are tested, the
-    longest first. Those that remain when the budget is used up are reported as unresolved.
+    Whole frames, since cuts lie there, and ``keys``, the frames with keys, are evaluated first; if these are more than
+    a quarter of ``limit``, those with keys only, or else whole frames only, or else evenly spaced ones of both. Then
+    intervals are tested, the longest first. Those that remain when the budget is used up are reported as unresolved.
     """
     states: dict[float, State] = {}
 

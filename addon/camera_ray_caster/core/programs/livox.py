@@ -28,7 +28,7 @@ def _head(document: Document) -> list[str]:
 def rays(document: Document) -> ScanPattern:
     """See ProgramFiles."""
     columns = [_head(document).index(name) for name in NAMES]
-    lines = [line for line in document.text.splitlines()[1:] if line.strip()]
+    lines = [line for line in document.text.splitlines()[1:] if line.strip() and not line.lstrip().startswith("#")]
     if not lines:
         raise document.refusal("it has no rays")
     try:

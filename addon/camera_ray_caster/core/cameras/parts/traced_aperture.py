@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import reduce
 
 import numpy as np
 
@@ -35,18 +36,21 @@ class TracedAperture(Aperture):
         apart |1 - s / D| + spread s away: it is a line.
         """
         distance = np.sqrt((centers * centers).sum(axis=1))
-        near, far = np.maximum(distance - radii - self.reach, 0.0)[:, None], (distance + radii + self.reach)[:, None]
-        apart, sharp, spread = (np.array(each) for each in (self.apart, self.sharp, self.spread))
-        blur = apart * np.maximum(1 - np.where(sharp > 0, near, far) * sharp, far * sharp - 1) + far * spread
+        near, far = np.maximum(distance - radii - self.reach, 0.0), distance + radii + self.reach
+        blurs = (
+            apart * np.maximum(1 - (near if sharp > 0 else far) * sharp, far * sharp - 1) + far * spread
+            for apart, sharp, spread in zip(self.apart, self.sharp, self.spread, strict=True)
+        )
+        if not self.angles:  # 289 of them behind a port: one at a time, as all would take 7 kB a ball
+            return reduce(np.maximum, blurs)
+        blur = np.stack(list(blurs), axis=1)
         worst = blur.max(axis=1)
-        if not self.angles:
-            return worst
         around = (radii + worst + self.reach) / distance
         angle = np.arccos(-centers[:, 2] / distance)
         half = np.where(around < 1, np.arcsin(np.minimum(around, 1)), np.pi)
         first = np.searchsorted(self.angles, angle - half) - 1
         last = np.maximum(np.searchsorted(self.angles, angle + half, "right"), first)
-        place = np.arange(len(apart))
+        place = np.arange(len(self.apart))
         last, first = np.minimum(last, place[-1])[:, None], np.minimum(first, place[-1])[:, None]
         return np.where((first <= place) & (place <= last), blur, 0.0).max(axis=1)
 

@@ -14,7 +14,7 @@ from math import inf, isfinite
 from ...records import InputError
 from ..prescription import Prescription, Row
 
-STOP, FLARE = "AS", "FS"
+STOP = "AS"
 CLAIMS = {"Focal Length": "focal_length", "F-Number": "f_number", "Bf": "back_focus"}
 """Rows of [variable distances] that state what the lens is."""
 
