@@ -65,7 +65,9 @@ def test_without_a_file_it_is_in_the_home_folder(asked, fisheye, blender, tmp_pa
     monkeypatch.setattr(Path, "home", lambda: tmp_path)
     lesson.forget()
     assert blender.ops.camera_ray_caster.open_lesson() == {"FINISHED"}
-    assert page_of(asked) == tmp_path / "untitled_Left_ eye_lesson.html"
+    page = page_of(asked)
+    assert page == tmp_path / "untitled_Left_ eye_lesson.html"
+    assert "{x: 12.5, y: 8.5}" in page.read_text(encoding="utf-8"), "without a pixel it begins in the middle"
 
 
 def test_a_folder_that_cannot_be_written_is_named(asked, fisheye, blender, tmp_path, monkeypatch):

@@ -15,8 +15,9 @@ from .needs import OfScene, reporting
 
 
 class OpenLesson(OfScene, bpy.types.Operator):
-    """Open an interactive page in the browser with this scene, its camera's formula and the ray of the clicked pixel.
-    The page is written next to the .blend file, or into the home folder, and works offline"""
+    """Open an interactive page in the browser with this scene, its camera's formula and the ray of the clicked pixel,
+    or of the pixel in the middle. The page is written next to the .blend file, or into the home folder, and works
+    offline"""
 
     bl_idname = "camera_ray_caster.open_lesson"
     bl_label = "Open Lesson"
@@ -29,7 +30,8 @@ class OpenLesson(OfScene, bpy.types.Operator):
         camera = scene.camera
         if camera is None:
             raise InputError("the camera cannot be cast: see the reason in the sidebar")
-        path = write_lesson(camera, clicked.pixels[-1] if clicked.pixels else None, scene.shapes)
+        middle = camera.raster.width // 2, camera.raster.height // 2
+        path = write_lesson(camera, clicked.pixels[-1] if clicked.pixels else middle, scene.shapes)
         bpy.ops.wm.url_open(url=path.as_uri())
         self.report({"INFO"}, f"Wrote {path}")
         return {"FINISHED"}
