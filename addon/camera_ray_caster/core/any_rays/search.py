@@ -193,7 +193,7 @@ def met(
         hit = np.flatnonzero((t <= far) & (t < np.inf))
         ray, origin, direction, t = ray[hit], _of(origin, hit), direction[:, hit], t[hit]
         body = np.broadcast_to(body, (len(hit),)) if np.ndim(body) == 0 else body[hit]
-        seen = bodies.is_hit(body, origin, direction, t, scratch)
+        seen = bodies.is_hit(body, origin, direction, t)
         is_hit = np.flatnonzero(np.broadcast_to(seen, t.shape))
         yield RayHits(ray[is_hit], t[is_hit], body[is_hit])
         if not bodies.twice:

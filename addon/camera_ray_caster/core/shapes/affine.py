@@ -125,7 +125,7 @@ class AffineBodies(Bodies):
         t, where = self._kind.intersect(constants, tuple(origin), tuple(direction), start, scratch)
         return np.array(t) if where is None else np.where(where, t, np.nan)
 
-    def is_hit(self, body: np.ndarray, origin: Any, direction: Any, t: np.ndarray, scratch: Scratch) -> Any:
+    def is_hit(self, body: np.ndarray, origin: Any, direction: Any, t: np.ndarray) -> Any:
         """See ``Bodies``."""
         if self._cutouts is None:
             return True

@@ -43,7 +43,7 @@ class Bodies(ABC):
         return self
 
     @abstractmethod
-    def is_hit(self, body: np.ndarray, origin: Vectors, direction: Vectors, t: np.ndarray, scratch: Scratch) -> Any:
+    def is_hit(self, body: np.ndarray, origin: Vectors, direction: Vectors, t: np.ndarray) -> Any:
         """Return which crossings, (m,), are hits, where their surfaces are not transparent; True for all."""
 
 

@@ -85,7 +85,7 @@ class TriangleBodies(Bodies):
         """Return the corners of triangles relative to origins, (3, 3, m): corner, component."""
         return np.array([difference(places_of(self._places, k), origin) for k in places_of(self._corners, body)])
 
-    def is_hit(self, body: np.ndarray, origin: Any, direction: Any, t: np.ndarray, scratch: Scratch) -> Any:
+    def is_hit(self, body: np.ndarray, origin: Any, direction: Any, t: np.ndarray) -> Any:
         """See ``Bodies``."""
         if self._cutouts is None:
             return True
@@ -140,9 +140,9 @@ class PreparedTriangles(Bodies):
         hit = np.flatnonzero(met)
         return _crossings(len(met), hit, self._triangles.corners(body[hit], origin[:, hit]), direction, start)
 
-    def is_hit(self, body: np.ndarray, origin: Any, direction: Any, t: np.ndarray, scratch: Scratch) -> Any:
+    def is_hit(self, body: np.ndarray, origin: Any, direction: Any, t: np.ndarray) -> Any:
         """See ``Bodies``."""
-        return self._triangles.is_hit(body, origin, direction, t, scratch)
+        return self._triangles.is_hit(body, origin, direction, t)
 
 
 def _inside(volumes: Any, doubt: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
