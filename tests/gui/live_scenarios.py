@@ -3,6 +3,7 @@
 import time
 from colorsys import hsv_to_rgb
 from glob import glob
+from resource import RUSAGE_SELF, getrusage
 
 import bpy
 import numpy as np
@@ -14,6 +15,10 @@ SHARE = 3.0
 """Most times the processor time of Blender's own redraw, on busy cores: 2.5 is aimed at, 2.4 was measured."""
 EDGE = 2
 """Pixels from an edge at which colors are compared; a pixel of the picture is 1.02 of the window's."""
+EEVEES = 4e6
+"""KB that EEVEE may take, for Blender's own view and one canvas: 2.1 GB were measured, and 6.1 GB with a buffer for
+each of five faces.
+"""
 GRID = np.linspace(0.05, 0.95, 24)
 
 
@@ -128,6 +133,7 @@ def live_shadings(user, scenes):
     yield from user.press(f"{BUTTON}see_through(")
     yield from user.wait(0.5)
     (region,) = addon("view3d.live")._live[space.as_pointer()].values()
+    before = getrusage(RUSAGE_SELF).ru_maxrss
     eevee = "BLENDER_EEVEE" if bpy.app.version >= (5, 0) else "BLENDER_EEVEE_NEXT"
     for shading, engine in (("RENDERED", "BLENDER_WORKBENCH"), ("MATERIAL", eevee)):
         began, count = time.process_time(), region.count
@@ -147,6 +153,9 @@ def live_shadings(user, scenes):
         shown = user.cut(user.picture(f"live_{shading}_{scene.render.engine}".lower()), view)
         assert not region.camera[2]
         assert shown[view.height // 2 - 100 : view.height // 2 + 100, 450:650, :3].std() > 0.02
+    grown = getrusage(RUSAGE_SELF).ru_maxrss - before
+    print(f"EEVEE takes {grown / 1e6:.1f} GB")
+    assert grown < EEVEES, grown
     yield from user.press(f"{BUTTON}see_through(")
     space.overlay.show_overlays = True
 

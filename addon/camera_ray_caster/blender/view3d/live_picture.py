@@ -7,6 +7,7 @@ from typing import Any
 
 import gpu
 import numpy as np
+from gpu_extras.presets import draw_texture_2d
 from mathutils import Matrix
 
 from ...core.camera.build import camera_from
@@ -42,6 +43,8 @@ class LiveView:
     """Key, texture and its owner."""
     faces: tuple[Any, tuple[Face, ...]] = (None, ())
     buffers: list = field(default_factory=list)
+    canvas: Any = None
+    """Buffer in which Blender draws each face in turn: for each buffer that it draws EEVEE keeps about 1 GB."""
     drawn: Any = None
     changes: int = 0
     """How often something was evaluated."""
@@ -88,12 +91,15 @@ def draw_picture_anew(context, view: LiveView, camera: Camera, frame) -> bool:
     if view.faces[0] != key:
         view.faces = key, faces_of(camera, min(x, y), LARGEST_FACE, region_seen)
         view.buffers = [gpu.types.GPUOffScreen(*face.size, format="RGBA8") for face in view.faces[1]]
+        size = tuple(max(sides) for sides in zip((1, 1), *(face.size for face in view.faces[1]), strict=True))
+        if view.canvas is None or (view.canvas.width, view.canvas.height) != size:
+            view.canvas = gpu.types.GPUOffScreen(*size, format="RGBA8")
         view.drawn = None
     seen = view.changes, camera.pose.eye.tobytes(), *_looks(context)
     if view.drawn == seen:
         return False
     for face, buffer in zip(view.faces[1], view.buffers, strict=True):
-        _draw_face(context, camera, face, buffer)
+        _draw_face(context, camera, face, view.canvas, buffer)
     view.drawn, view.count = seen, view.count + 1
     draw_picture(context, view, camera, frame, is_anew=True)
     return True
@@ -182,15 +188,24 @@ def _looks(context) -> tuple:
     )  # fmt: skip
 
 
-def _draw_face(context, camera: Camera, face: Face, buffer) -> None:
-    """Have Blender draw a face."""
+def _draw_face(context, camera: Camera, face: Face, canvas, buffer) -> None:
+    """Have Blender draw a face at the bottom left of a canvas, and copy it into a buffer of the face's size."""
     world = np.eye(4)
     world[:3, :3], world[:3, 3] = turn_of(camera) @ face.axes.T, camera.pose.eye
-    buffer.draw_view3d(
-        context.scene, context.view_layer, context.space_data, context.region,
-        Matrix(world).inverted(), projection(face, camera.clip_start / face.reach, camera.clip_end),
+    wider, higher = canvas.width / buffer.width, canvas.height / buffer.height
+    left, right, bottom, top = face.window
+    window = left, left + (right - left) * wider, bottom, bottom + (top - bottom) * higher
+    matrix = projection(replace(face, window=window), camera.clip_start / face.reach, camera.clip_end)
+    canvas.draw_view3d(
+        context.scene, context.view_layer, context.space_data, context.region, Matrix(world).inverted(), matrix,
         do_color_management=True, draw_background=True,
     )  # fmt: skip
+    with buffer.bind(), gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
+        gpu.matrix.load_identity()
+        gpu.matrix.load_projection_matrix(Matrix.Identity(4))
+        gpu.state.blend_set("NONE")
+        gpu.state.depth_test_set("NONE")
+        draw_texture_2d(canvas.texture_color, (-1, -1), 2 * wider, 2 * higher)
 
 
 def projection(face: Face, near: float, far: float) -> Matrix:
