@@ -124,7 +124,7 @@ ROOMS_WITHOUT_PRONOUNS = (
     *("core/exports", "core/faces", "core/lesson", "core/library", "core/materials", "core/maths", "core/motion"),
     *("core/programs", "core/report", "core/sets", "core/shaders", "core/shapes", "core/text_forms", "core/web"),
     *("blender/cycles", "blender/engine", "blender/faces", "blender/output", "blender/presets", "blender/process"),
-    *("blender/properties", "blender/read", "blender/terminal", "blender/verification"),
+    *("blender/properties", "blender/read", "blender/terminal", "blender/ui", "blender/verification"),
     *("blender/view3d", "../../scripts"),
 )
 PRONOUNS = {*"one found own part place said told given rest it them what most more some which both".split()}  # noqa: SIM905

@@ -32,7 +32,7 @@ SETTINGS = {setting.name: setting for setting in (SLIT, SECOND_SLIT, PATH)}
 class OfLine(OfCamera):
     """Base of the operators on a slit or the path of the panel's camera."""
 
-    setting: EnumProperty(name="Line", items=[(it.name, it.label, it.text) for it in SETTINGS.values()])
+    setting: EnumProperty(name="Line", items=[(line.name, line.label, line.text) for line in SETTINGS.values()])
 
 
 class AddLine(OfLine, bpy.types.Operator):

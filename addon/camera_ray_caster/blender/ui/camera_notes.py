@@ -21,20 +21,20 @@ from .see_through import is_seen_through
 def notes(context) -> list[Note]:
     """Return the notes on the scene's camera; if it cannot be cast, the reason comes first."""
     scene, camera = context.scene, context.scene.camera
-    found, reason = camera_of(context, camera)
+    cast_camera, reason = camera_of(context, camera)
     lacking = missing(context, camera) if reason else []
     frame = frame_note(context, camera)
     every = [Note(lacks(setting), partial(_draw_missing, camera.data, scene, setting)) for setting in lacking]
     if reason and not lacking:
         every.append(Note(reason, frame and frame.mend))  # for a calibrated camera the reason is its frame
         frame = None
-    others = engine_note(scene, camera), timeline_note(scene, camera), sample_note(scene, found)
+    others = engine_note(scene, camera), timeline_note(scene, camera), sample_note(scene, cast_camera)
     every += filter(None, (frame, *others))
-    if found is not None and (remark := found.model.remark(found.record)):
+    if cast_camera is not None and (remark := cast_camera.model.remark(cast_camera.record)):
         every.append(Note(remark))
     if context.space_data is not None and is_seen_through(context) and not drawn_alike(camera):
-        said = "A click selects the object in the picture; Blender draws its gizmos in perspective"
-        every.append(Note(said, icon="INFO"))
+        text = "A click selects the object in the picture; Blender draws its gizmos in perspective"
+        every.append(Note(text, icon="INFO"))
     return every
 
 
@@ -43,8 +43,8 @@ def sample_note(scene, camera) -> Note | None:
     settings = scene.camera_ray_caster
     if camera is None or camera.aperture is None or settings.samples != 1:
         return None
-    said = "Nothing is blurred with 1 sample: every ray passes through the center of the aperture"
-    return Note(said, lambda row: row.prop(settings, "samples"), "INFO")
+    text = "Nothing is blurred with 1 sample: every ray passes through the center of the aperture"
+    return Note(text, lambda row: row.prop(settings, "samples"), "INFO")
 
 
 def _draw_missing(camera, scene, setting: Setting, row) -> None:
@@ -57,5 +57,6 @@ def missing(context, camera) -> list[Setting]:
     """Return the object settings of a camera object's model whose objects are missing."""
     if camera is None or camera.type != "CAMERA":
         return []
-    own = getattr(camera.data, GROUP)
-    return [it for it in read_settings(camera.data) if it.kind == "OBJECT" and is_missing(context, own, it)]
+    settings = getattr(camera.data, GROUP)
+    objects = [setting for setting in read_settings(camera.data) if setting.kind == "OBJECT"]
+    return [setting for setting in objects if is_missing(context, settings, setting)]

@@ -74,10 +74,10 @@ class CastAll(bpy.types.Operator):
             self.layout.prop(self, name)
         report = reports.latest(context.scene) if self.engine == ENGINE else None
         try:
-            said = chosen_frames.in_words(context.scene, self.frames, sum(report.seconds.values()) if report else 0.0)
+            text = chosen_frames.in_words(context.scene, self.frames, sum(report.seconds.values()) if report else 0.0)
         except InputError as error:
-            said = in_labels(str(error))
-        draw_message(self.layout, context, said, "INFO")
+            text = in_labels(str(error))
+        draw_message(self.layout, context, text, "INFO")
 
     @reporting
     def execute(self, context):

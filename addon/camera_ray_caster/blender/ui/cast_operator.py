@@ -155,9 +155,9 @@ def cast_views(jobs: Mapping[str, Job], progress=None) -> tuple[dict[tuple[str, 
     """
     passes, made = {}, []
     for i, (view, job) in enumerate(jobs.items()):
-        part = None if progress is None else lambda fraction, before=i: progress((before + fraction) / len(jobs))
-        found, report = job.cast(part)
-        passes |= {(key, view): pixels for key, pixels in found.items()}
+        of_all = None if progress is None else lambda fraction, before=i: progress((before + fraction) / len(jobs))
+        images, report = job.cast(of_all)
+        passes |= {(key, view): pixels for key, pixels in images.items()}
         made.append(report)
     return passes, reduce(add, made)
 

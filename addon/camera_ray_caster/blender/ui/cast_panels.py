@@ -35,9 +35,9 @@ class SidebarCast(Sidebar, bpy.types.Panel):
         row.enabled = bool(images.results())
         row.menu(ResultsMenu.bl_idname, icon="IMAGE_DATA")
         report = reports.latest(context.scene)
-        said, left_out = ("", ()) if report is None else (summary(report), report.left_out)
-        draw_line(layout, context, said, CastReport.bl_idname, "TIME", "No cast yet")
-        nothing = said and "Nothing left out"
+        text, left_out = ("", ()) if report is None else (summary(report), report.left_out)
+        draw_line(layout, context, text, CastReport.bl_idname, "TIME", "No cast yet")
+        nothing = text and "Nothing left out"
         draw_line(layout, context, reports.left_out_count(left_out), LeftOut.bl_idname, "ERROR", nothing)
 
 

@@ -20,14 +20,14 @@ def usual(scene) -> str:
     return (POSES if frames_of(find_cameras(scene, [ALL])) else RANGE)[0]
 
 
-def chosen(scene, which: str, cameras: Sequence) -> tuple[Sequence[float], Callable[[Any, float], bool]]:
+def chosen(scene, choice: str, cameras: Sequence) -> tuple[Sequence[float], Callable[[Any, float], bool]]:
     """Return the frames of a choice, and a function that tells whether a camera object is shown in one of them.
 
     Raises InputError if there are none.
     """
-    if which == CURRENT[0]:
+    if choice == CURRENT[0]:
         return [frame_of(scene)], _always
-    if which == RANGE[0]:
+    if choice == RANGE[0]:
         return range(scene.frame_start, scene.frame_end + 1, scene.frame_step), _always
     frames = frames_of(cameras)
     if not frames:
@@ -35,34 +35,34 @@ def chosen(scene, which: str, cameras: Sequence) -> tuple[Sequence[float], Calla
     return frames, shows
 
 
-def as_options(scene, which: str, cameras: Sequence) -> list[str]:
+def as_options(scene, choice: str, cameras: Sequence) -> list[str]:
     """Return the words of the terminal's commands for a choice. Raises InputError if there are no frames."""
-    frames, _ = chosen(scene, which, cameras)
-    if which == POSES[0]:
+    frames, _ = chosen(scene, choice, cameras)
+    if choice == POSES[0]:
         return ["--poses"]
-    if which == CURRENT[0]:
+    if choice == CURRENT[0]:
         return [f"--frame={frames[0]!r}"]
     return [f"--frames={scene.frame_start}:{scene.frame_end}:{scene.frame_step}"]
 
 
-def in_words(scene, which: str, seconds: float = 0.0) -> str:
+def in_words(scene, choice: str, seconds: float = 0.0) -> str:
     """Return how many pictures of all cameras a choice of frames makes, and about how long they take if one takes
     ``seconds``. Raises InputError if there are none.
     """
     cameras = find_cameras(scene, [ALL])
-    frames, is_shown = chosen(scene, which, cameras)
+    frames, is_shown = chosen(scene, choice, cameras)
     count = sum(is_shown(camera, frame) for camera in cameras for frame in frames)
-    said = f"{_counted(count, 'picture')}"
+    text = _counted(count, "picture")
     if count == len(cameras) * len(frames):
-        said = f"{_counted(len(cameras), 'camera')} × {_counted(len(frames), 'frame')} = {said}"
+        text = f"{_counted(len(cameras), 'camera')} × {_counted(len(frames), 'frame')} = {text}"
     if seconds:
         minutes = round(count * seconds / 60)
-        said += f", about {_counted(minutes, 'minute')}" if minutes else ", less than a minute"
-    return said
+        text += f", about {_counted(minutes, 'minute')}" if minutes else ", less than a minute"
+    return text
 
 
-def _counted(count: int, what: str) -> str:
-    return f"{count:,} {what}{'' if count == 1 else 's'}"
+def _counted(count: int, noun: str) -> str:
+    return f"{count:,} {noun}{'' if count == 1 else 's'}"
 
 
 def _always(camera, frame: float) -> bool:

@@ -97,7 +97,7 @@ class SavePoints(OfPoints, ExportHelper, bpy.types.Operator):
         path = Path(bpy.path.abspath(self.filepath))
         cloud = self.points(context)
         paths = save_points(cloud, path.parent, self.format, name=path.stem, axes=self.axes).paths
-        self.report({"INFO"}, f"Wrote {len(cloud):,} points into {', '.join(one.name for one in paths)}")
+        self.report({"INFO"}, f"Wrote {len(cloud):,} points into {', '.join(path.name for path in paths)}")
         return {"FINISHED"}
 
 

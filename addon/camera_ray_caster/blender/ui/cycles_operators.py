@@ -29,10 +29,10 @@ class UseInCycles(OfCamera, bpy.types.Operator):
     @reporting
     def execute(self, context):
         """Convert the camera, and report what will not update by itself."""
-        said = to_cycles(context.scene, camera_object_of(context))
+        remarks = to_cycles(context.scene, camera_object_of(context))
         if self.set_engine:
             context.scene.render.engine = "CYCLES"
-        for line in said:
+        for line in remarks:
             self.report({"INFO"}, line)
         return {"FINISHED"}
 

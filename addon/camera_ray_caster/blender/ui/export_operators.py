@@ -25,12 +25,12 @@ CHOSEN = {
 """Functions that return the camera objects, by item of ``Export.cameras``."""
 
 
-def said_of(said: list[str], paths: list[Path], folder: Path, fits: bool) -> list[str]:
+def said_of(remarks: list[str], paths: list[Path], folder: Path, fits: bool) -> list[str]:
     """Return the remarks of an export and the number of its files; last, what the status bar keeps: the number of
     files, or the errors of a fit.
     """
     wrote = f"Wrote {len(paths)} {'file' if len(paths) == 1 else 'files'} into {folder}"
-    return [wrote, *said] if fits else [*said, wrote]
+    return [wrote, *remarks] if fits else [*remarks, wrote]
 
 
 class Export(OfScene, ExportHelper, bpy.types.Operator):
@@ -41,7 +41,9 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
     bl_options = {"REGISTER"}
 
     format: EnumProperty(
-        name="Format", items=[(one.key, one.label, one.description) for one in EXPORT_FORMATS], options={"SKIP_SAVE"}
+        name="Format",
+        items=[(entry.key, entry.label, entry.description) for entry in EXPORT_FORMATS],
+        options={"SKIP_SAVE"},
     )
     cameras: EnumProperty(
         name="Cameras",
@@ -147,8 +149,8 @@ class ExportMenu(bpy.types.Menu):
     def draw(self, context):
         """Draw an entry for each format."""
         self.layout.operator_context = "INVOKE_DEFAULT"
-        for one in EXPORT_FORMATS:
-            self.layout.operator(Export.bl_idname, text=one.label).format = one.key
+        for entry in EXPORT_FORMATS:
+            self.layout.operator(Export.bl_idname, text=entry.label).format = entry.key
 
 
 class CopyK(OfScene, bpy.types.Operator):

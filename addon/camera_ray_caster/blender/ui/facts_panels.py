@@ -52,9 +52,9 @@ def scalars(context, facts, camera):
     """Yield (label, text) of the facts other than the vectors and K."""
     across, up = facts["raster"]
     yield "Model", facts["model"]
-    own = getattr(camera.data, GROUP)
-    if own.time_mode != "NONE":
-        yield "Time of Pixels", own.bl_rna.properties["time_mode"].enum_items[own.time_mode].name
+    settings = getattr(camera.data, GROUP)
+    if settings.time_mode != "NONE":
+        yield "Time of Pixels", settings.bl_rna.properties["time_mode"].enum_items[settings.time_mode].name
     yield "Raster", f"{across} × {up} px"
     x0, x1, y0, y1 = facts["window"]
     if (x0, x1, y0, y1) != (0, across, 0, up):

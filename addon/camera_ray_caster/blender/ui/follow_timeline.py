@@ -30,10 +30,10 @@ class FollowTimeline(OfCamera, bpy.types.Operator):
 
     def execute(self, context):
         """Drive both by the frame."""
-        own = getattr(camera_object_of(context).data, GROUP)
+        settings = getattr(camera_object_of(context).data, GROUP)
         for setting in (START, END):
-            offset = getattr(own, setting.name) - frame_of(context.scene)
-            own.driver_add(setting.name).driver.expression = f"frame {offset:+.9g}"
+            offset = getattr(settings, setting.name) - frame_of(context.scene)
+            settings.driver_add(setting.name).driver.expression = f"frame {offset:+.9g}"
         return {"FINISHED"}
 
 
@@ -47,10 +47,10 @@ def timeline_note(scene, camera) -> Note | None:
     if camera is None or camera.type != "CAMERA" or not has_range(camera.data) or scene.frame_start == scene.frame_end:
         return None
     moves = camera.data.animation_data
-    if moves is not None and (moves.action or any(START.name in one.data_path for one in moves.drivers)):
+    if moves is not None and (moves.action or any(START.name in driver.data_path for driver in moves.drivers)):
         return None
-    said = "All frames have the same pixel times"
-    return Note(said, lambda row: row.operator(FollowTimeline.bl_idname, icon="DRIVER"), "INFO")
+    text = "All frames have the same pixel times"
+    return Note(text, lambda row: row.operator(FollowTimeline.bl_idname, icon="DRIVER"), "INFO")
 
 
 CLASSES = (FollowTimeline,)

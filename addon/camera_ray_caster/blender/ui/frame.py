@@ -65,9 +65,9 @@ def framed(context, item, is_set: bool) -> Iterator[list[str]]:
     Yields a list to which the line about the frame is appended. If the frame is not to be set, the settings are
     restored and InputError is raised, with both sizes.
     """
-    said: list[str] = []
+    lines: list[str] = []
     before = _settings(item.data)
-    yield said
+    yield lines
     item.data.update_tag()
     context.view_layer.update()
     wanted = frame_of(context, item)
@@ -77,14 +77,14 @@ def framed(context, item, is_set: bool) -> Iterator[list[str]]:
         for owner, name, value in before:
             setattr(owner, name, value)
         raise InputError(f"{wanted.sentence}: enable {SET_FRAME.label}, or set the resolution")
-    said.append(set_frame(context.scene, wanted))
+    lines.append(set_frame(context.scene, wanted))
 
 
 def _settings(camera) -> list[tuple]:
     """Return (owner, name, value) of all that a preset or a calibration may set in a camera's data."""
-    own = getattr(camera, GROUP)
+    group = getattr(camera, GROUP)
     names = {setting.name for model in MODELS for setting in model.SETTINGS if setting.owner == CAMERA}
-    owned = [(own, setting.name) for setting in OWN_SETTINGS] + [(camera, name) for name in (*TYPES, *sorted(names))]
+    owned = [(group, setting.name) for setting in OWN_SETTINGS] + [(camera, name) for name in (*TYPES, *sorted(names))]
     return [(owner, name, _value(getattr(owner, name))) for owner, name in owned if hasattr(owner, name)]
 
 

@@ -24,10 +24,10 @@ class OfGallery:
 
     def path(self) -> str | None:
         """Return the path of the scene; report an error and return None if there is no scene of that name."""
-        found = {path.stem: str(path) for path in gallery.scenes()}.get(self.name)
-        if found is None:
+        path = {scene.stem: str(scene) for scene in gallery.scenes()}.get(self.name)
+        if path is None:
             self.report({"ERROR"}, f"the gallery has no scene {self.name!r}")
-        return found
+        return path
 
 
 class OpenExample(OfGallery, bpy.types.Operator):
@@ -83,14 +83,14 @@ class AppendCamera(OfGallery, bpy.types.Operator):
             context.collection.objects.link(item)
         (camera,) = wanted.objects
         camera.name = camera.data.name = gallery.label(self.name)
-        place(context, camera, [item for item in added if item.parent is None])
+        fit_around(context, camera, [item for item in added if item.parent is None])
         select_alone(context, camera)
         context.scene.camera = camera
         self.report({"INFO"}, f"{camera.name!r} is now the scene's camera")
         return {"FINISHED"}
 
 
-def place(context, camera, items) -> None:
+def fit_around(context, camera, items) -> None:
     """Move objects as a whole so that the camera stands at the 3D View's viewpoint, or at the 3D cursor if there is no
     view, or it is a camera's.
     """

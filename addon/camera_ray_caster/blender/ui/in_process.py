@@ -46,10 +46,10 @@ class Work:
     def __init__(self, command: str, words: Sequence[str], folder: Path):
         self.command, self.folder, self.is_stopped = command, folder, False
         self.temporary = TemporaryDirectory(prefix="camera_ray_caster_", ignore_cleanup_errors=True)
-        place, (program, environment) = Path(self.temporary.name), program_of()
-        self.printed, self.errors = place / "output.txt", place / "errors.txt"
+        temporary, (program, environment) = Path(self.temporary.name), program_of()
+        self.printed, self.errors = temporary / "output.txt", temporary / "errors.txt"
         scene = unique_name(bpy.context.scene, bpy.data.scenes)
-        arguments = [str(saved_file(place)), f"--scene={scene}", f"--output={folder}", "--progress", *words]
+        arguments = [str(saved_file(temporary)), f"--scene={scene}", f"--output={folder}", "--progress", *words]
         arguments += ["--enable-autoexec"] * (not bpy.app.autoexec_fail)
         with self.printed.open("w") as output, self.errors.open("w") as errors:
             self.process = Popen(
@@ -61,8 +61,8 @@ class Work:
     def progress(self) -> str:
         """How much is done and what is left, or what the command has said last."""
         line = next(reversed(_lines(self.errors)), "Starting")
-        part = PART.search(line)
-        return line[part.start() :] if part else line
+        match = PART.search(line)
+        return line[match.start() :] if match else line
 
     @property
     def fraction(self) -> float:
@@ -102,12 +102,12 @@ def program_of() -> tuple[list[str], dict[str, str]]:
     return [bpy.app.binary_path, "--python-use-system-env", *run], environment
 
 
-def saved_file(place: Path) -> Path:
+def saved_file(folder: Path) -> Path:
     """Return the path of the open file, or of a copy with its unsaved changes in a folder."""
     path = Path(bpy.data.filepath)
     if bpy.data.filepath and not bpy.data.is_dirty:
         return path
-    copy = place / f"{path.stem or 'untitled'}.blend"
+    copy = folder / f"{path.stem or 'untitled'}.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(copy), copy=True)
     return copy
 

@@ -45,9 +45,9 @@ class LectureStep(bpy.types.Operator):
 
     def execute(self, context):
         """Change the step, within those of the latest pixel."""
-        place, (*_, latest) = context.window_manager.camera_ray_caster_place, lesson.lessons(context).values()
+        state, (*_, latest) = context.window_manager.camera_ray_caster_place, lesson.lessons(context).values()
         last = len(latest.screens) - 1
-        place.step = min(max(min(place.step, last) + self.by, 0), last)
+        state.step = min(max(min(state.step, last) + self.by, 0), last)
         return {"FINISHED"}
 
 
@@ -97,12 +97,12 @@ def look_at(context, explained, side: str) -> None:
     right = np.cross(up, toward)
     right /= np.linalg.norm(right)
     up = np.cross(toward, right)
-    left, most = text.uncovered(context)
-    free = max(min(most - left, FREE * region.height), 1.0)  # toolbar and sidebar may cover a narrow region
+    left, right_end = text.uncovered(context)
+    free = max(min(right_end - left, FREE * region.height), 1.0)  # toolbar and sidebar may cover a narrow region
     unit = 2 * radius / free  # of a pixel
     view.view_rotation = Matrix(np.column_stack((right, up, toward)).tolist()).to_quaternion()
     view.view_distance = unit * max(region.width, region.height) * context.space_data.lens / SENSOR
-    aside = region.width / 2 - (left + most) / 2, region.height * (1 - FREE) / 2
+    aside = region.width / 2 - (left + right_end) / 2, region.height * (1 - FREE) / 2
     view.view_location = middle + unit * (aside[0] * right + aside[1] * up)
 
 

@@ -21,7 +21,7 @@ class ChooseLens(OfCamera, bpy.types.Operator):
     name: EnumProperty(
         name="Lens",
         description="A lens that comes with the add-on",
-        items=[(name, name.replace("_", " "), read_lens(name).source, place) for place, name in enumerate(library())],
+        items=[(name, name.replace("_", " "), read_lens(name).source, index) for index, name in enumerate(library())],
     )
 
     @reporting

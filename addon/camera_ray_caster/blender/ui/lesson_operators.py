@@ -72,7 +72,7 @@ class StepThrough(OfScene, bpy.types.Operator):
             known = clicked.pixels if event.shift else []
         else:
             known = clicked.pixels[:-1]
-        clicked.choose([*(one for one in known if one != pixel), pixel])
+        clicked.choose([*(earlier for earlier in known if earlier != pixel), pixel])
         redraw(context)
         return {"RUNNING_MODAL"}
 
@@ -118,8 +118,8 @@ def pixel_at(context, x: int, y: int) -> tuple[bpy.types.Region | None, tuple[in
 
 def hold(context, region) -> None:
     """Draw the latest pixel with the mouse cursor in this region while it is dragged; None ends that."""
-    is_view = region is not None and any(region == own for area in context.screen.areas if area.type == "VIEW_3D"
-                                         for own in area.regions)  # fmt: skip
+    areas = () if region is None else context.screen.areas
+    is_view = any(region in area.regions[:] for area in areas if area.type == "VIEW_3D")
     held = [region.as_pointer()] if is_view else []
     if held != clicked.held:
         clicked.hold([])
@@ -226,7 +226,7 @@ class CopySteps(OfLesson, bpy.types.Operator):
 
     def execute(self, context):
         """Copy the steps."""
-        texts = ["\n".join(one.lines()) for one in lesson.lessons(context).values()]
+        texts = ["\n".join(steps.lines()) for steps in lesson.lessons(context).values()]
         context.window_manager.clipboard = "\n\n".join(texts) + "\n"
         return {"FINISHED"}
 

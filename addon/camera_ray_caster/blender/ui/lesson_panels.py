@@ -34,23 +34,23 @@ class Steps:
         """Draw the buttons, and the steps of the latest pixel in foldable panels."""
         layout = self.layout
         layout.operator(StepThrough.bl_idname, icon="EYEDROPPER", text="Click a Pixel")
-        place, found = context.window_manager.camera_ray_caster_place, lessons(context)
-        draw_lecture(layout, place, bool(found))
+        state, known = context.window_manager.camera_ray_caster_place, lessons(context)
+        draw_lecture(layout, state, bool(known))
         layout.operator(OpenLesson.bl_idname, icon="URL")
-        if place.lecture:
-            draw_place(layout, place)
+        if state.lecture:
+            draw_place(layout, state)
             return
         layout.operator(PixelOfPoint.bl_idname, icon="PIVOT_CURSOR", text="Pixel of 3D Cursor")
-        if not found:
+        if not known:
             return
         layout.operator(EmptyAtHit.bl_idname, icon="EMPTY_SINGLE_ARROW")
         row = layout.row(align=True)
         row.operator(CopySteps.bl_idname, icon="COPYDOWN")
         row.operator(ClearSteps.bl_idname, icon="X")
-        draw_place(layout, place)
-        *others, latest = found.values()
+        draw_place(layout, state)
+        *others, latest = known.values()
         if others:
-            pixels = ", ".join(f"({x}, {y})" for x, y in (one.seen.pixel for one in others))
+            pixels = ", ".join(f"({x}, {y})" for x, y in (earlier.seen.pixel for earlier in others))
             draw_message(layout, context, f"Also drawn: {pixels}")
         for text in _differences(context):
             draw_message(layout, context, text)
@@ -64,26 +64,26 @@ class Steps:
                     draw_message(body, context, line, "BLANK1" if line.startswith(" ") else "DOT")
 
 
-def draw_lecture(layout, place, has_pixel: bool) -> None:
+def draw_lecture(layout, state, has_pixel: bool) -> None:
     """Draw the switch of the lecture and its step's arrows, and buttons that look at the ray from other sides."""
     row = layout.row(align=True)
-    row.prop(place, "lecture", toggle=True, icon="TEXT")
-    if place.lecture:
+    row.prop(state, "lecture", toggle=True, icon="TEXT")
+    if state.lecture:
         for icon, by in (("TRIA_LEFT", -1), ("TRIA_RIGHT", 1)):
             row.operator(LectureStep.bl_idname, icon=icon, text="").by = by
-        layout.prop(place, "all_digits")
+        layout.prop(state, "all_digits")
     if has_pixel:
         row = layout.row(align=True)
         for side, (label, *_) in SIDES.items():
             row.operator(RayView.bl_idname, text=label).side = side
 
 
-def draw_place(layout, place) -> None:
+def draw_place(layout, state) -> None:
     """Draw the latest pixel's place as sliders, in pixels and in view coordinates."""
     for names in (("column", "row"), ("x", "y")):
         row = layout.row(align=True)
         for name in names:
-            row.prop(place, name, slider=name in "xy")
+            row.prop(state, name, slider=name in "xy")
 
 
 def _differences(context) -> Iterator[str]:
@@ -91,8 +91,8 @@ def _differences(context) -> Iterator[str]:
     scene = cached_scene(context)
     yield from scene.differences
     if scene.otherwise:
-        more = len(scene.otherwise) - LISTED
-        names = ", ".join(scene.otherwise[:LISTED]) + (f" and {more} more" if more > 0 else "")
+        unlisted = len(scene.otherwise) - LISTED
+        names = ", ".join(scene.otherwise[:LISTED]) + (f" and {unlisted} more" if unlisted > 0 else "")
         yield f"Objects are shown as in the viewport; a render shows these otherwise: {names}"
 
 

@@ -82,9 +82,9 @@ def draw_cycles(layout, camera) -> None:
 
 def draw_times(layout, context, camera) -> None:
     """Draw the list of pixel time modes; below it the settings of the chosen mode."""
-    own = getattr(camera, GROUP)
-    draw_field(layout, context, own, pixel_time.MODE.name)
-    for setting in pixel_time.SETTINGS.get(own.time_mode, ()):
+    settings = getattr(camera, GROUP)
+    draw_field(layout, context, settings, pixel_time.MODE.name)
+    for setting in pixel_time.SETTINGS.get(settings.time_mode, ()):
         draw_setting(layout, context, camera, setting)
 
 

@@ -74,28 +74,28 @@ def not_used(camera) -> list[str]:
     if getattr(camera, GROUP).model == BLENDERS_OWN:
         return []
     read = read_settings(camera)
-    labels = [it.label for it in dict.fromkeys((*of_type(camera), *FILM)) if it.owner == CAMERA and it not in read]
-    return ["Type", *labels]
+    unread = [setting for setting in dict.fromkeys((*of_type(camera), *FILM)) if setting not in read]
+    return ["Type", *(setting.label for setting in unread if setting.owner == CAMERA)]
 
 
-def not_counted(settings, own) -> tuple[Setting, ...]:
+def not_counted(settings, group) -> tuple[Setting, ...]:
     """Return the settings of a model that its unit of length or its calibration file makes unused.
 
     A calibration file replaces the other settings of a calibrated lens. Without a file the name of a camera in the
     file is unused.
     """
     if UNIT not in settings:
-        return () if own.calibration_file else (FILE_CAMERA,)
-    if own.calibration_file:
+        return () if group.calibration_file else (FILE_CAMERA,)
+    if group.calibration_file:
         return tuple(setting for setting in settings if setting not in FROM_FILE)
-    return FILE_CAMERA, *(IN_PIXELS if own.calibration_unit == MILLIMETERS else (LENS, *FILM))
+    return FILE_CAMERA, *(IN_PIXELS if group.calibration_unit == MILLIMETERS else (LENS, *FILM))
 
 
-def lengths_in_words(own) -> str:
+def lengths_in_words(group) -> str:
     """Return a description of the unit of a calibrated model's lengths."""
-    if own.calibration_file:
+    if group.calibration_file:
         return "In pixels of the file's picture, scaled to the frame"
-    if own.calibration_unit == MILLIMETERS:
+    if group.calibration_unit == MILLIMETERS:
         return "In millimeters on Blender's sensor; Shift sets the center"
-    sides = [str(getattr(own, side.name) or "the frame's") for side in SIZE]
+    sides = [str(getattr(group, side.name) or "the frame's") for side in SIZE]
     return f"In pixels of a picture of {' × '.join(sides)}, scaled to the frame"

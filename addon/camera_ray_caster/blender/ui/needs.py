@@ -87,10 +87,10 @@ class OfFile:
         if not path.is_file():
             return
         try:
-            found = lines(str(path))
+            sentences = lines(str(path))
         except InputError as error:
-            found = [in_labels(str(error))]
-        for line in found:
+            sentences = [in_labels(str(error))]
+        for line in sentences:
             draw_message(self.layout, context, line)
 
 

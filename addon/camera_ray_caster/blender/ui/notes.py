@@ -46,9 +46,9 @@ def draw_first(layout, context, notes: list[Note], panel: str) -> None:
         draw_line(layout, context, text, panel, first.icon)
         first.mend(layout.row(align=True))
         return
-    line, *more = wrap(text, letters(context))
+    line, *continued = wrap(text, letters(context))
     layout.popover(panel, text=line, icon=first.icon)
-    layout.label(text=shorten(" ".join(more), letters(context), placeholder=" ..."), icon="BLANK1")
+    layout.label(text=shorten(" ".join(continued), letters(context), placeholder=" ..."), icon="BLANK1")
 
 
 def draw_line(layout, context, text: str, panel: str, icon: str = "INFO", otherwise: str = "") -> None:

@@ -114,9 +114,9 @@ class LoadCalibration(OfFile, OfCamera, bpy.types.Operator):
             entries = partial(draw_cameras, path, names, self.set_frame)
             context.window_manager.popup_menu(entries, title="Camera in File")
             return {"CANCELLED"}
-        with framed(context, item, self.set_frame) as said:
-            said.append(set_calibration(item.data, path, self.camera))
-        for line in said:
+        with framed(context, item, self.set_frame) as remarks:
+            remarks.append(set_calibration(item.data, path, self.camera))
+        for line in remarks:
             self.report({"INFO"}, line)
         return {"FINISHED"}
 
@@ -143,7 +143,7 @@ class LensOfClip(OfCamera, bpy.types.Operator):
         """Set the model and report the values."""
         item = camera_object_of(context)
         clips = movie_clips.clips_of(context.scene, item)
-        clip = next((one for one in clips if one.name == self.clip), None if self.clip else clips[0])
+        clip = next((named for named in clips if named.name == self.clip), None if self.clip else clips[0])
         if clip is None:
             raise InputError(f"the scene and the camera have no movie clip {self.clip!r}")
         lens, render = movie_clips.lens_of(clip), context.scene.render
@@ -156,7 +156,7 @@ class LensOfClip(OfCamera, bpy.types.Operator):
 def sizes_in_words(context, item, path: str) -> list[str]:
     """Return the sizes of the pictures of a calibration file's cameras and of the frame, as lines."""
     lenses = lenses_in(item.data, path)
-    sizes = {f"{lens.name}: ".lstrip(": "): [int(lens.settings.get(one.name, 0)) for one in SIZE] for lens in lenses}
+    sizes = {f"{lens.name}: ".lstrip(": "): [int(lens.settings.get(side.name, 0)) for side in SIZE] for lens in lenses}
     render = context.scene.render
     return [
         *(f"{name}{wide} × {high} pixels" for name, (wide, high) in sizes.items() if wide),
@@ -192,13 +192,13 @@ class SelectLeftOut(bpy.types.Operator):
     def execute(self, context):
         """Select only these objects, as far as they are in the view layer."""
         names = reports.by_reason(reports.latest(context.scene)).get(self.reason, ())
-        found = reports.users_of(context.view_layer, self.reason, names)
-        if not found:
+        users = reports.users_of(context.view_layer, self.reason, names)
+        if not users:
             self.report(
                 {"ERROR"}, "None of these objects is in this view layer: they were renamed, removed or excluded"
             )
             return {"CANCELLED"}
-        select_alone(context, *found)
+        select_alone(context, *users)
         return {"FINISHED"}
 
 

@@ -40,21 +40,21 @@ def ignored(scene, camera) -> str:
     engine = scene.render.engine
     if engine.startswith(ENGINE) or camera is None or camera.type != "CAMERA":
         return ""
-    own, kind = getattr(camera.data, GROUP), camera.data.type
-    if not (own.model and own.time_mode):  # no item of this version: it cannot be cast, and a note says why
+    settings, kind = getattr(camera.data, GROUP), camera.data.type
+    if not (settings.model and settings.time_mode):  # no item of this version: it cannot be cast, and a note says why
         return ""
-    is_ours = own.model != BLENDERS_OWN
-    has_times = own.time_mode not in ("NONE", "ROLLING_SHUTTER") or (own.time_mode != "NONE" and engine != CYCLES)
+    is_ours = settings.model != BLENDERS_OWN
+    has_times = settings.time_mode not in (("NONE", "ROLLING_SHUTTER") if engine == CYCLES else ("NONE",))
     if engine == CYCLES and shader_mark(camera.data) is not None:
         return ""
     if not (is_ours or has_times or (kind not in ("PERSP", "ORTHO") and engine != CYCLES)):
         return ""
-    model = own.model if is_ours else blender_type(camera.data)
-    what = label_of(model) if is_ours or not has_times else "the time of each pixel"
+    model = settings.model if is_ours else blender_type(camera.data)
+    subject = label_of(model) if is_ours or not has_times else "the time of each pixel"
     others = {"PERSP": "a perspective view", "ORTHO": "an orthographic view"}
     instead = others.get(kind, "a perspective view" if engine != CYCLES else "Blender's own model")
-    instead = "all pixels at one time" if what == "the time of each pixel" else instead
-    return f"{engine_label(engine)} does not support {what}: it renders {instead}"
+    instead = "all pixels at one time" if subject == "the time of each pixel" else instead
+    return f"{engine_label(engine)} does not support {subject}: it renders {instead}"
 
 
 def engine_label(engine: str) -> str:
@@ -66,8 +66,8 @@ def engine_label(engine: str) -> str:
 
 def engine_note(scene, camera) -> Note | None:
     """Return a note on what the scene's engine does not support, with buttons for the alternatives, or None."""
-    said = ignored(scene, camera)
-    return Note(said, partial(_draw_buttons, scene.render.engine in ENGINES)) if said else None
+    sentence = ignored(scene, camera)
+    return Note(sentence, partial(_draw_buttons, scene.render.engine in ENGINES)) if sentence else None
 
 
 def _draw_buttons(can_warp: bool, row) -> None:
@@ -80,11 +80,11 @@ def _draw_buttons(can_warp: bool, row) -> None:
 @persistent
 def begin(scene, _=None):
     """Show the sentence in the status bar when a render begins; in a terminal, print it."""
-    said = ignored(scene, scene.camera)
-    if said and bpy.app.background:
-        print(f"Warning: {said}. Set the render engine to Camera Ray Caster, or use the camera in Cycles", flush=True)
-    elif said:
-        show_later(f"{said}. The sidebar, tab Ray Caster, has alternatives", 0.0)
+    line = ignored(scene, scene.camera)
+    if line and bpy.app.background:
+        print(f"Warning: {line}. Set the render engine to Camera Ray Caster, or use the camera in Cycles", flush=True)
+    elif line:
+        show_later(f"{line}. The sidebar, tab Ray Caster, has alternatives", 0.0)
 
 
 @persistent

@@ -24,18 +24,18 @@ class PixelOfPoint(OfScene, bpy.types.Operator):
         if camera is None:
             self.report({"ERROR"}, "the camera cannot be cast: see the reason in the sidebar")
             return {"CANCELLED"}
-        what, points = points_of(context)
+        label, points = points_of(context)
         places = camera.project(points)
         size = camera.raster.width, camera.raster.height
         inside = np.isfinite(places).all(axis=1) & ((places >= 0) & (places < size)).all(axis=1)
         if not inside.any():
             clicked.choose([])
             redraw(context)
-            self.report({"WARNING"}, f"{what}: no pixel of the camera sees this point")
+            self.report({"WARNING"}, f"{label}: no pixel of the camera sees this point")
             return {"CANCELLED"}
         clicked.choose(dict.fromkeys((int(x), int(y)) for x, y in places[inside]))
         x, y = places[inside][-1]
-        where = f"{what}: x = {x:.3f}, y = {y:.3f}, from the bottom left"
+        where = f"{label}: x = {x:.3f}, y = {y:.3f}, from the bottom left"
         self.report({"INFO"}, where + hidden_by(context, points[inside][-1]))
         redraw(context)
         return {"FINISHED"}
@@ -68,16 +68,16 @@ class EmptyAtHit(OfLesson, bpy.types.Operator):
 
     def execute(self, context):
         """Add the empties."""
-        found = [one for one in lesson.lessons(context).values() if one.point is not None]
-        if not found:
+        hits = [hit for hit in lesson.lessons(context).values() if hit.point is not None]
+        if not hits:
             self.report({"WARNING"}, "the rays of these pixels hit no surface")
             return {"CANCELLED"}
         added = []
-        for one in found:
-            empty = bpy.data.objects.new(f"Pixel {one.seen.pixel[0]}, {one.seen.pixel[1]}", None)
+        for hit in hits:
+            empty = bpy.data.objects.new(f"Pixel {hit.seen.pixel[0]}, {hit.seen.pixel[1]}", None)
             empty.empty_display_type, empty.empty_display_size = "SINGLE_ARROW", 0.5
-            turn = Vector(one.normal).to_track_quat("Z", "Y")
-            empty.matrix_world = Matrix.LocRotScale(Vector(one.point), turn, None)
+            turn = Vector(hit.normal).to_track_quat("Z", "Y")
+            empty.matrix_world = Matrix.LocRotScale(Vector(hit.point), turn, None)
             context.collection.objects.link(empty)
             added.append(empty)
         select_alone(context, *added)

@@ -40,9 +40,9 @@ class ExecutePreset(OfCamera, bpy.types.Operator):
         """Run Blender's operator, then set the frame or refuse the preset."""
         item, window = camera_object_of(context), context.window_manager
         is_set = self.set_frame if self.properties.is_property_set("set_frame") else getattr(window, TICK)
-        with framed(context, item, is_set) as said, context.temp_override(camera=item.data):
+        with framed(context, item, is_set) as remarks, context.temp_override(camera=item.data):
             done = bpy.ops.script.execute_preset(filepath=self.filepath, menu_idname=ModelPresets.bl_idname)
-        for line in said:
+        for line in remarks:
             self.report({"INFO"}, line)
         return done
 
@@ -82,8 +82,9 @@ class AddModelPreset(AddPresetBase, bpy.types.Operator):
         """The values to store: the model, Blender's camera type for its own models, and the settings of the model."""
         camera = bpy.context.camera
         types = ["camera.type", "camera.panorama_type"] if getattr(camera, GROUP).model == BLENDERS_OWN else []
-        kept = [it for it in (*settings_of(camera), *port_settings(camera)) if it.owner in OWNERS and it.kind in KEPT]
-        return [f"own.{MODEL.name}", *types, *(f"{OWNERS[it.owner]}.{it.name}" for it in kept)]
+        kept = [setting for setting in (*settings_of(camera), *port_settings(camera)) if setting.kind in KEPT]
+        stored = (f"{OWNERS[setting.owner]}.{setting.name}" for setting in kept if setting.owner in OWNERS)
+        return [f"own.{MODEL.name}", *types, *stored]
 
 
 CLASSES = (ExecutePreset, ModelPresets, AddModelPreset)

@@ -41,14 +41,14 @@ class AddCameras(OfFile, bpy.types.Operator):
     def execute(self, context):
         """Add the cameras, select them and report their number."""
         folder = Path(bpy.path.abspath(self.directory))
-        paths = [str(folder / one.name) for one in self.files if one.name] or [bpy.path.abspath(self.filepath)]
+        paths = [str(folder / file.name) for file in self.files if file.name] or [bpy.path.abspath(self.filepath)]
         parent = context.active_object if self.below_active else None
         if self.below_active and parent is None:
             raise InputError("no object is active: select one, or switch off Below Active Object")
-        found = add_rig(context.scene, paths, parent, say=lambda note: self.report({"WARNING"}, note))
-        select_alone(context, *found)
-        keyed = len(frames_of(found))
-        self.report({"INFO"}, f"{len(found)} cameras" + (f" with keyframes at {keyed} frames" if keyed else ""))
+        cameras = add_rig(context.scene, paths, parent, say=lambda note: self.report({"WARNING"}, note))
+        select_alone(context, *cameras)
+        keyed = len(frames_of(cameras))
+        self.report({"INFO"}, f"{len(cameras)} cameras" + (f" with keyframes at {keyed} frames" if keyed else ""))
         return {"FINISHED"}
 
 

@@ -91,13 +91,13 @@ def watch() -> float | None:
         return PERIOD
     shown = {space.as_pointer(): window.scene for window, space in _every_view()}
     spaces = {space.as_pointer(): space for space in _spaces()}
-    for place, shading in list(_cast.items()):
-        space, scene = spaces.get(place), shown.get(place)
+    for pointer, shading in list(_cast.items()):
+        space, scene = spaces.get(pointer), shown.get(pointer)
         if space is None:  # closed
-            del _cast[place]
-            _views.pop(place, None)
+            del _cast[pointer]
+            _views.pop(pointer, None)
         elif scene is None or scene.camera is None or not shows_cast(space, scene):
-            del _cast[place]
+            del _cast[pointer]
             _left(space, scene, shading)
     restore_engines()
     return PERIOD if _cast else None
@@ -154,14 +154,14 @@ def _spaces():
 def follow() -> None:
     """Show live views whose camera cannot be live by a cast, and again live once it can; called by a timer."""
     for window, space in _every_view():
-        scene, place = window.scene, space.as_pointer()
+        scene, pointer = window.scene, space.as_pointer()
         if not is_live(space) or space.region_3d.view_perspective != "CAMERA" or scene.camera is None:
             continue
         reason = why_not(scene.camera, window.view_layer.depsgraph)
         if reason and can_show(space, scene):
             show_cast(space, scene)
-        elif not reason and place in _cast:
-            shading = _cast.pop(place)
+        elif not reason and pointer in _cast:
+            shading = _cast.pop(pointer)
             if shows_cast(space, scene):
                 space.shading.type = shading
                 restore_engines()

@@ -27,18 +27,18 @@ class SeeThroughHere(bpy.types.Gizmo):
     def draw(self, context):
         """Write the line at the top of the region."""
         camera, scale = context.scene.camera.data, context.preferences.system.ui_scale
-        own, (left, right) = getattr(camera, GROUP).model, text.uncovered(context)
-        model = label_of(own if own != BLENDERS_OWN else blender_type(camera))
+        key, (left, right) = getattr(camera, GROUP).model, text.uncovered(context)
+        model = label_of(key if key != BLENDERS_OWN else blender_type(camera))
         lines = text.wrapped(context, f"Blender's own view, not {model}: click here to see through the camera",
                              right - left - 4 * ROOM * scale)  # fmt: skip
 
-        def place(width, height):
+        def at_top(width, height):
             x, y = (left + right - width) / 2, context.region.height - TOP * scale
             room = ROOM * scale
             self.box = x - room, y - height - room, x + width + room, y + room
             return x, y
 
-        text.write(context, [("", line) for line in lines], place)
+        text.write(context, [("", line) for line in lines], at_top)
 
     def test_select(self, context, location):
         """Return 0 if the mouse is over the line."""

@@ -21,11 +21,11 @@ class ShowResult(bpy.types.Operator):
         if self.name not in images.results():
             self.report({"ERROR"}, f"no cast has made an image {self.name!r}: cast first")
             return {"CANCELLED"}
-        image, said = images.show_in_colors(self.name)
+        image, meaning = images.show_in_colors(self.name)
         editor = open_editor()
         if editor is not None:
             editor.image = image
-        self.report({"INFO"}, f"{self.name}: {said}")
+        self.report({"INFO"}, f"{self.name}: {meaning}")
         return {"FINISHED"}
 
 
