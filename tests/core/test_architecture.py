@@ -120,9 +120,10 @@ def name_of(path):
 
 NAMES = {name_of(path) for path in MODULES}
 ROOMS_WITHOUT_PRONOUNS = (
-    *("core/annotations", "core/any_rays", "core/camera", "core/cast.py", "core/casting", "core/clouds", "core/errors"),
-    *("core/exports", "core/faces", "core/lesson", "core/library", "core/materials", "core/maths", "core/motion"),
-    *("core/programs", "core/report", "core/sets", "core/shaders", "core/shapes", "core/text_forms", "core/web"),
+    *("core/annotations", "core/any_rays", "core/camera", "core/cameras", "core/cast.py", "core/casting"),
+    *("core/clouds", "core/errors", "core/exports", "core/faces", "core/lenses", "core/lesson", "core/library"),
+    *("core/materials", "core/maths", "core/motion", "core/programs", "core/report", "core/sets", "core/shaders"),
+    *("core/shapes", "core/text_forms", "core/web"),
     *("blender/cycles", "blender/engine", "blender/faces", "blender/output", "blender/presets", "blender/process"),
     *("blender/properties", "blender/read", "blender/terminal", "blender/ui", "blender/verification"),
     *("blender/view3d", "../../scripts"),

@@ -147,9 +147,9 @@ class BehindPort(Model):
             origin, direction = self.lens.through(thin, chief, x, y, point)
             bent, center = (self.port.bent(o, self._unit(d)) for o, d in ((origin, direction), (EYE, chief[1])))
             passes = np.isfinite(bent[1][0]) & np.isfinite(center[1][0]) & seen
-            found = np.array(lines(center, bent[0], bent[1], passes))
-        found[:, (passes != seen).any(axis=1)] = np.nan
-        return found.reshape(3, count, count)
+            spreads = np.array(lines(center, bent[0], bent[1], passes))
+        spreads[:, (passes != seen).any(axis=1)] = np.nan
+        return spreads.reshape(3, count, count)
 
     def through(self, aperture, chief, x, y, point):
         """See Model."""

@@ -109,8 +109,8 @@ class RealLens(WindowModel):
             unit = LENS.read(raw) * MILLIMETER / own_focal_length(prescription)
             distance = focus_of(raw, pose_from(raw)) / unit
             if not distance > optics.nearest_focus:
-                given, nearest = (f"{float(part * unit):.6g}" for part in (distance, optics.nearest_focus))
-                raise FOCUS_DISTANCE.refusal(raw, given, f"above {nearest}, since nothing nearer has an image")
+                wanted, nearest = (f"{float(length * unit):.6g}" for length in (distance, optics.nearest_focus))
+                raise FOCUS_DISTANCE.refusal(raw, wanted, f"above {nearest}, since nothing nearer has an image")
             sharpest = FOCUS.read(raw) != PARAXIAL
             film, radius, eye, exit_pupil, *numbers = varied_by(
                 lambda *settings: focused(prescription, sharpest, *settings),
@@ -129,9 +129,9 @@ class RealLens(WindowModel):
         )
 
     @classmethod
-    def following(cls, given: Mapping[str, Any]) -> dict[str, Any]:
+    def following(cls, settings: Mapping[str, Any]) -> dict[str, Any]:
         """See Model: the focal length of the file."""
-        return {LENS.name: own_focal_length(read_lens(given.get(LENS_FILE.name, "")))}
+        return {LENS.name: own_focal_length(read_lens(settings.get(LENS_FILE.name, "")))}
 
     def rays(self, x, y):
         """See Model. The errors are those of the polynomials, beside rounding; see ``formula_rounding``."""
@@ -139,10 +139,10 @@ class RealLens(WindowModel):
         squared = a * a + b * b
         rim = self.chief.rim * (1 + RIM_SLACK)
         passes, squared = squared <= rim * rim, np.minimum(squared, rim * rim)
-        height, place, tangent = self.chief.at(squared)
+        height, front, tangent = self.chief.at(squared)
         share = 2 / (1 + tangent * tangent * squared)
         across, out = np.where(passes, tangent * share, np.nan), height * self.unit
-        return (a * out, b * out, self._depth(place)), (a * across, b * across, 1 - share)
+        return (a * out, b * out, self._depth(front)), (a * across, b * across, 1 - share)
 
     def on_film(self, x, y):
         """Return a pixel's point on the film, x and y upright and z in the lens frame, mm of the file, and the point of
@@ -151,9 +151,9 @@ class RealLens(WindowModel):
         a, b = self.window.plane_from_pixels(x, y)
         return self.tilted.places(a, b, self.film), self.tilted.upright(self.chief, a, b)
 
-    def _depth(self, place):
-        """Return z in the camera's frame of a place on the lens's axis."""
-        return (place - self.pupil) * self.unit
+    def _depth(self, z):
+        """Return z in the camera's frame of z in the lens frame."""
+        return (z - self.pupil) * self.unit
 
     def project(self, points):
         """See Model: the secant method on the family of chief rays, in a bracket where it does not settle.
@@ -162,13 +162,13 @@ class RealLens(WindowModel):
         """
         x, y, z = components(np.asarray(points, np.float64))
         shape = np.shape(x)
-        x, y, z = (np.atleast_1d(part) for part in (x, y, z))
+        x, y, z = (np.atleast_1d(coordinate) for coordinate in (x, y, z))
         across = np.hypot(x, y)
         with np.errstate(all="ignore"):
             r = self.search.radius_of(across / self.unit, z / self.unit + self.pupil)
             scale = np.where(across > 0, r / np.where(across > 0, across, 1.0), np.where(r == 0, 0.0, np.nan))
-            place = self.tilted.onto(self.chief, x * scale, y * scale)
-            pixels = np.stack(self.window.pixels_from_plane(*place), axis=-1)
+            film_point = self.tilted.onto(self.chief, x * scale, y * scale)
+            pixels = np.stack(self.window.pixels_from_plane(*film_point), axis=-1)
         return pixels.reshape(*shape, 2)
 
     @lazy
@@ -227,17 +227,17 @@ class RealLens(WindowModel):
 
     def through(self, aperture: Any, chief, x, y, point):
         """See Model: through a point of the disc in the exit pupil. No light passes where the direction's x is NaN."""
-        place = tuple(part / aperture.radius for part in point)
+        disc_point = tuple(coordinate / aperture.radius for coordinate in point)
         color = color_of(x, y) if aperture.colors else None
         film, upright = self.on_film(x, y)
-        (ox, oy, oz), direction = from_film(self.optics, self.chief, aperture, film, upright, place, color)
+        (ox, oy, oz), direction = from_film(self.optics, self.chief, aperture, film, upright, disc_point, color)
         return (ox * self.unit, oy * self.unit, self._depth(oz)), direction
 
     def light(self, aperture: Any, x, y, point):
         """See Model."""
-        place = tuple(part / aperture.radius for part in point)
+        disc_point = tuple(coordinate / aperture.radius for coordinate in point)
         normal, (film, upright) = self.tilted.rows[2], self.on_film(x, y)
-        value = light_of(self.chief, aperture, film, upright, place, normal, self.falls_off, self.vignetting)
+        value = light_of(self.chief, aperture, film, upright, disc_point, normal, self.falls_off, self.vignetting)
         if not aperture.colors:
             return value
         return tuple(of_color(color_of(x, y), np.eye(3)[k]) * (3 * value) for k in range(3))
@@ -269,8 +269,8 @@ class RealLens(WindowModel):
         """See Model."""
         _, (a, b) = self.on_film(x, y)
         rim = self.chief.rim * (1 + RIM_SLACK)
-        height, place, tangent = self.chief.at(np.minimum(a * a + b * b, rim * rim))
-        known = {"h": height, "z": place - self.pupil, "q": tangent, "unit": self.unit, "pitch": self.window.pitch_x}
+        height, front, tangent = self.chief.at(np.minimum(a * a + b * b, rim * rim))
+        known = {"h": height, "z": front - self.pupil, "q": tangent, "unit": self.unit, "pitch": self.window.pitch_x}
         return known | self.tilted.values(self.chief, *self.window.plane_from_pixels(x, y))
 
     @lazy
@@ -288,13 +288,13 @@ class RealLens(WindowModel):
     def formula_rounding(self, x, y):
         """See Model: the polynomials' error beside the trace, and the rounding of their sums."""
         chief, steps = self.chief, np.array([1, *range(3, DEGREE + 3)])  # the first coefficient is added last
-        height, place, tangent = (
-            gamma(4) * float((np.abs(part) * steps).sum()) for part in (chief.height, chief.place, chief.tangent)
+        height, front, tangent = (
+            gamma(4) * float((np.abs(values) * steps).sum()) for values in (chief.height, chief.front, chief.tangent)
         )
-        origin, turned = chief.errors[0] + height * chief.rim + place, chief.errors[1] + 2 * tangent * chief.rim
+        origin, turned = chief.errors[0] + height * chief.rim + front, chief.errors[1] + 2 * tangent * chief.rim
         if self.tilted:
             off = self.tilted.rounding(chief, self.window.corners(self.frame))
             radii, angles, *origins = self.search.table
-            origin += off * float(np.hypot(*(np.gradient(part, radii) for part in origins)).max())
+            origin += off * float(np.hypot(*(np.gradient(values, radii) for values in origins)).max())
             turned += off * float(np.gradient(angles, radii).max())
         return float(origin * self.unit), turned

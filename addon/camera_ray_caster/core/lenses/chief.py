@@ -56,7 +56,7 @@ class ChiefRays:
     """The polynomials of the family, Chebyshev series in 2 t - 1, in mm."""
 
     height: tuple[float, ...]
-    place: tuple[float, ...]
+    front: tuple[float, ...]
     tangent: tuple[float, ...]
     pupil: tuple[float, ...]
     end: float
@@ -72,7 +72,7 @@ class ChiefRays:
 
     def at(self, squared):
         """Return h / r, z and tan(theta / 2) / r at r^2; NaN beyond ``end``. It can be recorded."""
-        return self._values(squared, self.height, self.place, self.tangent)
+        return self._values(squared, self.height, self.front, self.tangent)
 
     def crossing(self, squared):
         """Return e / r at r^2, as ``at`` does; beyond ``end`` that of ``end``."""
@@ -141,17 +141,17 @@ def _polynomials(optics: Optics, film: float, family, end: float, rim: float) ->
     functions = _functions(optics, film, _angles(radius, _radii(nodes, end), angle_end), front, rear)
     weights = 2 / (DEGREE + 1) * chebvander(nodes, DEGREE)
     weights[:, 0] /= 2
-    height, place, tangent, pupil = (tuple((weights.T @ values).tolist()) for values in functions)
-    found = ChiefRays(height, place, tangent, pupil, end, rim, (0.0, 0.0), 0.0, 0.0)
+    height, front_z, tangent, pupil = (tuple((weights.T @ values).tolist()) for values in functions)
+    chief = ChiefRays(height, front_z, tangent, pupil, end, rim, (0.0, 0.0), 0.0, 0.0)
     # up to the rim: beyond it nothing is asked but where the pupil is
     radii = np.linspace(rim / CHECKS, rim, CHECKS)
     h, z, half, e = _functions(optics, film, _angles(radius, radii, angle_end), front, rear)
-    near_h, near_z, near_half = found.at(radii * radii)
+    near_h, near_z, near_half = chief.at(radii * radii)
     origin = np.hypot((near_h - h) * radii, near_z - z).max()
     turned = 2 * np.abs(np.arctan(near_half * radii) - np.arctan(half * radii)).max()
-    crossing = float(np.abs((found.crossing(radii * radii) - e) * radii).max())
+    crossing = float(np.abs((chief.crossing(radii * radii) - e) * radii).max())
     errors, widest = (float(origin), float(turned)), float(2 * np.arctan(half[-1] * rim))
-    return replace(found, errors=errors, widest=widest, crossing_error=crossing)
+    return replace(chief, errors=errors, widest=widest, crossing_error=crossing)
 
 
 def _radii(nodes, end: float):
@@ -233,9 +233,9 @@ def _angles(radius, radii, end: float):
     """Return the angles at the stop of radii on the film, (n,): the secant method in a bracket (Illinois)."""
     knots = np.linspace(0.0, end, ANGLES)
     known = radius(knots)
-    place = np.clip(np.searchsorted(known, radii), 1, ANGLES - 1)
-    a, b = knots[place - 1], knots[place]
-    fa, fb = known[place - 1] - radii, known[place] - radii
+    knot = np.clip(np.searchsorted(known, radii), 1, ANGLES - 1)
+    a, b = knots[knot - 1], knots[knot]
+    fa, fb = known[knot - 1] - radii, known[knot] - radii
     for _ in range(BISECTIONS):
         with np.errstate(all="ignore"):
             angle = np.where(fb == fa, b, b - fb * (b - a) / (fb - fa))

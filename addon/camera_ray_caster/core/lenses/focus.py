@@ -32,13 +32,13 @@ def focused(
     radius = optics.stop_radius(f_number)
     film = optics.sharpest_film(distance, radius) if sharpest else optics.paraxial_film(distance)
     chief = chief_rays(optics, film)
-    series = *chief.height, *chief.place, *chief.tangent, *chief.pupil
+    series = *chief.height, *chief.front, *chief.tangent, *chief.pupil
     return film, radius, optics.entrance_pupil[0], optics.exit_pupil[0], *series, chief.end, chief.rim
 
 
 def chief_of(numbers: Sequence[float], plain: ChiefRays) -> ChiefRays:
     """Return chief rays with the numbers of ``focused``, which may be varied."""
     count = DEGREE + 1
-    height, place, tangent, pupil = (tuple(numbers[k * count : (k + 1) * count]) for k in range(4))
+    height, front, tangent, pupil = (tuple(numbers[k * count : (k + 1) * count]) for k in range(4))
     end, rim = numbers[4 * count :]
-    return ChiefRays(height, place, tangent, pupil, end, rim, plain.errors, plain.widest, plain.crossing_error)
+    return ChiefRays(height, front, tangent, pupil, end, rim, plain.errors, plain.widest, plain.crossing_error)

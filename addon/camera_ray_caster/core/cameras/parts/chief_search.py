@@ -34,10 +34,10 @@ class ChiefSearch:
 
     def beside(self, r, rho, z):
         """Return how far points, rho from the axis at z, lie beside the chief ray of the radius r, and before it."""
-        height, place, tangent = self.chief.at(r * r)
+        height, front, tangent = self.chief.at(r * r)
         turn = 2 / (1 + tangent * tangent * r * r)
         sine, cosine = tangent * r * turn, turn - 1
-        out, ahead = rho - height * r, place - z
+        out, ahead = rho - height * r, front - z
         return out * cosine - ahead * sine, out * sine + ahead * cosine
 
     @lazy
@@ -48,15 +48,15 @@ class ChiefSearch:
     def up_to(self, end: float):
         """Return radii to an end in even steps, the angles of their rays, and their origins' heights and places."""
         r = np.linspace(0.0, end, KNOTS)
-        height, place, tangent = self.chief.at(np.minimum(r * r, end * end))
-        return r, 2 * np.arctan(tangent * r), height * r, place
+        height, fronts, tangent = self.chief.at(np.minimum(r * r, end * end))
+        return r, 2 * np.arctan(tangent * r), height * r, fronts
 
     def radius_of(self, rho, z):
         radii, angles, heights, places = self.table
         rim = radii[-1]
 
-        def seen(height, place):
-            return np.interp(np.arctan2(rho - height, place - z), angles, radii)
+        def seen(height, front):
+            return np.interp(np.arctan2(rho - height, front - z), angles, radii)
 
         before = seen(0.0, self.pupil)
         r = seen(np.interp(before, radii, heights), np.interp(before, radii, places))
@@ -76,12 +76,12 @@ class ChiefSearch:
 
     def _bracketed(self, rho, z):
         """Return the least radii whose rays meet points, NaN where there are none, by brackets and bisection."""
-        radii, _, _, _ = (part[::16] for part in self.table)
+        radii, _, _, _ = (column[::16] for column in self.table)
         off, ahead = self.beside(radii, rho[:, None], z[:, None])
         change = (off[:, :-1] * off[:, 1:] <= 0) & ((ahead[:, :-1] > 0) | (ahead[:, 1:] > 0))
-        place, rows = np.argmax(change, axis=1), np.arange(len(rho))
-        low, high = radii[place], radii[place + 1]
-        below = off[rows, place]
+        crossing, rows = np.argmax(change, axis=1), np.arange(len(rho))
+        low, high = radii[crossing], radii[crossing + 1]
+        below = off[rows, crossing]
         for _ in range(BISECTIONS):
             middle = (low + high) / 2
             same = self.beside(middle, rho, z)[0] * below > 0

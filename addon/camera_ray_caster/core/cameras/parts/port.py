@@ -102,9 +102,9 @@ class FlatPort:
     def spread(self, behind, across, radii):
         """Return the least and the largest angle inside of what balls hold, and half the angle around the axis."""
         far, near = np.maximum(behind + radii, 0.0), np.maximum(behind - radii, 0.0)
-        least, most = self.angle(far, np.maximum(across - radii, 0.0)), self.angle(near, across + radii)
+        smallest, largest = self.angle(far, np.maximum(across - radii, 0.0)), self.angle(near, across + radii)
         around = np.arcsin(np.minimum(radii / np.maximum(across, np.finfo(float).tiny), 1.0))
-        return least, most, np.where(radii < across, around, np.pi)
+        return smallest, largest, np.where(radii < across, around, np.pi)
 
     def angle(self, behind, across):
         """Return the angles from the axis inside of rays that meet points; pi / 2 where there is none.
@@ -120,8 +120,8 @@ class FlatPort:
             rho, slope = np.zeros_like(q), np.zeros_like(q)
             for depth, index in layers:
                 root = index * index + (index * index - 1) * square
-                part = depth / np.sqrt(root)
-                rho, slope = rho + part * q, slope + part * (index * index) / root
+                weight = depth / np.sqrt(root)
+                rho, slope = rho + weight * q, slope + weight * (index * index) / root
             step = np.where(across > 0, (across - rho) / slope, 0.0)
             q = q + np.maximum(step, 0.0)
             if not (step > SETTLED * q).any():
@@ -149,9 +149,8 @@ class DomePort:
         x, y, z = DECENTER.read(raw)
         away = float(norm((float(x), float(y), float(z))))
         if not away < outer - thickness:
-            most = float(outer - thickness)
-            said = f"{away:.6g} mm long"
-            raise DECENTER.refusal(raw, said, f"below {most:.6g}, the inner radius, so that the eye is inside the dome")
+            limit = f"below {float(outer - thickness):.6g}, the inner radius, so that the eye is inside the dome"
+            raise DECENTER.refusal(raw, f"{away:.6g} mm long", limit)
         center, shell = (x * MILLIMETER, y * MILLIMETER, z * MILLIMETER), (outer - thickness, thickness)
         port = cls(center, *(length * MILLIMETER for length in shell), *indices_of(raw))
         if port.least < port.inner and not port.away < APART * port.least:
@@ -190,8 +189,8 @@ class DomePort:
         p = cross(start, direction)
         square, inner, outer = dot(p, p), self.inner * self.inner, self.outer * self.outer
         glass, medium = self.glass * self.glass, self.medium * self.medium
-        squares = (part - square for part in (inner, glass * inner, glass * outer, medium * outer))
-        before, entering, leaving, behind = (np.sqrt(np.where(part >= 0, part, np.nan)) for part in squares)
+        squares = (radius - square for radius in (inner, glass * inner, glass * outer, medium * outer))
+        before, entering, leaving, behind = (np.sqrt(np.where(radius >= 0, radius, np.nan)) for radius in squares)
         first = along(start, direction, before - dot(start, direction))
         inside = along(direction, first, (glass - 1) / (entering + before))  # of length n
         last = along(first, inside, self.thickness * (self.outer + self.inner) / (entering + leaving))
@@ -216,9 +215,9 @@ class DomePort:
         half = np.where(radii < distance, np.arcsin(np.minimum(radii / distance, 1.0)), np.pi)
         far, near = np.maximum(behind + radii, 0.0), np.maximum(behind - radii, 0.0)
         low, high = around - half, around + half
-        least, most = self.angle(far, np.maximum(low, 0.0)), self.angle(near, np.minimum(high, np.pi))
+        smallest, largest = self.angle(far, np.maximum(low, 0.0)), self.angle(near, np.minimum(high, np.pi))
         turn = np.arcsin(np.minimum(np.sin(half) / np.maximum(np.sin(around), np.finfo(float).tiny), 1.0))
-        return least, most, np.where((low > 0) & (high < np.pi), turn, np.pi)
+        return smallest, largest, np.where((low > 0) & (high < np.pi), turn, np.pi)
 
     def angle(self, behind, around):
         """Return the angles from the axis inside of rays that meet points: Newton's method in a bracket."""
@@ -264,8 +263,8 @@ def balls_inside(port: Port, centers: np.ndarray, radii: np.ndarray) -> tuple[np
     balls behind the port; NaN for balls before it, and radii above 1, the distance, for balls that may be anywhere.
     """
     behind, across = port.places(centers)
-    least, most, around = port.spread(behind, across, radii)
-    middle = (least + most) / 2
+    smallest, largest, around = port.spread(behind, across, radii)
+    middle = (smallest + largest) / 2
 
     def away(theta):
         flat = np.sin(middle) * np.sin(theta) * np.sin(around / 2) ** 2
@@ -273,7 +272,7 @@ def balls_inside(port: Port, centers: np.ndarray, radii: np.ndarray) -> tuple[np
 
     on_axis = around > np.pi / 2
     middle = np.where(on_axis, 0.0, middle)
-    angle = np.where(on_axis, most, np.maximum(away(least), away(most))) + SLACK
+    angle = np.where(on_axis, largest, np.maximum(away(smallest), away(largest))) + SLACK
     seen = behind + radii > 0
     grown = np.where(angle < np.pi / 2, np.sin(angle), 2.0)
     return _turned(port, centers, middle), np.where(seen, np.where(np.isnan(angle), 2.0, grown), np.nan)

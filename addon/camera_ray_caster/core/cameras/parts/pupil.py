@@ -65,8 +65,8 @@ def color_of(x, y):
     """Return a number from 0 to 3 for samples at pixel coordinates: below 1 they are red, below 2 green. It changes by
     an irrational number from sample to sample of a pixel, which spreads them evenly.
     """
-    place = 7.236 * x + 5.412 * y
-    return 3 * (place - np.floor(place))
+    phase = 7.236 * x + 5.412 * y
+    return 3 * (phase - np.floor(phase))
 
 
 def of_color(color, values):
@@ -75,26 +75,26 @@ def of_color(color, values):
     return red if red == green == blue else np.where(color < 1, red, np.where(color < 2, green, blue))
 
 
-def from_film(optics: Optics, chief: ChiefRays, pupil: Pupil, place, upright, point, color=None):
+def from_film(optics: Optics, chief: ChiefRays, pupil: Pupil, film_point, upright, point, color=None):
     """Return origin and direction of rays before the lens, in the lens frame.
 
-    place: of the picture on the film, x and y upright and z in the lens frame, mm of the lens. upright: where its chief
+    film_point: of the picture, x and y upright and z in the lens frame, mm of the lens. upright: where its chief
     ray meets the upright film. point: of the unit disc. color: as of ``color_of``; None for the wavelength of
     ``optics``. NaN in the direction's x of rays that do not pass.
     """
-    (x, y, z), plane = place, pupil.plane
+    (x, y, z), plane = film_point, pupil.plane
     across, up = _in_pupil(chief, pupil, upright, point)
     side = 1.0 if pupil.away > 0 else -1.0
     direction = side * (across + x), side * (up + y), side * (plane - z)
     length = np.sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2])
-    dx, dy, dz = (part / length for part in direction)
+    dx, dy, dz = (component / length for component in direction)
     return trace(_surfaces(optics, pupil, color)[::-1], (-x, -y, z), (dx, dy, dz), to_film=False)
 
 
 def _in_pupil(chief: ChiefRays, pupil: Pupil, upright, point):
     """Return the place in the plane of the exit pupil of points of the unit disc."""
     crossing = chief.crossing(upright[0] * upright[0] + upright[1] * upright[1])
-    return tuple(-part * crossing + pupil.disc * aside for part, aside in zip(upright, point, strict=True))
+    return tuple(-coordinate * crossing + pupil.disc * aside for coordinate, aside in zip(upright, point, strict=True))
 
 
 def _surfaces(optics: Optics, pupil: Pupil, color) -> list[LensSurface]:
@@ -126,7 +126,7 @@ def measured(
         point = side[None, :], side[:, None]
     else:
         side = (np.arange(GRID) + 0.5) / GRID
-        point = tuple(part / pupil.radius for part in pupil.points(side[None, :], side[:, None]))
+        point = tuple(coordinate / pupil.radius for coordinate in pupil.points(side[None, :], side[:, None]))
     squared = point[0] ** 2 + point[1] ** 2
     plane = optics.exit_pupil[0]
     stop = radius if is_round else np.inf
@@ -143,9 +143,9 @@ def measured(
             corner = float(r[dark, 0, 0])
         share, middle = passes, passes[0]
         if places is not None:
-            place, at = ([part[:, None, None] for part in each] for each in places)
+            film_point, at = ([coordinate[:, None, None] for coordinate in each] for each in places)
             upright = at[0], at[1]
-            origin, direction = from_film(optics, chief, pupil, place, upright, point)
+            origin, direction = from_film(optics, chief, pupil, film_point, upright, point)
             passes = np.isfinite(direction[0]) & np.isfinite(origin[0])
         widest = max(float(np.where(each, squared, 0.0).max(initial=0.0)) for each in (share, passes))
         disc = float(np.sqrt(widest)) + SLACK if is_round else 1.0
@@ -171,14 +171,14 @@ def _lines(chief: ChiefRays, optics: Optics, origin, direction, upright, passes)
     """
     r = np.sqrt(upright[0] ** 2 + upright[1] ** 2)
     kept = np.minimum(r, chief.end * (1 - 1e-9)) / np.where(r > 0, r, 1.0)
-    a, b = (part * kept for part in upright)
+    a, b = (coordinate * kept for coordinate in upright)
     squared = a * a + b * b
-    height, place, tangent = chief.at(squared)
+    height, front, tangent = chief.at(squared)
     turn = 2 / (1 + tangent * tangent * squared)
     ahead = a * tangent * turn, b * tangent * turn, 1 - turn
-    apart, sharp, spread = lines(((a * height, b * height, place), ahead), origin, direction, passes)
+    apart, sharp, spread = lines(((a * height, b * height, front), ahead), origin, direction, passes)
     angles = np.arccos(np.clip(turn - 1, -1.0, 1.0)).ravel()
-    reach = float(np.hypot(np.sqrt(squared) * height, place - optics.entrance_pupil[0]).max() + apart.max())
+    reach = float(np.hypot(np.sqrt(squared) * height, front - optics.entrance_pupil[0]).max() + apart.max())
     return apart, sharp, spread, angles, reach
 
 
@@ -193,24 +193,25 @@ def _marginal(optics: Optics, chief: ChiefRays, pupil: Pupil, film: float) -> fl
     return low
 
 
-def _falloff(pupil: Pupil, place, target, normal):
+def _falloff(pupil: Pupil, film_point, target, normal):
     """Return the light of rays from the film to the exit pupil over that of one on the axis: cos^3 of their angle to
     the axis, times the cosine to the film's normal over that of the axis; on an upright film cos^4.
     """
-    x, y, z = place[0] + target[0], place[1] + target[1], place[2] - pupil.plane  # the film is upside down
+    (a, b, c), (across, up) = film_point, target
+    x, y, z = a + across, b + up, c - pupil.plane  # the film is upside down
     squared, before = z * z + x * x + y * y, pupil.away * pupil.away
     along = z + (x * normal[0] + y * normal[1]) / normal[2] if normal[0] or normal[1] else z
     return before * (z * along) / (squared * squared)
 
 
-def light_of(chief: ChiefRays, pupil: Pupil, place, upright, point, normal, falls_off: bool, vignetting: bool):
+def light_of(chief: ChiefRays, pupil: Pupil, film_point, upright, point, normal, falls_off: bool, vignetting: bool):
     """Return the light of rays that pass, relative to the mean of the middle of the picture; arguments as in
     ``from_film``, and the film's normal. Without ``vignetting`` the rays that pass make up for those that do
     not, as far as they do so where the film is upright.
     """
     value = 1.0
     if falls_off:
-        value = _falloff(pupil, place, _in_pupil(chief, pupil, upright, point), normal) / pupil.cosine
+        value = _falloff(pupil, film_point, _in_pupil(chief, pupil, upright, point), normal) / pupil.cosine
     if vignetting:
         return value / max(pupil.passing[0], FEWEST)
     table = np.maximum(np.array(pupil.passing), FEWEST)

@@ -192,9 +192,9 @@ class RayGrid:
     def _seen_entries(self) -> SeenParts:
         places = [np.unique(np.linspace(0, side, min(side, 2 * PARTS) + 1).astype(int)) for side in self.shape]
         low = high = self.values
-        for axis, place in enumerate(places):
-            low, high = (end.reduceat(each, place[:-1], axis=axis) for end, each in ((np.fmin, low), (np.fmax, high)))
-        v, u = (np.stack((place[:-1], place[1:]), axis=1) - 0.5 for place in places)
+        for axis, ends in enumerate(places):
+            low, high = (end.reduceat(each, ends[:-1], axis=axis) for end, each in ((np.fmin, low), (np.fmax, high)))
+        v, u = (np.stack((ends[:-1], ends[1:]), axis=1) - 0.5 for ends in places)
         return SeenParts(low, high, np.concatenate(np.broadcast_arrays(u[None], v[:, None]), axis=2))
 
 

@@ -77,10 +77,10 @@ def entries_of(grid: RayGrid, points: np.ndarray) -> np.ndarray:
         away = away - t[..., None] * ahead
         missed = np.where(t > 0, np.einsum("nmk,nmk->nm", away, away), np.inf)
         best = missed.argmin(axis=1)
-        some = np.arange(len(best))
-        reach = HALF * _beside(grid, row[best], column[best], t[some, best])
+        indices = np.arange(len(best))
+        reach = HALF * _beside(grid, row[best], column[best], t[indices, best])
         rounding = SLACK * EPS * (np.sqrt(_dot(block, block)) + grid.farthest)
-        sees = np.flatnonzero(missed[some, best] <= np.maximum(reach, rounding) ** 2)
+        sees = np.flatnonzero(missed[indices, best] <= np.maximum(reach, rounding) ** 2)
         places[first + sees] = np.stack((column[best], row[best]), axis=1)[sees]
     return places
 

@@ -60,12 +60,12 @@ class SeenParts:
             middles = low / 2 + high / 2
             wide = np.sqrt(((high - middles) ** 2).sum(axis=1)) * BALL_MARGIN + np.maximum.reduceat(radii, starts)
         for middle, reach, directions in self._maps:
-            some: Any = slice(None)
+            chosen: Any = slice(None)
             if together:
                 may = ~np.isnan(directions.bounds(middles - middle, wide + reach)[:, 0])
-                some = np.flatnonzero(may.repeat(TOGETHER)[: len(radii)])
-            seen = directions.bounds(centers[some] - middle, radii[some] + reach)
-            bounds[some] = np.fmin(bounds[some], seen * turn)
+                chosen = np.flatnonzero(may.repeat(TOGETHER)[: len(radii)])
+            seen = directions.bounds(centers[chosen] - middle, radii[chosen] + reach)
+            bounds[chosen] = np.fmin(bounds[chosen], seen * turn)
         return bounds * turn
 
 

@@ -90,8 +90,9 @@ class TiltedFilm:
         first, second, normal = self.rows
         beside = a * normal[0] + b * normal[1]
         below = normal[2] + slope * beside
-        place = [part / np.where(below > 0, below, np.nan) for part in (a * normal[2], b * normal[2], -beside)]
-        return dot(first, place), dot(second, place)
+        below = np.where(below > 0, below, np.nan)
+        point = [coordinate / below for coordinate in (a * normal[2], b * normal[2], -beside)]
+        return dot(first, point), dot(second, point)
 
     def intervals(self, chief: ChiefRays, radii, interval_x, interval_y):
         """Return the intervals in u and v that hold the images of all points of the upright film's intervals, (n,)
@@ -138,8 +139,8 @@ class TiltedFilm:
             film = replace(plain, tilt=Tilt(share * plain.tilt.tau_x, share * plain.tilt.tau_y))
             low, high = (share, high) if film._holds(chief, behind, corners) else (low, share)
         tilt, setting = max((abs(plain.tilt.tau_x), TAU_X), (abs(plain.tilt.tau_y), TAU_Y), key=lambda each: each[0])
-        most = f"at most {degrees(low * tilt):.4g} degrees: a film that is tilted more reaches the lens"
-        raise setting.refusal(raw, f"{degrees(tilt):.4g} degrees", most)
+        limit = f"at most {degrees(low * tilt):.4g} degrees: a film that is tilted more reaches the lens"
+        raise setting.refusal(raw, f"{degrees(tilt):.4g} degrees", limit)
 
     def _holds(self, chief: ChiefRays, behind: float, corners) -> bool:
         z = self.places(*np.transpose(corners))[2]

@@ -50,9 +50,9 @@ class TracedAperture(Aperture):
         half = np.where(around < 1, np.arcsin(np.minimum(around, 1)), np.pi)
         first = np.searchsorted(self.angles, angle - half) - 1
         last = np.maximum(np.searchsorted(self.angles, angle + half, "right"), first)
-        place = np.arange(len(self.apart))
-        last, first = np.minimum(last, place[-1])[:, None], np.minimum(first, place[-1])[:, None]
-        return np.where((first <= place) & (place <= last), blur, 0.0).max(axis=1)
+        index = np.arange(len(self.apart))
+        last, first = np.minimum(last, index[-1])[:, None], np.minimum(first, index[-1])[:, None]
+        return np.where((first <= index) & (index <= last), blur, 0.0).max(axis=1)
 
 
 def lines(chief, origin, direction, passes):
@@ -68,5 +68,5 @@ def lines(chief, origin, direction, passes):
     total = (lines * lines).sum(axis=others)
     sharp = -(lines * turned).sum(axis=others) / np.where(total > 0, total, 1.0)
     beside = turned + lines * sharp.reshape(-1, *(1 for _ in others[1:]))
-    apart, spread = (MARGIN * norm(part).max(axis=tuple(axis - 1 for axis in others[1:])) for part in (lines, beside))
+    apart, spread = (MARGIN * norm(each).max(axis=tuple(axis - 1 for axis in others[1:])) for each in (lines, beside))
     return apart, sharp, spread

@@ -35,8 +35,8 @@ def read(text: str, name: str) -> Prescription:
         system = json.loads(text)
         surfaces = system["surface_group"]["surfaces"]
         passed = enumerate(pairwise(surfaces[1:]), 1)
-        rows = tuple(_row(surface, after, place) for place, (surface, after) in passed)
-        stops = [place for place, surface in enumerate(surfaces[1:-1]) if surface.get("is_stop")]
+        rows = tuple(_row(surface, after, number) for number, (surface, after) in passed)
+        stops = [number for number, surface in enumerate(surfaces[1:-1]) if surface.get("is_stop")]
         if len(stops) != 1:
             raise InputError(f"it has {len(stops)} surfaces that are the stop: it must be one")
         before = _medium(surfaces[0]["material_post"], 0)[0]
@@ -48,32 +48,32 @@ def read(text: str, name: str) -> Prescription:
         raise InputError(f"its group of surfaces cannot be read ({type(error).__name__}: {error})") from error
 
 
-def _row(surface: dict[str, Any], after: dict[str, Any], place: int) -> Row:
+def _row(surface: dict[str, Any], after: dict[str, Any], number: int) -> Row:
     geometry, kind = surface["geometry"], surface["geometry"]["type"]
     reflects = surface.get("is_reflective") or (surface.get("interaction_model") or {}).get("is_reflective")
     if kind not in ("Plane", "StandardGeometry", *POWERS) or reflects or any(geometry["cs"][axis] for axis in BESIDE):
-        said = f"{kind}{', reflecting' if reflects else ''}"
-        raise InputError(f"surface {place} is a {said}: only centered ones that refract are read")
+        description = f"{kind}{', reflecting' if reflects else ''}"
+        raise InputError(f"surface {number} is a {description}: only centered ones that refract are read")
     step = POWERS.get(kind, 1)
     powers = enumerate(geometry.get("coefficients") or () if kind in POWERS else (), 1)
     asphere = tuple((step * k, float(value)) for k, value in powers if value)
     if asphere and asphere[0][0] < 2:
-        raise InputError(f"surface {place} has a coefficient of r^1: its tip is no vertex")
+        raise InputError(f"surface {number} has a coefficient of r^1: its tip is no vertex")
     radius = float(geometry.get("radius", inf))
     rim = float((surface.get("aperture") or {}).get("r_max", inf))
-    index, abbe = _medium(surface["material_post"], place)
+    index, abbe = _medium(surface["material_post"], number)
     behind = float(after["geometry"]["cs"]["z"]) - float(geometry["cs"]["z"])
     conic = float(geometry.get("conic", 0.0))
-    return Row(1 / radius if radius else 0.0, behind, index, rim, conic, asphere, abbe, label=str(place))
+    return Row(1 / radius if radius else 0.0, behind, index, rim, conic, asphere, abbe, label=str(number))
 
 
-def _medium(material: dict[str, Any], place: int) -> tuple[float, float]:
+def _medium(material: dict[str, Any], number: int) -> tuple[float, float]:
     """Return the index behind a surface at the d line, and Abbe's number."""
     if "index" in material:
         return float(material["index"]), float(material.get("abbe") or inf)
     if (glass := str(material.get("name", "")).upper()) in GLASSES:
         return GLASSES[glass]
-    raise InputError(f"surface {place} has the medium {glass or 'unknown'} without its index: give index and abbe")
+    raise InputError(f"surface {number} has the medium {glass or 'unknown'} without its index: give index and abbe")
 
 
 def _with_stop(lens: Prescription, aperture: dict[str, Any]) -> Prescription:
