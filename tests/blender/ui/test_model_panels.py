@@ -54,16 +54,9 @@ TIMES = {
     "ROWS": ("time_start", "time_end", *EFFORT),
     "COLUMNS": ("time_start", "time_end", *EFFORT),
     "IMAGE": ("time_image", "time_start", "time_end", *EFFORT),
-    "ROLLING_SHUTTER": (
-        "readout",
-        "motion_blur_position",
-        "motion_blur_shutter",
-        "rolling_shutter_duration",
-        *EFFORT,
-    ),
+    "ROLLING_SHUTTER": ("readout", "motion_blur_position", "motion_blur_shutter", "rolling_shutter_duration", *EFFORT),
     "SWEEP": ("fps", "fps_base", *EFFORT),
 }
-
 
 WIDTH = 292
 """Of the default sidebar in pixels at interface scale 1."""

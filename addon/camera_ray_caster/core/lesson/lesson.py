@@ -67,8 +67,8 @@ class Lesson:
         pages = [(self.label, self.formula)]
         for title, lines in self.steps:
             fewest = len(_cut(lines, PAGE))
-            parts = next(cut for most in range(1, PAGE + 1) if len(cut := _cut(lines, most)) == fewest)
-            pages += [(title, part) for part in parts]
+            cuts = (_cut(lines, length) for length in range(1, PAGE + 1))
+            pages += [(title, page) for page in next(cut for cut in cuts if len(cut) == fewest)]
         return pages
 
     def lines(self) -> list[str]:
@@ -93,14 +93,12 @@ class Lesson:
         return "\n".join(self.lines())
 
 
-def _cut(lines: tuple[str, ...], most: int) -> list[tuple[str, ...]]:
-    """Cut lines before lines without indent into pages of at most that many lines, or of one such line and those below
-    it.
-    """
+def _cut(lines: tuple[str, ...], length: int) -> list[tuple[str, ...]]:
+    """Cut lines before lines without indent into pages of up to ``length`` lines, or one such line and those below."""
     starts = [k for k, line in enumerate(lines) if not line.startswith(" ")] + [len(lines)]
     pages, first = [], starts[0]
     for start, end in pairwise(starts):
-        if end - first > most and start > first:
+        if end - first > length and start > first:
             pages.append(lines[first:start])
             first = start
     return [*pages, lines[first:]]
