@@ -30,6 +30,9 @@ def test_each_camera_is_listed_with_its_model(blender, cameras, monkeypatch):
     blender.data.objects.remove(blender.data.objects["All around"])
     monkeypatch.setattr(in_process, "_ended", [])
     assert not SidebarCameras.poll(blender.context), "one camera needs no list"
+    for said, shown in (("Wrote /some folder/a_json/camera.json", "Wrote camera.json"), (r"Wrote C:\all\a", "Wrote a")):
+        monkeypatch.setattr(in_process, "_ended", [said])
+        assert shown in drawn(blender, SidebarCameras)
     monkeypatch.setattr(in_process, "_ended", ["Stopped"])
     assert SidebarCameras.poll(blender.context), "but the result of its run"
     monkeypatch.setattr(in_process, "_ended", [])

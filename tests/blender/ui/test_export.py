@@ -135,3 +135,9 @@ def test_a_camera_without_k_says_so(blender, scene):
     scene.camera.data.type = "ORTHO"
     with pytest.raises(RuntimeError, match="Orthographic has no K"):
         blender.ops.camera_ray_caster.copy_k()
+
+
+def test_a_dialog_proposes_no_folder_of_another_format(blender):
+    known = blender.ops.camera_ray_caster.export.get_rna_type().properties["filepath"]
+    assert known.is_skip_save
+    assert known.subtype == "FILE_PATH"

@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import bpy
 import pytest
+from mathutils import Quaternion
 
 from camera_ray_caster.blender.ui import see_through
 from camera_ray_caster.blender.ui.camera_notes import missing
@@ -18,13 +19,16 @@ def test_see_through_shows_the_camera_s_own_picture_and_restores_everything(blen
     area = next(area for area in blender.context.window.screen.areas if area.type == "VIEW_3D")
     space, scene.render.engine = area.spaces.active, engine
     space.region_3d.view_perspective, space.shading.type = "ORTHO", "MATERIAL"
+    turned = space.region_3d.view_rotation = Quaternion((0.6, 0.8, 0.0, 0.0))
     with blender.context.temp_override(area=area):
         for _ in range(2):
             operator()
+            space.region_3d.view_rotation = scene.camera.matrix_world.to_quaternion()  # as Blender does when it draws
             assert scene.render.engine == "CAMERA_RAY_CASTER"
             assert (space.region_3d.view_perspective, space.shading.type) == ("CAMERA", "RENDERED")
             operator()
             assert (space.region_3d.view_perspective, space.shading.type) == ("ORTHO", "MATERIAL")
+            assert space.region_3d.view_rotation.rotation_difference(turned).angle < 1e-5
             assert scene.render.engine == engine
 
 

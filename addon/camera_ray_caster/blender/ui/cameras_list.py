@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import bpy
 from bpy.props import BoolProperty, StringProperty
 
@@ -17,6 +19,9 @@ from .model_settings import key_of
 from .needs import reporting
 from .notes import draw_line
 from .see_through import is_seen_through
+
+FOLDERS = re.compile(r"(?<=\s)(?:[A-Za-z]:)?[/\\](?=\S).*[/\\]")
+"""What a row of the sidebar has no room for in a line with a path; the popover has the whole line."""
 
 
 class UseCamera(bpy.types.Operator):
@@ -78,7 +83,7 @@ class SidebarCameras(Sidebar, bpy.types.Panel):
         draw_all(layout)
         export = layout.operator(Export.bl_idname, text="Export All", icon="EXPORT")
         export.format, export.cameras, export.frames = "json", "ALL", usual(context.scene)
-        draw_line(layout, context, in_process.latest(), LatestRun.bl_idname)
+        draw_line(layout, context, FOLDERS.sub("", in_process.latest()), LatestRun.bl_idname)
 
 
 CLASSES = (UseCamera, SidebarCameras)

@@ -40,6 +40,11 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
     bl_label = "Export Cameras"
     bl_options = {"REGISTER"}
 
+    filepath: StringProperty(
+        name="Folder", description="Folder of the files, made if it is missing", subtype="FILE_PATH",
+        options={"HIDDEN", "SKIP_SAVE"},
+    )  # fmt: skip
+    """Not remembered: the dialog proposes a name with the format of now."""
     format: EnumProperty(
         name="Format",
         items=[(entry.key, entry.label, entry.description) for entry in EXPORT_FORMATS],

@@ -11,6 +11,7 @@ from contextlib import suppress
 
 import bpy
 from bpy.app.handlers import persistent
+from mathutils import Quaternion
 
 from ..properties.declared import ENGINE
 from ..read.view import views_3d
@@ -21,8 +22,10 @@ from .needs import OfScene
 
 SEEN = "CAMERA", "RENDERED"
 """Perspective and shading of a view that shows the picture of a cast."""
-_views: dict[int, tuple[str, str]] = {}
-"""Perspective and shading before See Through, by the pointer of the 3D View."""
+_views: dict[int, tuple[str, str, Quaternion]] = {}
+"""Perspective, shading and rotation before See Through, by the pointer of the 3D View: one that looks through a camera
+gets its rotation from Blender.
+"""
 _cast: dict[int, str] = {}
 """Shading before a cast is shown, by the pointer of the 3D View."""
 PERIOD = 0.2
@@ -59,7 +62,7 @@ class SeeThrough(OfScene, bpy.types.Operator):
         space, scene = context.space_data, context.scene
         before = space.region_3d.view_perspective, space.shading.type
         if before != SEEN or scene.render.engine != ENGINE:  # an undo restores the engine alone
-            _views[space.as_pointer()] = before
+            _views[space.as_pointer()] = (*before, space.region_3d.view_rotation.copy())
         space.use_local_camera = False
         space.region_3d.view_perspective = "CAMERA"
         can_be_live = not bpy.app.background and can_show(space, scene)
@@ -113,9 +116,9 @@ def _left(space, scene, shading: str) -> None:
         space.shading.type = shading
     if scene is not None and (is_camera_view or scene.camera is None):
         live.end(space)
-        perspective, _ = _views.pop(space.as_pointer(), ("CAMERA", shading))
-        if not is_chosen:  # undone
-            space.region_3d.view_perspective = perspective
+        before = _views.pop(space.as_pointer(), None)
+        if before is not None and not is_chosen:  # undone
+            _look_again(space, before)
 
 
 def end(context) -> None:
@@ -123,9 +126,15 @@ def end(context) -> None:
     space = context.space_data
     live.end(space)
     _cast.pop(space.as_pointer(), None)
-    perspective, shading = _views.pop(space.as_pointer(), ("CAMERA", "SOLID"))
-    space.region_3d.view_perspective, space.shading.type = perspective, shading
+    before = _views.pop(space.as_pointer(), ("CAMERA", "SOLID", space.region_3d.view_rotation.copy()))
+    _look_again(space, before)
+    space.shading.type = before[1]
     restore_engines()
+
+
+def _look_again(space, before) -> None:
+    """Restore the perspective and the rotation of a 3D View."""
+    space.region_3d.view_perspective, _, space.region_3d.view_rotation = before
 
 
 @persistent
