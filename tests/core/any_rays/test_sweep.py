@@ -7,7 +7,7 @@ import pytest
 from mpmath import mp, mpf
 
 import camera_ray_caster as crc
-from camera_ray_caster.core.any_rays.search import BodySearch
+from camera_ray_caster.core.any_rays.body_search import BodySearch
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.motion.evaluations import resolve
 from camera_ray_caster.core.records import Pose

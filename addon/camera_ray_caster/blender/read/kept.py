@@ -22,7 +22,7 @@ from bpy.app.handlers import persistent
 from ...core.mesh import Mesh
 from ...core.motion.means import same
 from ...core.shapes.instances import Primitive
-from . import images
+from . import texels
 
 Found = tuple[Primitive | None, str]
 """Shapes of evaluated data, and a text on the parts that cannot be cast."""
@@ -165,7 +165,7 @@ HANDLERS = (
     ("undo_post", mark_all),
     ("redo_post", mark_all),
     ("load_pre", forget),
-    ("load_pre", images.forget),
+    ("load_pre", texels.forget),
 )
 
 

@@ -5,10 +5,10 @@ from functools import partial
 import numpy as np
 
 from ...core.materials import operations as do
-from ...core.materials.images import MISSING, Texture, UnreadTexture
+from ...core.materials.textures import MISSING, Texture, UnreadTexture
 from ...core.materials.values import DIRECTION, OBJECT, UV, Coordinates, Layer, Value, channel, constant, function_of
-from .images import Unreadable, image_of
 from .nodes import Node, Nodes, Unread, own_value
+from .texels import Unreadable, image_of
 
 TABLE = 256
 """Entries of color ramps and curves, as in Cycles."""

@@ -18,9 +18,9 @@ from ..casting.search import HitSearch, nearest_hits
 from ..casting.tiles import Effort, Tile, bands
 from ..maths.vector import matvec
 from ..scene import Scene
+from .body_search import RAYS, BodySearch, search_of
 from .door import times_of
 from .moving import prepare, write_nearest
-from .search import RAYS, BodySearch, search_of
 
 TRIANGLES, TRIANGLES_OF_SHAPE = 10_000, 40
 """Number of triangles from which the tree, with its making, pays for a model without bounds, and as how many a shape

@@ -24,10 +24,10 @@ from ..motion.triangles import bends, mesh_of
 from ..records import MESH, PLANE, SPHERE, Shapes
 from ..shapes.in_camera import in_camera, invert
 from .balls import may_meet, unit_directions
+from .body_search import RAYS, BodySearch, search_of
 from .forms import SLACK, Form
 from .own_times import OwnTimes, RowsPlaced
 from .ray_bodies import WORLD, RayBodies, RayHits, Span
-from .search import RAYS, BodySearch, search_of
 
 BALL_FACTOR = 1.25
 """Factor by which balls are enlarged around shapes that change in size or form: between evaluations they may be larger.

@@ -22,10 +22,10 @@ from ..shapes.frames import InCamera
 from ..shapes.in_camera import in_camera
 from ..shapes.kind import Kind
 from ..shapes.kinds import by_kind
+from .body_search import keep_nearest, met
 from .forms import SLACK, Form
 from .packets import coherent_order, packets_of
 from .ray_bodies import WORLD, RayBodies, RayHits, Span
-from .search import keep_nearest, met
 from .traversal import Traversal
 from .tree import Tree, tree_of
 

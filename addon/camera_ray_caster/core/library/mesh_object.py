@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from ..arguments import numbers, shown
-from ..materials.images import linear
 from ..materials.surface import Surface
+from ..materials.textures import linear
 from ..materials.values import Layer, channel, function_of
 from ..records import InputError, Shapes
 

@@ -20,8 +20,8 @@ from ..cameras.parts.parameters import parameters_of, with_parameters
 from ..cameras.parts.settings import RECORD_FIELDS, Choice, Flag, Number, Numbers, Setting, Whole
 from ..maths.recording import NUMPY, NotRecordable, Record, needed, record_known
 from ..records import BlenderCamera, InputError
+from .formula_values import values_of
 from .split import RAY, Parts, split
-from .values import values_of
 
 Names = tuple[tuple[str, int], ...]
 

@@ -12,7 +12,7 @@ from .. import program_of
 from ..parts.document import Document
 from ..parts.lens import Lens
 from ..parts.spelled import unread_beside
-from .nearest import unknown
+from .unknown_file import unknown
 
 DEEPEST = 3
 """Levels of mappings in which calibrations are looked for."""

@@ -12,7 +12,7 @@ from ...units import factor
 from .. import PLACED, program_of
 from ..parts.document import Document
 from ..parts.placed import Placed
-from .nearest import unknown
+from .unknown_file import unknown
 
 DATE = re.compile(
     r"(|.*\D)(19|20)\d\d([-_.]?)(0[1-9]|1[0-2])\3([0-2]\d|3[01])"

@@ -13,8 +13,8 @@ from .bodies import TriangleBodies
 from .errors import TriangleErrors
 from .follow import follow_meshes
 from .in_camera import MeshesInView
+from .mesh_search import MeshSet
 from .normals import TriangleNormals
-from .search import MeshSet
 from .surface import HitTriangles
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.blender.engine.job import Job
-from camera_ray_caster.blender.read import images
+from camera_ray_caster.blender.read import texels
 from camera_ray_caster.blender.read.scene import read_shapes
 from camera_ray_caster.core.records import MESH, PLANE, SPHERE
 
@@ -73,7 +73,7 @@ def test_an_image_of_any_kind_is_read_or_named(surface, options, change, expecte
 
 
 def test_an_image_of_too_many_texels_is_named_and_not_read(surface, monkeypatch):
-    monkeypatch.setattr(images, "MOST_TEXELS", 15)
+    monkeypatch.setattr(texels, "MOST_TEXELS", 15)
     textured(surface, new_image())
     color, left_out = shown()
     np.testing.assert_allclose(color, VIEWPORT, atol=1e-6)
@@ -83,8 +83,8 @@ def test_an_image_of_too_many_texels_is_named_and_not_read(surface, monkeypatch)
 
 
 def test_an_image_without_memory_is_named(surface, monkeypatch):
-    monkeypatch.setattr(images.memory, "available", lambda: 100)
-    monkeypatch.setattr(images.memory, "ALWAYS_THERE", 0)
+    monkeypatch.setattr(texels.memory, "available", lambda: 100)
+    monkeypatch.setattr(texels.memory, "ALWAYS_THERE", 0)
     textured(surface, new_image())
     shapes = read_shapes(bpy.context.scene)
     assert "GiB of memory" in dict(shapes.unread)["Paint"]
@@ -107,34 +107,34 @@ def test_the_texels_of_a_file_are_blenders_pixels(tmp_path, alpha, is_packed):
         pixels[..., 3] = 1
     if alpha in {"STRAIGHT", "PREMUL"}:
         pixels[..., :3] *= pixels[..., 3:]
-    np.testing.assert_array_equal(images.image_of(image).texels, np.rint(pixels * 255))
+    np.testing.assert_array_equal(texels.image_of(image).texels, np.rint(pixels * 255))
 
 
 def test_reading_an_image_takes_the_memory_that_it_asks_for(tmp_path, monkeypatch):
     asked, size = [], 1024
-    monkeypatch.setattr(images.memory, "require", lambda needed, *_: asked.append(needed))
-    monkeypatch.setattr(images, "STRIP", 1 << 12)
+    monkeypatch.setattr(texels.memory, "require", lambda needed, *_: asked.append(needed))
+    monkeypatch.setattr(texels, "STRIP", 1 << 12)
     made, path = bpy.data.images.new("Made", size, size, alpha=True), tmp_path / "image.png"
     made.filepath_raw, made.file_format = str(path), "PNG"
     made.save()
     image = bpy.data.images.load(str(path), check_existing=False)
     tracemalloc.start()
     try:
-        image_bytes = images.image_of(image).texels.nbytes
+        image_bytes = texels.image_of(image).texels.nbytes
         peak = tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()
-    outside = 4 * size**2 if images.HAS_BYTES else 0  # Blender's loader, which Python does not see
-    strips = 64 * images.STRIP + (1 << 16)
+    outside = 4 * size**2 if texels.HAS_BYTES else 0  # Blender's loader, which Python does not see
+    strips = 64 * texels.STRIP + (1 << 16)
     assert image_bytes == 4 * size**2
-    assert asked == [(8 if images.HAS_BYTES else 16) * size**2]
+    assert asked == [(8 if texels.HAS_BYTES else 16) * size**2]
     assert asked[0] <= peak + outside + strips
     assert peak + outside <= asked[0] + strips
 
 
 def test_images_are_read_where_a_pass_shows_them_or_they_decide_what_is_hit(surface, monkeypatch):
-    read, found = [], images._read
-    monkeypatch.setattr(images, "_read", lambda image: read.append(image.name) or found(image))
+    read, found = [], texels._read
+    monkeypatch.setattr(texels, "_read", lambda image: read.append(image.name) or found(image))
     new, link, out, _ = surface
     shader = new("ShaderNodeBsdfPrincipled")
     for name, socket in (("Color", "Base Color"), ("Alpha", "Alpha")):
@@ -153,7 +153,7 @@ def test_images_are_read_where_a_pass_shows_them_or_they_decide_what_is_hit(surf
 
     def images_of(*passes):
         read.clear()
-        images.forget()
+        texels.forget()
         depsgraph = bpy.context.evaluated_depsgraph_get()
         job = Job.read(depsgraph, bpy.context.scene.camera, passes)
         cast, report = job.cast()
@@ -171,8 +171,8 @@ def test_images_are_read_where_a_pass_shows_them_or_they_decide_what_is_hit(surf
 
 
 def test_a_painted_image_is_read_again_and_others_once(surface, monkeypatch):
-    read, found = [], images._read
-    monkeypatch.setattr(images, "_read", lambda image: read.append(image.name) or found(image))
+    read, found = [], texels._read
+    monkeypatch.setattr(texels, "_read", lambda image: read.append(image.name) or found(image))
     image = new_image()
     image.pack()
     textured(surface, image)

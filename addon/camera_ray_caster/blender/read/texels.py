@@ -10,7 +10,7 @@ import numpy as np
 from bpy.app.handlers import persistent
 
 from ...core import memory
-from ...core.materials.images import Texels
+from ...core.materials.textures import Texels
 from ...core.records import InputError
 
 MOST_TEXELS = 64 << 20
