@@ -77,7 +77,7 @@ def cast_a_cube(user, scenes):
 
 
 def see_through(user, scenes):
-    """A model is chosen, and a button shows what the camera sees; a slit is added, selected and dragged."""
+    """A model is chosen, and a button shows what the camera sees; a slit is added, undone, selected and dragged."""
     yield from default_scene(user)
     view, own = user.region("WINDOW"), bpy.context.scene.camera.data.camera_ray_caster
     button = f"{BUTTON}see_through("
@@ -89,6 +89,15 @@ def see_through(user, scenes):
     assert bpy.context.scene.render.engine == before  # Blender's own drawing, through the model
     yield from choose_model(user, own, "CROSS_SLIT", "Cross-Slit")
     user.picture("stranger_slits_missing")
+    yield from user.press(f"{BUTTON}add_line(")
+    yield from user.until(lambda: own.slit_1, "the slit is added")
+    yield from user.point(*middle(view))
+    yield from user.key("ctrl+z")
+    yield from user.wait(2)
+    user.picture("stranger_slit_undone")
+    own, shows = bpy.context.scene.camera.data.camera_ray_caster, addon("ui.see_through").shows_cast
+    assert own.slit_1 is None
+    assert shows(user.area().spaces.active, bpy.context.scene)
     yield from user.press(f"{BUTTON}add_line(")
     yield from user.press(f"{BUTTON}add_line(")
     yield from user.wait(2)

@@ -110,18 +110,3 @@ def test_the_notice_is_in_views_that_show_rays(perspective, shading, local_view,
     is_cast = (shading, perspective) == ("RENDERED", "CAMERA")
     assert ((own in said), (SENTENCE in said)) == (is_cast, overlaid and not is_cast)
     assert (notice.LOCAL_VIEW in said) == (local_view is not None and (overlaid or shading == "RENDERED"))
-
-
-def test_a_camera_that_cannot_be_cast_is_told_once_and_no_cast_is_named(monkeypatch):
-    context = SimpleNamespace(
-        scene=SimpleNamespace(
-            render=SimpleNamespace(engine="CAMERA_RAY_CASTER"), camera_ray_caster_overlay=SimpleNamespace(show=False)
-        ),
-        space_data=SimpleNamespace(shading=SimpleNamespace(type="RENDERED"), local_view=None),
-        region_data=SimpleNamespace(view_perspective="CAMERA"), view_layer=None,
-    )  # fmt: skip
-    for name, made in (("cached_scene", SimpleNamespace(differences=(), reason=SENTENCE)), ("is_live", True)):
-        monkeypatch.setattr(notice, name, lambda _, made=made: made)
-    monkeypatch.setattr(notice.live, "sentences", lambda context: iter([f"A cast is shown: {SENTENCE}"]))
-    monkeypatch.setattr(notice.other_times, "sentences", lambda scene, layer: iter([]))
-    assert list(notice._sentences(context)) == [SENTENCE]

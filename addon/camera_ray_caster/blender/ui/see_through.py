@@ -28,6 +28,8 @@ gets its rotation from Blender.
 """
 _cast: dict[int, str] = {}
 """Shading before a cast is shown, by the pointer of the 3D View."""
+_followed: set[int] = set()
+"""Views that were live before they showed a cast: no undo step has its engine."""
 PERIOD = 0.2
 """Seconds after which it is looked again whether a cast is still shown."""
 BEFORE = "camera_ray_caster_engine"
@@ -115,7 +117,10 @@ def _left(space, scene, shading: str) -> None:
     if not is_chosen or scene.camera is None:
         space.shading.type = shading
     if scene is not None and (is_camera_view or scene.camera is None):
+        if not is_chosen and scene.camera is not None and space.as_pointer() in _followed:
+            return  # undone: still live, and ``follow`` shows the cast again
         live.end(space)
+        _followed.discard(space.as_pointer())
         before = _views.pop(space.as_pointer(), None)
         if before is not None and not is_chosen:  # undone
             _look_again(space, before)
@@ -126,6 +131,7 @@ def end(context) -> None:
     space = context.space_data
     live.end(space)
     _cast.pop(space.as_pointer(), None)
+    _followed.discard(space.as_pointer())
     before = _views.pop(space.as_pointer(), ("CAMERA", "SOLID", space.region_3d.view_rotation.copy()))
     _look_again(space, before)
     space.shading.type = before[1]
@@ -169,6 +175,7 @@ def follow() -> None:
         reason = why_not(scene.camera, window.view_layer.depsgraph)
         if reason and can_show(space, scene):
             show_cast(space, scene)
+            _followed.add(pointer)
         elif not reason and pointer in _cast:
             shading = _cast.pop(pointer)
             if shows_cast(space, scene):
@@ -233,6 +240,7 @@ def forget(*_) -> None:
     """Forget what was before: another file is loaded."""
     _views.clear()
     _cast.clear()
+    _followed.clear()
 
 
 def stop() -> None:
