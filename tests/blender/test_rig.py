@@ -228,7 +228,7 @@ def test_cameras_of_different_sizes_are_cast_into_one_folder(blender, camera_sce
     wanted = f"--format yolo needs a finished data set: give its folder in place of {str(file)!r}"
     assert wanted in capfd.readouterr().err
     assert commands.main("cast", [str(file), "--rig", chain, "--camera", "Camera"], "it") == 2
-    assert "--rig brings its own cameras" in capfd.readouterr().err
+    assert "--rig reads cameras and lenses" in capfd.readouterr().err
 
 
 def test_the_operator_adds_the_cameras_and_refuses_what_is_none(blender, camera_scene, chain, tmp_path):

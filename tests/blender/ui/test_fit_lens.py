@@ -19,7 +19,7 @@ def test_the_nearest_lens_of_blender_takes_the_place_of_the_model(blender, camer
     ops.fit_lens()
     assert (data.type, data.panorama_type) == ("PANO", "FISHEYE_LENS_POLYNOMIAL")
     own.model = "CYLINDRICAL"
-    with pytest.raises(RuntimeError, match="No lens of Blender is like that"):
+    with pytest.raises(RuntimeError, match="No Blender camera type matches"):
         ops.fit_lens()
     own.model, data.type, data.panorama_type = "BLENDER", "PANO", "EQUIRECTANGULAR"
     with pytest.raises(RuntimeError, match="Cycles renders it as it is"):

@@ -219,7 +219,7 @@ SPHERE = dict(origins=[0.0, 0, 0], directions=[0.0, 0, -1])
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (dict(origins=[0.0, 0]), r"origins of shape \(2,\) are no vectors"),
+        (dict(origins=[0.0, 0]), r"origins have shape \(2,\)"),
         (dict(directions=[0.0, 0, 0]), "directions are 0 for ray 0"),
         (dict(directions=[math.inf, 0, 0]), "directions hold infinite numbers"),
         (dict(directions=[0, 0, -1e-101]), "directions are shorter than 1e-100 for ray 0"),

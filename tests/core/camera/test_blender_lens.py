@@ -99,7 +99,7 @@ def test_the_lens_of_a_dome_is_blenders_turned_up(key, settings, angle):
 
 @pytest.mark.parametrize(
     ("key", "says"),
-    [("PUSHBROOM", "whose rays have no eye: use Use in Cycles"), ("EQUIRECTANGULAR", "no lens of Blender is like")],
+    [("PUSHBROOM", "whose rays have no eye: use Use in Cycles"), ("EQUIRECTANGULAR", "no Blender camera type")],
 )
 def test_a_camera_that_is_like_no_lens_of_blender_is_refused(key, says):
     with pytest.raises(InputError, match=says):

@@ -135,7 +135,7 @@ REFUSED = {
     "PUSHBROOM": [
         ({"slit_1": None}, "slit_1.*not set"),
         ({"slit_1": ((0, 0, 1), (0, 0, 2))}, "slit_1.*viewing direction"),
-        ({"slit_1": ((0, 0, float("inf")), (0, 0, 2))}, "slit_1.*no finite place"),
+        ({"slit_1": ((0, 0, float("inf")), (0, 0, 2))}, "slit_1.*infinite or NaN numbers"),
         ({"ortho_scale": 0.0}, "ortho_scale"),
     ],
     "PENCIL": [

@@ -127,7 +127,7 @@ def _mount(scene, options, paths: Sequence[str], say: Callable[[str], object]) -
     """
     parent = options.rig_parent
     if parent is not None and parent not in scene.objects:
-        raise InputError(f"scene {scene.name!r} has no object {parent!r}, below which --rig-parent puts the cameras")
+        raise InputError(f"scene {scene.name!r} has no object {parent!r}: give --rig-parent an object of the scene")
     mounted = add_rig(scene, paths, parent and scene.objects[parent], options.model or "", say)
     options.cameras = options.cameras or [item.name for item in mounted]
     if options.frames is None and getattr(options, "frame", None) is None:
@@ -137,7 +137,7 @@ def _mount(scene, options, paths: Sequence[str], say: Callable[[str], object]) -
 def _take_poses(scene, options) -> None:
     """Let the options name the frames of the poses of their cameras. Raises InputError if there are none."""
     if options.frames is not None or getattr(options, "frame", None) is not None:
-        raise InputError("--poses are frames of their own: leave out --frame and --frames")
+        raise InputError("--poses sets the frames: leave out --frame and --frames")
     options.cameras = options.cameras or ([ALL] if options.camera is None else [options.camera])
     options.frames = frames_of(find_cameras(scene, options.cameras))
     if not options.frames:

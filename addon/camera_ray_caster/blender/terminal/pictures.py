@@ -97,12 +97,12 @@ def parsed(parser: Parser, arguments: Sequence[str]) -> Namespace:
     if options.shard and options.frames is None:
         raise InputError("--shard selects a share of the frames of --frames: add --frames")
     if options.complete and not (options.dataset and options.file is not None and options.file.is_dir()):
-        raise InputError("--complete completes the folder of a data set: dataset.py FOLDER --complete")
+        raise InputError("--complete needs the folder of a data set: dataset.py FOLDER --complete")
     for name in "folders", "retries", "log":
         if getattr(options, name) and not options.dataset:
             raise InputError(f"--{name} applies to data sets only: add --dataset")
     if options.retries < 0:
-        raise InputError("--retries is a number of times: give 0 or more")
+        raise InputError("--retries is negative: give 0 or more")
     options.format = options.format or (files.NPZ if options.dataset else files.EXR)
     options.skip_existing |= options.dataset
     return options

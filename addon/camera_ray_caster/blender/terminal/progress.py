@@ -99,7 +99,7 @@ def follow(
             if count > 1:
                 progress.add(outcome.made, bool(outcome.failure))
             if progress.failed == progress.done == MOST_FAILURES:
-                raise InputError(f"the first {MOST_FAILURES} pictures failed: mend the file, or the machine")
+                raise InputError(f"the first {MOST_FAILURES} pictures failed: see their errors above")
             yield outcome
 
 

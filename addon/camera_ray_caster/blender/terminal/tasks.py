@@ -68,7 +68,7 @@ class Tasks:
             except (OSError, CancelledError) as error:
                 if not self._reconnected():
                     raise InputError("the Dask scheduler has ended: start again; finished pictures are kept") from error
-        raise InputError("the Dask scheduler ends again and again: look at its log; finished pictures are kept")
+        raise InputError("the Dask scheduler has ended several times: see its log; finished pictures are kept")
 
     def _until_lost(self) -> Iterator[Outcome]:
         seen, gone = time.monotonic(), 0

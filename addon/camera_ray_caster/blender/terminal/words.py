@@ -128,9 +128,9 @@ def add_cameras(parser) -> None:
 def check_cameras(options: argparse.Namespace) -> None:
     """Raise InputError for options of cameras that exclude each other."""
     if options.rig and (options.camera or options.calibration):
-        raise InputError("--rig brings its own cameras and lenses: leave out --camera and --calibration")
+        raise InputError("--rig reads cameras and lenses from its file: leave out --camera and --calibration")
     if options.rig_parent and not options.rig:
-        raise InputError("--rig-parent says where the cameras of --rig are: add --rig FILE")
+        raise InputError("--rig-parent applies to --rig only: add --rig FILE")
     if options.cameras and options.camera:
         raise InputError("--camera and --cameras exclude each other: leave out --camera")
     if options.cameras and options.calibration:

@@ -152,7 +152,7 @@ def _points(first, first_name: str, second, second_name: str) -> tuple[np.ndarra
     for argument, name in ((first, first_name), (second, second_name)):
         values = arguments.numbers(argument, name)
         if values.shape[-1:] != (3,):
-            raise InputError(f"{name} of shape {values.shape} are no vectors: give x, y, z, shape (..., 3)")
+            raise InputError(f"{name} have shape {values.shape}: give arrays of shape (..., 3)")
         ends.append(values)
     try:
         shape = np.broadcast_shapes(*(values.shape for values in ends))
@@ -181,7 +181,7 @@ def _passes(passes) -> tuple[str, ...]:
 def _range(near, far) -> tuple[float, float]:
     near, far = arguments.number(near, "near", math.inf), arguments.number(far, "far", math.inf)
     if not 0 <= near <= far:
-        raise InputError(f"hits cannot count from near = {near:g} to far = {far:g}: give 0 <= near <= far")
+        raise InputError(f"the range from near = {near:g} to far = {far:g} is invalid: give 0 <= near <= far")
     return near, far
 
 

@@ -87,12 +87,12 @@ def blender_lens(camera: Camera) -> BlenderLens:
     parallel = bool((np.abs(rays[:, :2]) <= PARALLEL * np.abs(rays[:, 2:])).all() and (rays[:, 2] < 0).all())
     if camera.pixel_time is not None or not (camera.model.central or parallel):
         reason = "whose pixels have their own times" if camera.pixel_time is not None else "whose rays have no eye"
-        raise InputError(f"no lens of Blender is like that of camera {camera.name!r}, {reason}: {remedy}")
+        raise InputError(f"no Blender camera type matches the lens of camera {camera.name!r}, {reason}: {remedy}")
     if parallel and not camera.model.central:
         lens = _orthographic(camera, np.stack((x, y), axis=-1), places + rays)
         if lens is not None and lens.worst <= FAR * max(width, height):
             return lens
-        raise InputError(f"no lens of Blender is like that of camera {camera.name!r}: {remedy}")
+        raise InputError(f"no Blender camera type matches the lens of camera {camera.name!r}: {remedy}")
     there = np.isfinite(rays).all(axis=-1)
     if not there.any():
         raise InputError(f"camera {camera.name!r} has no ray in its frame: there is nothing to fit")
@@ -102,7 +102,7 @@ def blender_lens(camera: Camera) -> BlenderLens:
     nearest = min(lenses, key=lambda lens: lens.worst, default=None)
     if nearest is None or nearest.worst > FAR * max(width, height):
         error = "" if nearest is None else f"; the nearest errs by {nearest.worst:.2g} pixels"
-        raise InputError(f"no lens of Blender is like that of camera {camera.name!r}{error}: {remedy}")
+        raise InputError(f"no Blender camera type matches the lens of camera {camera.name!r}{error}: {remedy}")
     straight = (lens for lens in lenses if lens.camera.model.key == Perspective.key and lens.worst <= GOOD)
     lens = next(straight, nearest)
     with np.errstate(all="ignore"):  # NaN means no ray

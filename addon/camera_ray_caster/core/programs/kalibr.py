@@ -80,7 +80,7 @@ def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
         moved = any(np.abs(pose - beside[0]).max() > MOVED * (1 + np.abs(pose).max()) for pose in beside)
         if len(lens_texts) > 1 or moved:
             change = "its lens" if len(lens_texts) > 1 else f"it moves beside {names[number - 1]!r}"
-            raise InputError(f"a camchain is of one rig, but camera {name!r} changes ({change}): export one frame")
+            raise InputError(f"a camchain is a fixed rig, but camera {name!r} changes ({change}): export one frame")
         chain += f"cam{number}:\n{lens_texts.pop()}  rostopic: {json.dumps('/' + name, ensure_ascii=False)}\n"
         if beside:
             chain += "  T_cn_cnm1:\n" + "".join(f"  - {row}\n" for row in beside[0].tolist())

@@ -52,7 +52,7 @@ def points_in_camera(raw: BlenderCamera, line: Line, choose: str) -> np.ndarray:
     pose = pose_from(raw)
     points, matrix = (np.asarray(array, np.float64) for array in line_data[:2])
     if not (np.isfinite(points).all() and np.isfinite(matrix).all()):
-        raise InputError(f"{line.name} of camera {raw.name!r} has no finite place: clear its object's transform")
+        raise InputError(f"{line.name} of camera {raw.name!r} has infinite or NaN numbers: clear its transform")
     points, away = points @ matrix[:3, :3].T, matrix[:3, 3] - pose.eye
     size, far = np.ptp(points, axis=0).max() if len(points) else 0.0, np.abs(away).max()
     if 0 < size <= EPS32 * far:

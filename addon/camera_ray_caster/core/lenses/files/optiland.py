@@ -53,12 +53,12 @@ def _row(surface: dict[str, Any], after: dict[str, Any], number: int) -> Row:
     reflects = surface.get("is_reflective") or (surface.get("interaction_model") or {}).get("is_reflective")
     if kind not in ("Plane", "StandardGeometry", *POWERS) or reflects or any(geometry["cs"][axis] for axis in BESIDE):
         description = f"{kind}{', reflecting' if reflects else ''}"
-        raise InputError(f"surface {number} is a {description}: only centered ones that refract are read")
+        raise InputError(f"surface {number} is a {description}: only centered, refracting surfaces are supported")
     step = POWERS.get(kind, 1)
     powers = enumerate(geometry.get("coefficients") or () if kind in POWERS else (), 1)
     asphere = tuple((step * k, float(value)) for k, value in powers if value)
     if asphere and asphere[0][0] < 2:
-        raise InputError(f"surface {number} has a coefficient of r^1: its tip is no vertex")
+        raise InputError(f"surface {number} has a coefficient of r^1, a cone at its vertex: remove it")
     radius = float(geometry.get("radius", inf))
     rim = float((surface.get("aperture") or {}).get("r_max", inf))
     index, abbe = _medium(surface["material_post"], number)

@@ -45,7 +45,7 @@ def read(text: str, name: str) -> Prescription:
     except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
         raise InputError(f"its sequential model cannot be read ({type(error).__name__}: {error})") from error
     if not 0 <= stop < len(rows):
-        raise InputError("its stop_surface is none of its surfaces")
+        raise InputError("its stop_surface is out of range")
     return Prescription(tuple(rows), stop, str(system.get("title") or name), "", before)
 
 
@@ -60,7 +60,7 @@ def _row(
         or surface["interact_mode"] == "reflect"
     ):
         problem = f"{kind}, {surface['interact_mode']}"
-        raise InputError(f"surface {surface_index} is a {problem}: only centered ones that refract are read")
+        raise InputError(f"surface {surface_index} is a {problem}: only centered, refracting surfaces are supported")
     conic, step = (
         float(numbers["ec"]) - 1 if "ec" in numbers else float(numbers.get("cc", 0.0)),
         POWER_STEPS.get(kind, 1),
@@ -68,7 +68,7 @@ def _row(
     powers = enumerate(numbers["coefs"], 1) if kind in POWER_STEPS else ()
     asphere = tuple((step * k, float(value) * unit ** (1 - step * k)) for k, value in powers if value)
     if asphere and asphere[0][0] < 2:
-        raise InputError(f"surface {surface_index} has a coefficient of r^1: its tip is no vertex")
+        raise InputError(f"surface {surface_index} has a coefficient of r^1, a cone at its vertex: remove it")
     clear = surface.get("clear_apertures") or [{"attributes": {"radius": surface.get("max_aperture", 0.0)}}]
     index, abbe = _medium(gap, surface_index)
     curvature, behind = float(numbers["cv"]) / unit, float(gap["thi"]) * unit
