@@ -127,19 +127,24 @@ class User:
         copies that Python command; of a property Ctrl+Shift+C copies the data path. ``known`` has its height, and the
         mouse is at a ``share`` of the region's width.
 
-        Where it was the last time is tried first, then every 17 pixels: less than a button's height.
+        Where it was the last time is tried first, then every 17 pixels: less than a button's height. The sidebar is
+        scrolled to its end, and back, if the button is not in sight.
         """
-        wm, region = bpy.context.window_manager, region or self.region()
+        wm, turns = bpy.context.window_manager, (None, True, False) if region is None else (None,)
+        region = region or self.region()
         x, top = region.x + round(region.width * share), region.y + region.height - 34
-        for y in (self.known.get(command, top), *range(top, region.y, -17)):
-            wm.clipboard = ""
-            yield from self.point(x, y)
-            self.send("key", keys)
-            yield
-            yield
-            if wm.clipboard.strip().startswith(command):
-                self.known[command] = y
-                return
+        for down in turns:
+            if down is not None:
+                yield from self.scroll(60, down)
+            for y in (self.known.get(command, top), *range(top, region.y, -17)):
+                wm.clipboard = ""
+                yield from self.point(x, y)
+                self.send("key", keys)
+                yield
+                yield
+                if wm.clipboard.strip().startswith(command):
+                    self.known[command] = y
+                    return
         raise AssertionError(f"no button for {command}")
 
     def press(self, command, region=None):

@@ -116,6 +116,8 @@ def test_of_a_single_picture_the_report_is_not_the_result(blender, scene, tmp_pa
     end = run(blender, tmp_path / "one", frames="CURRENT")
     assert end.startswith("Wrote ")
     assert end.count("\n") < 4  # the report has some 70 lines
+    blender.ops.wm.read_factory_settings(use_empty=True)
+    assert in_process.latest() == "", "another file has no result"
 
 
 def test_what_cannot_begin_or_end_leaves_the_buttons_as_they_were(blender, scene, tmp_path, monkeypatch):

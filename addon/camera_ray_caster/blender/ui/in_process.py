@@ -181,6 +181,12 @@ def forget() -> None:
         work.temporary.cleanup()
 
 
+@bpy.app.handlers.persistent
+def forget_result(*_) -> None:
+    """Another file is opened: how the latest work ended is no more of interest there."""
+    _ended.clear()
+
+
 class StopAll(bpy.types.Operator):
     """Stop after the current tile, frame or file; pictures that are finished stay. Press again to end it at once"""
 
@@ -201,4 +207,5 @@ CLASSES = (StopAll,)
 def register(undo) -> None:
     """Register this module; see ``registration``."""
     undo.callback(_ended.clear)
+    undo.add_handlers([("load_post", forget_result)])
     undo.callback(forget)
