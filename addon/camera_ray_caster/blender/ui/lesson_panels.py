@@ -36,6 +36,10 @@ class Steps:
         layout.operator(StepThrough.bl_idname, icon="EYEDROPPER", text="Click a Pixel")
         state, known = context.window_manager.camera_ray_caster_place, lessons(context)
         draw_lecture(layout, state, bool(known))
+        if known and not state.lecture:
+            row = layout.row(align=True)
+            row.operator(CopySteps.bl_idname, icon="COPYDOWN")
+            row.operator(ClearSteps.bl_idname, icon="X")
         layout.operator(OpenLesson.bl_idname, icon="URL")
         if state.lecture:
             draw_place(layout, state)
@@ -44,9 +48,6 @@ class Steps:
         if not known:
             return
         layout.operator(EmptyAtHit.bl_idname, icon="EMPTY_SINGLE_ARROW")
-        row = layout.row(align=True)
-        row.operator(CopySteps.bl_idname, icon="COPYDOWN")
-        row.operator(ClearSteps.bl_idname, icon="X")
         draw_place(layout, state)
         *others, latest = known.values()
         if others:
