@@ -127,15 +127,15 @@ class User:
         copies that Python command; of a property Ctrl+Shift+C copies the data path. ``known`` has its height, and the
         mouse is at a ``share`` of the region's width.
 
-        Where it was the last time is tried first, then every 17 pixels: less than a button's height. The sidebar is
-        scrolled to its end, and back, if the button is not in sight.
+        Where it was the last time is tried first, then every 17 pixels: less than a button's height. If it is not in
+        sight, the sidebar is scrolled down, by less than its height at once, and back to its top.
         """
-        wm, turns = bpy.context.window_manager, (None, True, False) if region is None else (None,)
+        wm, turns = bpy.context.window_manager, [0, 10, 10, 10, -60] if region is None else [0]
         region = region or self.region()
         x, top = region.x + round(region.width * share), region.y + region.height - 34
-        for down in turns:
-            if down is not None:
-                yield from self.scroll(60, down)
+        for steps in turns:
+            if steps:
+                yield from self.scroll(abs(steps), steps > 0)
             for y in (self.known.get(command, top), *range(top, region.y, -17)):
                 wm.clipboard = ""
                 yield from self.point(x, y)
