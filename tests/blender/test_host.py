@@ -92,7 +92,7 @@ def test_threads_of_the_viewport_never_reach_blender(camera_scene, threads, monk
     )
     context = SimpleNamespace(region=SimpleNamespace(width=96, height=64), region_data=looking)
     view = viewport.Viewport()
-    view._begin(context, cached_scene(bpy.context), {"shading": "MATERIAL"})
+    view._begin(context, cached_scene(bpy.context), None, {"shading": "MATERIAL"})
     view._worker.result()
     viewport.stop()
     assert "_cast" in {code.co_name for code in threads.codes}

@@ -7,7 +7,6 @@ evaluated once, and kept until Blender reports a change or no view shows the cam
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator
-from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from time import perf_counter
 
@@ -185,7 +184,7 @@ def forget() -> None:
 def stop() -> None:
     """Forget all frames, and end the timer."""
     forget()
-    with suppress(ValueError):
+    if bpy.app.timers.is_registered(read_on):
         bpy.app.timers.unregister(read_on)
 
 
