@@ -65,11 +65,7 @@ def by_hand(user, scenes):
         settings = reports.latest(scene).camera["settings"]
         assert abs(settings["tilt"] - 0.5) < 1e-6
         assert settings["fov"] == own.fov
-    yield from user.until(lambda: any(area.type == "IMAGE_EDITOR" for area in user.window.screen.areas), "it is shown")
-    yield from user.wait(0.7)
-    yield from user.point(*middle(user.area("IMAGE_EDITOR")))
-    yield from user.key("Escape")
-    yield from user.until(lambda: any(area.type == "VIEW_3D" for area in user.window.screen.areas), "the view is back")
+    yield from user.see_render()
 
 
 def over(user, name, region, keys):

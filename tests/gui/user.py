@@ -147,6 +147,21 @@ class User:
                     return
         raise AssertionError(f"no button for {command}")
 
+    def see_render(self, name=""):
+        """Wait for Blender's render view, take a screenshot with a name, and go back to the 3D View."""
+
+        def has(kind):
+            return any(area.type == kind for area in self.window.screen.areas)
+
+        yield from self.until(lambda: has("IMAGE_EDITOR"), "the render is shown")
+        yield from self.wait(0.7)
+        if name:
+            self.picture(name)
+        editor = self.area("IMAGE_EDITOR")
+        yield from self.point(editor.x + editor.width // 2, editor.y + editor.height // 2)
+        yield from self.key("Escape")
+        yield from self.until(lambda: has("VIEW_3D"), "the view is back")
+
     def press(self, command, region=None):
         """Press the button of an operator: see ``find``."""
         yield from self.find(command, region)

@@ -130,12 +130,7 @@ def dome_movie(user, scenes):
     yield from user.wait(1)
     user.picture("walk_dome_search")
     yield from user.key("Return")
-    yield from user.until(lambda: any(area.type == "IMAGE_EDITOR" for area in user.window.screen.areas), "it is shown")
-    yield from user.wait(1)
-    user.picture("walk_dome_frame")
-    yield from user.point(*middle(user.area("IMAGE_EDITOR")))
-    yield from user.key("Escape")
-    yield from user.until(lambda: any(area.type == "VIEW_3D" for area in user.window.screen.areas), "the view is back")
+    yield from user.see_render("walk_dome_frame")
     scene.frame_end, run, folder = MOVIE, addon("ui.in_process"), user.folder / "dome"
     folder.mkdir(exist_ok=True)
     yield from user.point(*middle(view))

@@ -53,11 +53,7 @@ def set_frame(user, scenes):
     yield from user.until(lambda: said, "the render warns")
     engine.own_frame = own_frame
     assert said[0].sentence.startswith("the picture is stretched: the frame has 96 × 54 pixels"), said
-    yield from user.until(lambda: any(area.type == "IMAGE_EDITOR" for area in user.window.screen.areas), "it is shown")
-    yield from user.wait(0.7)
-    yield from user.point(*middle(user.area("IMAGE_EDITOR")))
-    yield from user.key("Escape")
-    yield from user.until(lambda: any(area.type == "VIEW_3D" for area in user.window.screen.areas), "the view is back")
+    yield from user.see_render()
     yield from user.wait(0.5)
     yield from user.press(f"{BUTTON}set_frame(")
     yield from user.until(lambda: render.resolution_x == 1080, "the frame is square")
@@ -91,12 +87,7 @@ def other_engine(user, scenes):
     yield from user.key("F12")
     yield from user.until(lambda: said, "the status bar says it")
     assert said[0].startswith("Workbench does not support Omnimax: it renders a perspective view"), said
-    yield from user.until(lambda: any(area.type == "IMAGE_EDITOR" for area in user.window.screen.areas), "it is shown")
-    yield from user.wait(0.7)
-    user.picture("other_engine_f12")
-    yield from user.point(*middle(user.area("IMAGE_EDITOR")))
-    yield from user.key("Escape")
-    yield from user.until(lambda: any(area.type == "VIEW_3D" for area in user.window.screen.areas), "the view is back")
+    yield from user.see_render("other_engine_f12")
     yield from user.wait(0.5)
     user.picture("other_engine")
     yield from user.press(f"{BUTTON}use_this_engine(")

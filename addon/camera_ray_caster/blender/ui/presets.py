@@ -18,7 +18,7 @@ TICK = f"{GROUP}_set_frame"
 """Name of the property of the window manager that the menu of presets shows as a tick box."""
 FOLDER = Path(__file__).resolve().parents[1]
 """Parent folder of ``presets``."""
-OWNERS = {OWN: "own", CAMERA: "camera"}
+OWNERS = {OWN: "settings", CAMERA: "camera"}
 """Variable names in a preset, by owner of the settings that it stores."""
 KEPT = {"FLOAT", "INT", "BOOLEAN", "ENUM", "VECTOR", "TEXT", "FILE"}
 """Kinds of settings that a preset stores; objects and images belong to a .blend file."""
@@ -69,7 +69,7 @@ class AddModelPreset(AddPresetBase, bpy.types.Operator):
     bl_label = "Add Camera Model Preset"
     preset_menu = ModelPresets.bl_idname
     preset_subdir = GROUP
-    preset_defines = ("camera = bpy.context.camera", f"own = camera.{GROUP}")
+    preset_defines = ("camera = bpy.context.camera", f"settings = camera.{GROUP}")
 
     @classmethod
     def poll(cls, context):
@@ -84,7 +84,7 @@ class AddModelPreset(AddPresetBase, bpy.types.Operator):
         types = ["camera.type", "camera.panorama_type"] if getattr(camera, GROUP).model == BLENDERS_OWN else []
         kept = [setting for setting in (*settings_of(camera), *port_settings(camera)) if setting.kind in KEPT]
         stored = (f"{OWNERS[setting.owner]}.{setting.name}" for setting in kept if setting.owner in OWNERS)
-        return [f"own.{MODEL.name}", *types, *stored]
+        return [f"settings.{MODEL.name}", *types, *stored]
 
 
 CLASSES = (ExecutePreset, ModelPresets, AddModelPreset)
