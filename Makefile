@@ -27,14 +27,15 @@ cast: $(VENV)/ready  ## render the example scene into out/ and print the report
 WORKERS ?= $(shell $(PYTHON) -c "import os; print(os.cpu_count() + 1)")
 
 # The tests of a file stay together, since they share fixtures, and one window. A worker that dies, or a test that hangs,
-# ends the run.
+# ends the run. The longest files come first (tests/tiers.py); pytest-xdist would begin with those of most tests.
+BY_FILE = --dist loadfile --no-loadscope-reorder
 PYTEST = $(VENV)/bin/python -m pytest --numprocesses $(WORKERS) --max-worker-restart 0 --timeout 600
 
 test: $(VENV)/ready  ## run the tests with this Python, on all cores: each thing once, in two to three minutes
-	$(PYTEST) --dist loadfile
+	$(PYTEST) $(BY_FILE)
 
 test-full: $(VENV)/ready  ## the same with all further examples, some ten minutes
-	$(PYTEST) --dist loadfile -m "not hostile"
+	$(PYTEST) $(BY_FILE) -m "not hostile"
 
 test-hostile: $(VENV)/ready  ## try all hostile inputs, kills and full disks, some minutes; PART=1/4: a fourth of them
 	$(PYTEST) tests/hostile -m hostile $(if $(PART),--part $(PART))

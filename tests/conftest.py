@@ -73,10 +73,11 @@ def pytest_configure(config):
 
 @pytest.hookimpl(tryfirst=True, wrapper=True)
 def pytest_collection_modifyitems(config, items):
-    """Mark what the default tier leaves out, before pytest leaves it out; then leave out all but a part."""
+    """Mark what the default tier leaves out, before pytest leaves it out, and sort; then leave out all but a part."""
     if config.stash[_MODELS]:
         items[:] = tiers.of_models(items, config.stash[_MODELS])
     tiers.mark_the_rest(items)
+    tiers.longest_first(items)
     yield
     if config.getoption("--part"):
         first, step = map(int, config.getoption("--part").split("/"))

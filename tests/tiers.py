@@ -24,6 +24,13 @@ FULL = (
     "tests/scripts/test_openjd.py", "tests/scripts/test_side_by_side.py", "tests/scripts/test_work_precision.py",
 )  # fmt: skip
 """Rooms and files that need a window, a copy of the repository, other programs or hostile inputs: full as a whole."""
+LONGEST = (
+    "tests/recipes/test_recipes.py", "tests/blender/faces/test_beside_cycles.py", "tests/scripts/test_benchmark.py",
+    "tests/core/web/test_page.py", "tests/scripts/test_site.py", "tests/blender/faces/test_picture.py",
+    "tests/core/library/test_own_model.py", "tests/core/sets/test_memory.py", "tests/core/any_rays/test_brute_force.py",
+    "tests/hostile/test_share_kills.py", "tests/hostile/test_farm_kills.py", "tests/core/camera/test_camera.py",
+)  # fmt: skip
+"""The files that take longest, the longest first: workers begin with them, so that none is left with one at the end."""
 SHARE = 4
 """The default tier tries one of so many generated examples."""
 is_full = True
@@ -48,6 +55,12 @@ def mark_the_rest(items):
         for item in group:
             if item not in kept:
                 item.add_marker(pytest.mark.full)
+
+
+def longest_first(items):
+    """Sort collected tests, so that those of the longest files come first."""
+    turns = {path: turn for turn, path in enumerate(LONGEST)}
+    items.sort(key=lambda item: turns.get(item.nodeid.split("::", 1)[0], len(turns)))
 
 
 def chosen(cases):
