@@ -11,7 +11,6 @@ fails.
 """
 
 from collections.abc import Iterator
-from contextlib import suppress
 from itertools import groupby, pairwise
 from pathlib import Path
 
@@ -106,9 +105,6 @@ def main(description: str) -> int:
     passed = True
     try:
         views = read_set(folder)
-        if any(view.file.suffix == ".exr" for view in views):
-            with suppress(ImportError):  # without bpy; reading refuses the files
-                from camera_ray_caster.blender.read import openexr  # noqa: F401
         view_pairs = list(pairs(views))
         if not view_pairs:
             parser.error(f"{str(folder)!r} has one view: a set has two or more")

@@ -19,7 +19,7 @@ LOW = {
     "core.conventions", "core.other_names", "core.tuning", "core.materials", "core.mesh", "core.timeline",
     "core.records", "core.arguments", "core.memory", "core.maths", "core.units",
 }  # fmt: skip
-FILES = {"core.programs", "core.text_forms"}
+FILES = {"core.openexr", "core.programs", "core.text_forms"}
 RAYS = LOW | {"core.lenses", "core.cameras", "core.camera"} | FILES
 HITS = RAYS | {"core.scene", "core.motion", "core.shapes", "core.errors", "core.casting"}
 READ = {"core", "blender.properties", "blender.process", "blender.read"}
@@ -42,6 +42,7 @@ MAY_IMPORT = {
     "core.maths": {"core.conventions", "core.maths"},
     "core.lenses": LOW | {"core.lenses"},
     "core.cameras": LOW | {"core.lenses", "core.cameras"},
+    "core.openexr": {"core.memory", "core.openexr", "core.records"},
     "core.text_forms": {"core.memory", "core.records", "core.text_forms"},
     "core.programs": LOW | FILES | {"core.cameras"},
     "core.camera": RAYS,
@@ -105,7 +106,6 @@ OUTSIDE = {
     "core": {"numpy"},
     "core.sets.set_reader": {"numpy", "OpenImageIO"},  # a program of its own, which is copied into sets
     "blender": {"numpy"} | BLENDER,
-    "blender.read.openexr": {"numpy", "OpenImageIO"} | BLENDER,
     "blender.cycles": {"numpy"} | BLENDER | CYCLES,
     "blender.terminal.farm": BLENDER | DASK,
     "": set(),

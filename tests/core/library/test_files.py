@@ -8,8 +8,8 @@ import pytest
 
 import camera_ray_caster as crc
 from camera_ray_caster.core.exports import EXPORT_FORMATS
-from camera_ray_caster.core.exports.exr import exr
 from camera_ray_caster.core.exports.stmap import places
+from camera_ray_caster.core.openexr.writing import exr
 
 from ...exr import read_exr
 

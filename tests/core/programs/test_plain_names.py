@@ -2,11 +2,9 @@
 
 import json
 
-import numpy as np
 import pytest
 
 import camera_ray_caster as crc
-from camera_ray_caster.core.programs.parts import ray_exr
 from camera_ray_caster.core.programs.reading.lenses import lenses_of
 from camera_ray_caster.core.records import InputError
 
@@ -109,16 +107,3 @@ def test_equal_cameras_keep_their_names(tmp_path):
     assert crc.load_calibration(file, camera="right").settings["fx"] == 400
     with pytest.raises(InputError, match=r"has 2 cameras: set .* to one of left, right"):
         crc.load_calibration(file)
-
-
-def test_an_stmap_is_no_table_of_rays(tmp_path, monkeypatch):
-    (tmp_path / "map.exr").write_bytes(ray_exr.MAGIC)
-    v, u = np.mgrid[0.95:0.05:9j, 0.05:0.95:13j].astype(np.float32)
-    for blue, says in ((np.ones_like(u), "it is an STMap"), (u - v, "")):
-        channels = dict(zip("RGB", (u, v, blue), strict=True))
-        monkeypatch.setattr(ray_exr, "decoder", lambda path, channels=channels: channels)
-        if says:
-            with pytest.raises(InputError, match=says):
-                lenses_of(str(tmp_path / "map.exr"))
-        else:
-            assert lenses_of(str(tmp_path / "map.exr"))[0].model == "RAY_TABLE"

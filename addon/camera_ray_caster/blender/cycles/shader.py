@@ -10,12 +10,12 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from ...core.exports.exr import exr
+from ...core.openexr.writing import exr
 from ...core.records import InputError
 from ...core.shaders.camera_shader import CameraShader
 from ..read.camera import shader_mark
-from ..read.openexr import openimageio
 from .animation import remove_keyframes
+from .openimageio import openimageio
 
 CUSTOM = "CUSTOM"
 

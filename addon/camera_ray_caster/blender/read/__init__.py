@@ -1,6 +1,5 @@
 """Reading of Blender's scenes as plain records. The scene is restored afterwards."""
 
-from . import openexr  # noqa: F401  (calibration files in EXR are read by it)
 from .scene import read_camera, read_scene, read_shapes
 
 __all__ = ["read_camera", "read_scene", "read_shapes"]

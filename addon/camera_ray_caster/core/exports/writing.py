@@ -10,8 +10,8 @@ import numpy as np
 
 from ..file_set import atomic_folder
 from ..names import folded
+from ..openexr.writing import exr
 from ..records import InputError
-from .exr import exr
 from .format import Content
 
 

@@ -1,8 +1,7 @@
 """Finished data sets, read back and written for other programs: one module per format.
 
-A set is a folder that ``cast.py`` or ``dataset.py`` made, with passes as NPZ, or as EXR, which Blender reads. A format
-is a function that takes the views of a set and yields names and contents of files, which may lie in folders; it needs
-numpy only.
+A set is a folder that ``cast.py`` or ``dataset.py`` made, with passes as NPZ or as EXR. A format is a function
+that takes the views of a set and yields names and contents of files, which may lie in folders; it needs numpy only.
 """
 
 from __future__ import annotations

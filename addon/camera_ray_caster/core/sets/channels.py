@@ -1,7 +1,7 @@
 """Passes in the multilayer EXR files of pictures: by their keys, as NPZ files have them.
 
 Blender names channels LAYER.LABEL.LETTER, and writes a depth of inf as 1e10. A file has the whole frame, also where
-only the render border was cast. Blender's OpenImageIO reads it; see ``ray_exr.decoder``.
+only the render border was cast.
 """
 
 from __future__ import annotations
@@ -14,8 +14,7 @@ import numpy as np
 
 from ..casting.passes import PASSES
 from ..names import file_names
-from ..programs.parts import ray_exr
-from ..records import InputError
+from ..openexr.reading import channels_of
 
 COMPOSITE = "Composite"
 """Blender's name for the layer of the compositor's result, which is no pass."""
@@ -27,15 +26,9 @@ LABELS = {label.lower(): key for key, declared in PASSES.items()
 
 def passes_of(path: Path, camera: Mapping[str, Any]) -> dict[str, np.ndarray]:
     """Return the passes of a file, row 0 at the bottom: the pixels of the camera's window, as its report has it. With
-    several view layers a key is LAYER.PASS. Raises InputError without Blender, and ValueError for a file that cannot be
-    read.
+    several view layers a key is LAYER.PASS. Raises InputError or OSError for a file that cannot be read.
     """
-    if ray_exr.decoder is None:
-        raise InputError(
-            f"{str(path)!r} is an EXR file, which Blender reads: use a Python with bpy, or make the set with "
-            "--format NPZ"
-        )
-    channels = ray_exr.decoder(str(path))
+    channels = channels_of(path.read_bytes(), str(path))
     by_layer: dict[str, dict[str, dict[str, np.ndarray]]] = {}
     for name, values in channels.items():
         layer, label, letter = name.rsplit(".", 2) if name.count(".") > 1 else ("", "", name)

@@ -2,29 +2,24 @@
 
 Names are as the passes of renders have them: the last part is X, Y, Z or R, G, B, and what stands before it has the
 word direction or origin. The rays are in the camera's frame; a direction of NaN or 0 is no ray. Numbers have to be
-float32: half floats turn rays by up to 2.4e-4 radians. The files are read by Blender, which sets ``decoder``.
+float32: half floats turn rays by up to 2.4e-4 radians.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 
+from ...openexr.reading import MAGIC, channels_of
 from .document import Document
 from .lens import Lens
 from .ray_arrays import table
 
-MAGIC = b"\x76\x2f\x31\x01"
 AXES = "xyz", "rgb"
 
 OFF_MIDDLE = 0.3
 """How far the middle of an STMap may be from the picture's, as a part of its sides."""
-
-decoder: Callable[[str], Mapping[str, np.ndarray]] | None = None
-"""Returns the channels of a file by name, (rows, columns) from the top: float16 those of half floats, else float32.
-Raises ValueError with the reason, in one line, for a file that cannot be read.
-"""
 
 
 def looks(document: Document) -> bool:
@@ -34,12 +29,7 @@ def looks(document: Document) -> bool:
 
 def lens_of(document: Document) -> Lens:
     """Return the lens of an image. Raises InputError."""
-    if decoder is None:
-        raise document.refusal("it is an EXR image, which Blender reads: load it there, or save its arrays as NPZ")
-    try:
-        channels = decoder(document.path)
-    except ValueError as error:
-        raise document.refusal(str(error)) from error
+    channels = channels_of(document.data, document.path)
     if any(values.dtype == np.float16 for values in channels.values()):
         raise document.refusal(
             "its numbers are half floats, which turn rays by up to 2.4e-4 radians: save it as float32"

@@ -1,4 +1,4 @@
-"""An OpenEXR file of three float32 channels: one part, scan lines, not compressed.
+"""An OpenEXR file of three float32 channels, which is written: one part, scan lines, not compressed.
 
 Reference: openexr.com, "OpenEXR File Layout".
 """

@@ -1,0 +1,1 @@
+"""OpenEXR images: their channels are read and written without a library."""
