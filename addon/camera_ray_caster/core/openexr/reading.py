@@ -53,7 +53,8 @@ def channels_of(content: bytes, path: str) -> dict[str, np.ndarray]:
 
 def _parts(content: bytes, several: bool) -> tuple[list[dict[str, bytes]], int]:
     """Return the attributes of each part by name, and where their tables begin."""
-    parts, position = [], 8
+    parts: list[dict[str, bytes]] = []
+    position = 8
     while not parts or (several and content[position]):
         attributes = {}
         while content[position]:
