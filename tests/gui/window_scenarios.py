@@ -46,12 +46,12 @@ def set_frame(user, scenes):
     yield from user.wait(0.7)
     user.picture("set_frame")
     engine, said = addon("engine.engine"), []
-    own_frame = engine.own_frame
-    engine.own_frame = lambda raw: said.append(own_frame(raw)) or said[-1]
+    asked_size = engine.asked_size
+    engine.asked_size = lambda raw: said.append(asked_size(raw)) or said[-1]
     yield from user.point(*middle(user.region("WINDOW")))
     yield from user.key("F12")
     yield from user.until(lambda: said, "the render warns")
-    engine.own_frame = own_frame
+    engine.asked_size = asked_size
     assert said[0].sentence.startswith("the picture is stretched: the frame has 96 × 54 pixels"), said
     yield from user.see_render()
     yield from user.wait(0.5)

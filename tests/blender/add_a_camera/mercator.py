@@ -21,5 +21,5 @@ class Mercator(Model):
     FORMULA = (Step("Longitude and latitude", "lon = (x/W - 1/2) 360°, lat = atan(sinh((2 y/H - 1) asinh(tan(top))))"),)
 
     def rays(self, x, y):
-        lon, high = (x / self.frame[0] - 0.5) * 2 * np.pi, (2 * y / self.frame[1] - 1) * np.arcsinh(np.tan(self.top))
+        lon, high = (x / self.size[0] - 0.5) * 2 * np.pi, (2 * y / self.size[1] - 1) * np.arcsinh(np.tan(self.top))
         return (0.0, 0.0, 0.0), (np.sin(lon) / np.cosh(high), np.tanh(high), -np.cos(lon) / np.cosh(high))

@@ -67,7 +67,7 @@ def test_the_lens_of_a_clip_becomes_the_cameras(distortion, terms, key, blender,
             setattr(lens, before + name, terms.get(name, 0.0))
     assert blender.ops.camera_ray_caster.lens_of_clip() == {"FINISHED"}
     camera = read_camera(camera_scene)
-    assert (camera.model.key, camera.model.frame) == (key, SIZE)
+    assert (camera.model.key, camera.model.size) == (key, SIZE)
     x, y = 0.25, -0.15
     if distortion == "NUKE":
         scale = FOCAL / 16  # of the longer side's half

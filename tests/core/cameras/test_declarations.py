@@ -1,9 +1,13 @@
 """What models declare of themselves: names, groups, menu numbers, settings, formulas."""
 
+from dataclasses import dataclass
+
 import pytest
 
+import camera_ray_caster as crc
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cameras.model import GROUPS
+from camera_ray_caster.core.cameras.perspective import Perspective
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)
@@ -40,3 +44,19 @@ def test_a_setting_that_models_share_is_declared_once():
     for model in MODELS:
         for setting in model.SETTINGS:
             assert declared.setdefault(setting.name, setting) is setting, f"{model.key}: {setting.name}"
+
+
+def test_the_old_names_of_a_model_work_with_a_warning():
+    """`frame` is `size`; a device's `size` is `device_size`."""
+    with pytest.warns(DeprecationWarning, match="device_size"):
+
+        @dataclass(frozen=True)
+        class Device(Perspective):
+            @property
+            def size(self):
+                return 8, 4
+
+    model = Device(*(getattr(crc.camera("PERSP", (6, 5)).model, name) for name in ("size", "window")))
+    assert (model.size, model.device_size) == ((6, 5), (8, 4))
+    with pytest.warns(DeprecationWarning, match="Model.size"):
+        assert model.frame == (6, 5)

@@ -13,7 +13,7 @@ from .shots import CAMERAS
 
 def pixels_of(lens, there, points):
     """Where a calibration sees points in the camera's frame."""
-    frame = dict(zip(("resolution_x", "resolution_y"), there.model.frame, strict=True))
+    frame = dict(zip(("resolution_x", "resolution_y"), there.model.size, strict=True))
     if lens.model == "EQUIRECTANGULAR":
         x, y, z = points.T
         left, right, bottom, top = (lens.settings[name] for name in ANGLES)
@@ -29,7 +29,7 @@ def test_a_calibration_of_a_camera_has_its_rays(key):
     examples = [*EXAMPLES[key], *(settings for own, settings in CAMERAS.values() if own == key)]
     for settings in examples:
         there = camera(key, {**settings, "matrix_world": IDENTITY})
-        width, height = there.model.frame
+        width, height = there.model.size
         x, y = np.random.default_rng(5).uniform(0, 1, (2, 300)) * [[width], [height]]
         rays = there.rays_at(x, y)
         seen = there.model.project(rays.directions)

@@ -20,6 +20,6 @@ class EqualArea(Model):
     FORMULA = (Step("Longitude and latitude", "lon = (x/W - 1/2) 360°, lat = asin((2 y/H - 1) sin(top))"),)
 
     def rays(self, x, y):
-        lon, up = (x / self.frame[0] - 0.5) * 2 * np.pi, (2 * y / self.frame[1] - 1) * np.sin(self.top)
+        lon, up = (x / self.size[0] - 0.5) * 2 * np.pi, (2 * y / self.size[1] - 1) * np.sin(self.top)
         level = np.sqrt(np.where(abs(up) < 1, 1 - up * up, np.nan))  # beyond the poles there is no ray
         return (0.0, 0.0, 0.0), (np.sin(lon) * level, up, -np.cos(lon) * level)

@@ -27,7 +27,7 @@ FLOAT32 = NUMPY | {
 @pytest.mark.parametrize(("key", "settings"), CASES)
 def test_float32_stays_within_the_bound(key, settings):
     made = replace(camera(key, settings), aperture=None)
-    frame = np.float32(made.model.frame)
+    frame = np.float32(made.model.size)
     x, y = (np.float32(np.random.default_rng(0).uniform(0, side, 200)) for side in frame)
     bounds = ray_bounds(made, x.astype(float), y.astype(float), (0.0, 0.0))
     with np.errstate(all="ignore"):

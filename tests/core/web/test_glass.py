@@ -70,7 +70,7 @@ def test_the_picture_follows_the_stop_and_the_film(opened, page):
     settled(opened, lambda one: seen(one)["fNumber"] > 90)
     closed = light_of(opened)
     model, (height, width) = example(RealLens).model, closed.shape[:2]
-    x, y = (np.arange(width) + 0.5) * model.frame[0] / width, (np.arange(height) + 0.5) * model.frame[1] / height
+    x, y = (np.arange(width) + 0.5) * model.size[0] / width, (np.arange(height) + 0.5) * model.size[1] / height
     a, b = model.window.plane_from_pixels(x, y[:, None])
     away = (model.film - model.optics.exit_pupil[0]) ** 2
     rows, columns, _ = (

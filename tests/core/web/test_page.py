@@ -9,7 +9,7 @@ import pytest
 
 import camera_ray_caster as crc
 from camera_ray_caster.core.web.figures import FIGURES
-from camera_ray_caster.core.web.page import FRAME, lesson_page
+from camera_ray_caster.core.web.page import SIZE, lesson_page
 
 from .chromium import browser
 
@@ -96,7 +96,7 @@ def test_a_drag_in_the_picture_moves_the_ray(opened, page):
     settled(opened, lambda one: shown(one, "pixel") != "x = 448, y = 198")
     at = state(opened)
     assert (at["x"], at["y"]) != (448, 198)
-    expected = crc.camera("PERSP", FRAME).model.rays(at["x"], at["y"])[1]
+    expected = crc.camera("PERSP", SIZE).model.rays(at["x"], at["y"])[1]
     assert ray(opened)[3:] == pytest.approx(list(expected), rel=1e-14)
     assert numbers(shown(opened, "direction r")) == pytest.approx(list(expected), rel=1e-5)
     assert numbers(shown(opened, "back to the pixel"))[:2] == pytest.approx([at["x"], at["y"]], rel=1e-5)
@@ -108,7 +108,7 @@ def test_three_cameras_answer_the_exercise(opened, page, key):
     fresh(opened, page, f"#v=1&model={key}&x=300.5&y=120.25")
     settled(opened, lambda one: state(one)["model"] == key and shown(one, "direction r"))
     lines = {"slit_1": [(-1, 0, 0), (1, 0, 0)]} if key == "PUSHBROOM" else {}
-    frame = (360, 360) if key == "FISHEYE_EQUIDISTANT" else FRAME  # a circle
+    frame = (360, 360) if key == "FISHEYE_EQUIDISTANT" else SIZE  # a circle
     origin, direction = crc.camera(key, frame, **lines).model.rays(300.5, 120.25)
     assert ray(opened) == pytest.approx([float(one) for one in (*origin, *direction)], abs=1e-13)
     values = opened.execute_script("return document.querySelectorAll('#steps .numbers').length")
@@ -125,7 +125,7 @@ def test_a_knob_changes_the_numbers_and_the_picture(opened, page):
     lens = state(opened)["values"]["lens"]
     assert lens != 50
     x, y = state(opened)["x"], state(opened)["y"]
-    expected = crc.camera("PERSP", FRAME, lens=lens).model.rays(x, y)[1]
+    expected = crc.camera("PERSP", SIZE, lens=lens).model.rays(x, y)[1]
     assert ray(opened)[3:] == pytest.approx(list(expected), rel=1e-13)
 
 
@@ -220,7 +220,7 @@ def test_it_fits_screens(page, screen):
         assert max(driver.execute_script(f"return {figures}")) <= width
         canvas = by_id(driver, "picture")
         mouse(driver).move_to_element(canvas).click().perform()
-        settled(driver, lambda one: abs(state(one)["x"] - FRAME[0] / 2) < 3)
+        settled(driver, lambda one: abs(state(one)["x"] - SIZE[0] / 2) < 3)
 
 
 def test_inputs_have_names_and_contrast_is_high(opened, page):
@@ -254,7 +254,7 @@ def test_without_webgl_the_numbers_are_there(page):
         driver.get(page)
         assert "no WebGL" in by_id(driver, "blank").text
         mouse(driver).move_to_element(by_id(driver, "picture")).click().perform()
-        settled(driver, lambda one: abs(state(one)["x"] - FRAME[0] / 2) < 3)
+        settled(driver, lambda one: abs(state(one)["x"] - SIZE[0] / 2) < 3)
         assert numbers(shown(driver, "direction r"))[2] == -1
         by_id(driver, "own-use").click()
         assert by_id(driver, "own-error").text == ""

@@ -2,7 +2,7 @@
 
 import pytest
 
-from camera_ray_caster.core.web.page import FRAME
+from camera_ray_caster.core.web.page import SIZE
 from camera_ray_caster.core.web.room import EYE
 
 from .chromium import browser
@@ -19,7 +19,7 @@ def test_the_ray_stands_beside_the_pixel_while_a_finger_drags_it(page):
         tag = by_id(driver, "tag")
         assert not tag.is_displayed()
         mouse(driver).move_to_element(by_id(driver, "picture")).click_and_hold().move_by_offset(-90, 30).perform()
-        settled(driver, lambda one: tag.is_displayed() and abs(state(one)["x"] - FRAME[0] / 2) > 90)
+        settled(driver, lambda one: tag.is_displayed() and abs(state(one)["x"] - SIZE[0] / 2) > 90)
         assert numbers(tag.text)[:3] == pytest.approx(ray(driver)[3:], abs=1e-2)
         place, cross, frame = (by_id(driver, name).rect for name in ("tag", "cross", "frame"))
         assert place["x"] >= frame["x"]
@@ -40,7 +40,7 @@ def test_the_camera_obscura_shows_its_box_and_the_image_upside_down_behind_the_h
         settled(opened, lambda one: {"hole", "wall"} <= {label["text"] for label in label_texts(one)})
         assert "eye" not in {label["text"] for label in label_texts(opened)}
     opened.find_element("css selector", "[data-view=outside]").click()
-    slope = 3.0 * FRAME[1] / FRAME[0] / 2.0 / 2  # half of the wall's height over the box's depth
+    slope = 3.0 * SIZE[1] / SIZE[0] / 2.0 / 2  # half of the wall's height over the box's depth
 
     def color(up):
         point = [0.13, EYE + 0.875 * up * slope * 1.4, 3.0 + 1.4]  # behind the hole, between the lines of the grid

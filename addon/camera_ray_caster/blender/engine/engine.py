@@ -13,7 +13,7 @@ from time import perf_counter, sleep
 import bpy
 import numpy as np
 
-from ...core.camera.own_frame import own_frame
+from ...core.camera.asked_size import asked_size
 from ...core.camera.stereo import eye_record
 from ...core.cast import Images
 from ...core.memory import exhausted
@@ -143,7 +143,7 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
 
     def tell_stretched(self, depsgraph) -> None:
         """Warn, in a window, of a frame in which the camera's picture is stretched: a terminal's user has given it."""
-        asked = None if bpy.app.background else own_frame(camera_record(self.camera_override, depsgraph))
+        asked = None if bpy.app.background else asked_size(camera_record(self.camera_override, depsgraph))
         if asked is not None:
             self.report({"WARNING"}, f"{asked.sentence[:1].upper()}{asked.sentence[1:]}. Set Frame is in the sidebar")
 

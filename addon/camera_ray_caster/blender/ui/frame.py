@@ -8,7 +8,7 @@ from functools import partial
 
 import bpy
 
-from ...core.camera.own_frame import OwnFrame, own_frame
+from ...core.camera.asked_size import AskedSize, asked_size
 from ...core.cameras import MODELS
 from ...core.cameras.parts.settings import CAMERA, Flag
 from ...core.records import InputError
@@ -45,12 +45,12 @@ class SetFrame(OfCamera, bpy.types.Operator):
         return {"FINISHED"}
 
 
-def frame_of(context, item) -> OwnFrame | None:
-    """Return the frame that a camera object asks for, or None: see ``own_frame``, which raises InputError."""
-    return own_frame(camera_record(item, context.evaluated_depsgraph_get()))
+def frame_of(context, item) -> AskedSize | None:
+    """Return the frame that a camera object asks for, or None: see ``asked_size``, which raises InputError."""
+    return asked_size(camera_record(item, context.evaluated_depsgraph_get()))
 
 
-def set_frame(scene, wanted: OwnFrame) -> str:
+def set_frame(scene, wanted: AskedSize) -> str:
     """Set a scene's resolution, and return a line that says so."""
     render = scene.render
     before = f"{render.resolution_x} × {render.resolution_y}"

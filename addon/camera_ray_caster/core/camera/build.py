@@ -92,7 +92,7 @@ def _check_apart(raw: BlenderCamera, model: Model, pose: Pose) -> None:
     if not model.differentiable:  # a pixel may be a single ray
         return
     half = np.array((-0.25, 0.25))
-    x, y = model.frame[0] / 2 + half[None, :], model.frame[1] / 2 + half[:, None]
+    x, y = model.size[0] / 2 + half[None, :], model.size[1] / 2 + half[:, None]
     with np.errstate(all="ignore"):
         origin, direction = (
             pose.basis @ np.stack(np.broadcast_arrays(*vector, x + y)[:3]).reshape(3, -1) for vector in model.rays(x, y)
@@ -111,13 +111,13 @@ def _check_inverse(raw: BlenderCamera, model: Model, pose: Pose) -> None:
     arithmetic. The message names the number that is farthest from 1. Models that are not smooth may miss a pixel.
     """
     window = getattr(model, "window", None)
-    if window is not None and not model.parallel and not np.abs(window.extent(model.frame)).max() <= FARTHEST_PLANE:
+    if window is not None and not model.parallel and not np.abs(window.extent(model.size)).max() <= FARTHEST_PLANE:
         raise InputError(
             f"the frame of camera {raw.name!r} reaches too far on its image plane: {_cause(raw, model, pose)}"
         )
     if not model.smooth:
         return
-    x, y = (coordinate.ravel() for coordinate in np.meshgrid(*(0.5 + PLACES * (side - 1) for side in model.frame)))
+    x, y = (coordinate.ravel() for coordinate in np.meshgrid(*(0.5 + PLACES * (side - 1) for side in model.size)))
     with np.errstate(all="ignore"):
         local_rays = [np.stack(np.broadcast_arrays(*vector, x)[:3], axis=-1) for vector in model.rays(x, y)]
         _check_lengths(model, local_rays[1])

@@ -61,9 +61,9 @@ class Camera(Description):
     """The function of ``build`` that makes cameras."""
 
     def __post_init__(self) -> None:
-        if self.model.frame != self.raster.size:
+        if self.model.size != self.raster.size:
             raise InputError(
-                f"camera {self.name!r} has a raster of {self.raster.size} and a model of {self.model.frame} pixels: "
+                f"camera {self.name!r} has a raster of {self.raster.size} and a model of {self.model.size} pixels: "
                 "make a camera of another size anew, by crc.camera"
             )
 

@@ -66,8 +66,8 @@ def _picture(camera: Camera) -> dict[str, object]:
 
 def _plane(model: WindowModel) -> list[list[float]]:
     """Return the window's affine map from the pixel to the image plane, (2, 3)."""
-    K = model.window.matrix(model.frame[1])
-    opencv_from_pixels = np.array([[1.0, 0.0, -0.5], [0.0, -1.0, model.frame[1] - 0.5], [0.0, 0.0, 1.0]])
+    K = model.window.matrix(model.size[1])
+    opencv_from_pixels = np.array([[1.0, 0.0, -0.5], [0.0, -1.0, model.size[1] - 0.5], [0.0, 0.0, 1.0]])
     return (np.diag([1.0, -1.0]) @ (inverse(K) @ opencv_from_pixels)[:2]).tolist()
 
 

@@ -257,7 +257,7 @@ def with_eye(lens: Model, raw: BlenderCamera, pose: Pose) -> Model:
     convergence = inf if settings["convergence_mode"] == "PARALLEL" else CONVERGENCE.read(raw)
     begin, end = (float(settings[f"pole_merge_angle_{word}"]) for word in ("from", "to"))
     eye = SphericalStereo(
-        frame=lens.frame,
+        size=lens.size,
         lens=lens,
         upright=None,
         tilted=None,

@@ -137,7 +137,7 @@ class BehindPort(Model):
         """Return the blur of chief rays of count x count pixels, (3, count, count), as ``lines`` does: 0 where the lens
         has no ray, NaN where the port reflects one totally.
         """
-        x, y = (np.linspace(0.0, side, count) for side in self.frame)
+        x, y = (np.linspace(0.0, side, count) for side in self.size)
         x, y = (np.ravel(each)[:, None] for each in np.meshgrid(x, y))
         share = (np.arange(SAMPLES) + 0.5) / SAMPLES
         point = thin.points(*(np.ravel(each) for each in np.meshgrid(share, share)))
@@ -194,7 +194,7 @@ class BehindPort(Model):
         return rounding * moved, rounding * turned
 
 
-for _name in ("facts", "guarded", "light", "pixel_rounding", "shape", "size", "smooth"):
+for _name in ("device_size", "facts", "guarded", "light", "pixel_rounding", "shape", "smooth"):
     setattr(BehindPort, _name, property(attrgetter(f"lens.{_name}")))
 
 

@@ -49,7 +49,7 @@ class CubemapFace(WindowModel):
     @cached_property
     def extent(self) -> tuple[float, float, float, float]:
         """The angles that the frame shows: lowest and highest across, lowest and highest up."""
-        return self.window.extent(self.frame)
+        return self.window.extent(self.size)
 
     def rays(self, x, y):
         """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.

@@ -90,7 +90,7 @@ class FisheyePolynomial(Radial):
 
     @property
     def _corner(self) -> float:
-        x0, x1, y0, y1 = self.window.extent(self.frame)
+        x0, x1, y0, y1 = self.window.extent(self.size)
         return hypot(max(-x0, x1), max(-y0, y1))
 
     @lazy

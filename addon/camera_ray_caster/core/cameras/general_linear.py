@@ -114,7 +114,7 @@ class GeneralLinear(Model):
         x and y are pixel coordinates of broadcastable shapes. The origin and the slopes are right to gamma(5) of the
         sum of the magnitudes of the three rays' numbers.
         """
-        alpha, beta = x / self.frame[0], y / self.frame[1]
+        alpha, beta = x / self.size[0], y / self.size[1]
         s, t, slope_x, slope_y = (a + (alpha * b + beta * c) for a, b, c in self.affine.T.tolist())
         scale = 1 / np.sqrt(slope_x * slope_x + (slope_y * slope_y + 1))
         return (s, t, 0.0), (slope_x * scale, slope_y * scale, -scale)
@@ -128,12 +128,12 @@ class GeneralLinear(Model):
         x, y, z = components(np.asarray(points, np.float64))
         across, up, determinant = self._solved(x, y, z)
         determinant = np.where((z <= 0) & (determinant != 0), determinant, np.nan)
-        return np.stack((across / determinant * self.frame[0], up / determinant * self.frame[1]), axis=-1)
+        return np.stack((across / determinant * self.size[0], up / determinant * self.size[1]), axis=-1)
 
     def bounds(self, centers, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
         across, up, determinant = self._solved(*(Interval.around(c, radii) for c in components(centers)))
-        x, y = across / determinant * self.frame[0], up / determinant * self.frame[1]
+        x, y = across / determinant * self.size[0], up / determinant * self.size[1]
         bounds = np.stack(
             (x.low - PIXEL_MARGIN, x.high + PIXEL_MARGIN, y.low - PIXEL_MARGIN, y.high + PIXEL_MARGIN), axis=-1
         )

@@ -1,13 +1,12 @@
 """The contract of a camera model: what a file in this folder has to define, and the defaults of all else.
 
-A model is a lens and its film alone: pixels in, rays in the camera's frame out. Where the camera stands, which part of
-the picture is rendered and at what time is the business of ``core.camera``.
+A model is a lens and its film: pixels in, rays in the camera's frame out. Pose, render window and time belong to
+``core.camera``.
 
 A new model is one file, with a frozen dataclass that inherits ``Model``, and one word in MODELS. It has to give
-``key``, ``label``, ``description``, ``group``, ``number``, ``FORMULA`` and ``rays``. All else has a default:
-``from_blender`` reads SETTINGS into the model's fields, ``project`` is a numerical inverse of ``rays``, and ``bounds``
-follow from the formula. A closed form is an improvement, not a duty. One contract test runs over MODELS
-(tests/core/cameras/test_model.py), and a test adds a model of 25 lines (tests/blender/add_a_camera).
+``key``, ``label``, ``description``, ``group``, ``number``, ``FORMULA`` and ``rays``. All else has a default, which may
+be overridden by a closed form. One contract test runs over MODELS (tests/core/cameras/test_model.py), and a test adds a
+model of 25 lines (tests/blender/add_a_camera).
 
 ``rays`` is arithmetic on two numbers or arrays. It branches on their values only by numpy's ``where``, and leaves out
 work only where ``may_hold`` says that no value needs it, so that the formula can be recorded
@@ -37,6 +36,7 @@ from .parts.aperture import Aperture, thin_lens
 from .parts.calibration import FROM_FILE
 from .parts.film import Window
 from .parts.inverse import pixels_of
+from .parts.old_names import OldNames
 from .parts.outline import outline_of
 from .parts.seen_parts import SeenParts, parts_of
 from .parts.settings import Setting
@@ -49,11 +49,11 @@ GROUPS = ("Blender's Own", "Calibrated", "Real Lens", "Fisheye", "Dome", "Panora
 
 
 @dataclass(frozen=True)
-class Model(ABC):
-    """A camera model over a frame; the module's docstring lists what a new model has to define."""
+class Model(OldNames, ABC):
+    """A camera model over a picture of a size; the module's docstring lists what a new model has to define."""
 
-    frame: tuple[int, int]
-    """Width and height of the full frame in pixels."""
+    size: tuple[int, int]
+    """Width and height of the full picture in pixels."""
 
     key: ClassVar[str]
     """Name in files, records and reports: Blender's camera or panorama type, or a name that Blender does not have."""
@@ -78,17 +78,15 @@ class Model(ABC):
     smooth: ClassVar[bool] = True
     """Whether rays are smooth functions of the pixel wherever they exist. If so, the numerical inverse is exact."""
     guarded: ClassVar[bool] = True
-    """Whether ``Camera.project`` checks each pixel by its ray (see ``camera.guard``), in 0.9 to 1.3 times the time. Not
-    so where rays take longer than their inverse, since they iterate to it, search a path or need sines: it would take
-    1.4 to 6 times the time. Their inverse is checked in a few places of each new camera.
+    """Whether ``Camera.project`` checks each pixel by its ray (see ``camera.guard``), in 0.9 to 1.3 times the time.
+    False where rays take longer than their inverse (1.4 to 6 times): a few pixels of each new camera are checked.
     """
     differentiable: ClassVar[bool] = True
     """Whether pixels are parts of one picture. Otherwise there are no derivatives, no solid angles and no flow."""
     polynomials: ClassVar[int] = NOWHERE
-    """Where polynomials give a whole picture (see ``maths.panels``). IN_RAYS: the rays take 1.4 to 17 times as long
-    without them, and fill most of the picture, or a disc beyond which ``endless`` may continue them. Casts, which need
-    the components apart, gain nothing (0.8 to 1.2). IN_CASTS: ``rays`` ask for them, too, for parts of the formula that
-    take sines or iterate, and are smooth a little beyond the disc.
+    """Where polynomials give a whole picture (see ``maths.panels``). IN_RAYS: rays take 1.4 to 17 times as long without
+    them, and fill most of the picture, or a disc beyond which ``endless`` continues them. Casts gain nothing (0.8 to
+    1.2). IN_CASTS: also in ``rays``, for parts of it that take sines or iterate and are smooth beyond the disc.
     """
     SETTINGS: ClassVar[tuple[Setting, ...]] = ()
     """All settings that ``from_blender`` reads, in the order of the panel: properties, reports and tables follow."""
@@ -108,7 +106,7 @@ class Model(ABC):
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Self:
         """Return the model that a record describes. Raises InputError, in one line, for invalid settings.
 
-        By default the fields after ``frame`` are the values of SETTINGS, in their order.
+        By default the fields after ``size`` are the values of SETTINGS, in their order.
         """
         return cls(raster.size, *(setting.read(raw) for setting in cls.SETTINGS))
 
@@ -140,7 +138,7 @@ class Model(ABC):
     @lazy
     def seen_parts(self) -> SeenParts:
         """Parts of the frame by the ranges of the formula."""
-        return parts_of(lambda: self.recorded, self.frame, self.central)
+        return parts_of(lambda: self.recorded, self.size, self.central)
 
     @property
     def disc(self) -> Disc | None:
@@ -164,7 +162,7 @@ class Model(ABC):
         the middle of the frame. It is right to the rounding of ``rays`` if the model is smooth; otherwise it may miss a
         pixel.
         """
-        return pixels_of(self.rays, self.frame, points)
+        return pixels_of(self.rays, self.size, points)
 
     def bounds(self, centers, radii) -> np.ndarray:
         """Return x0, x1, y0, y1, (n, 4): pixels outside of which no point of the balls, by centers (n, 3) in the
@@ -219,8 +217,8 @@ class Model(ABC):
         return 0.0, np.inf
 
     @property
-    def size(self) -> tuple[int, int] | None:
-        """Columns and rows of a device's own frame; None, the default, if any frame will do."""
+    def device_size(self) -> tuple[int, int] | None:
+        """Columns and rows of a device such as a scanner; None, the default, for models of any size."""
         return None
 
     @property
@@ -230,8 +228,8 @@ class Model(ABC):
 
     @property
     def shape(self) -> float | None:
-        """Width over height, on square pixels, of the frame in which the model stretches nothing; None, the default, if
-        it has none. With a calibration the size of the calibrated picture counts instead: see ``camera.own_frame``.
+        """Width over height, on square pixels, of a picture that the model does not stretch; None, the default, if it
+        has none. With a calibration, the size of the calibrated picture counts instead: see ``camera.asked_size``.
         """
         return None
 
@@ -265,9 +263,9 @@ class Model(ABC):
     def pixel_rounding(self, x, y) -> tuple[Any, Any]:
         """Return the rounding before the model's own formula, as shifts of the pixel in x and in y, in pixels.
 
-        The default is gamma(8) of the frame's width and height.
+        The default is gamma(8) of ``size``.
         """
-        return gamma(8) * self.frame[0], gamma(8) * self.frame[1]
+        return gamma(8) * self.size[0], gamma(8) * self.size[1]
 
     @property
     def ray_rounding(self) -> float:
@@ -291,10 +289,10 @@ class WindowModel(Model):
 
     @property
     def shape(self) -> float | None:
-        """See Model: that of the part of the plane that the frame shows. A model's plane has one unit on both axes."""
-        width, height = self.frame
+        """See Model: the shape of the part of the plane that is seen."""
+        width, height = self.size
         return abs(width * self.window.pitch_x / (height * self.window.pitch_y))
 
     def pixel_rounding(self, x, y) -> tuple[Any, Any]:
         """See Model; the error is that of the window's few operations."""
-        return self.window.rounding(x, y, self.frame)
+        return self.window.rounding(x, y, self.size)

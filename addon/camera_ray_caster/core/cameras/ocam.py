@@ -104,7 +104,7 @@ class OCam(Calibrated):
     @lazy
     def own_rim(self) -> float:
         """See Calibrated; also the corner of the frame."""
-        corners = np.meshgrid(*((0.0, side) for side in self.frame))
+        corners = np.meshgrid(*((0.0, side) for side in self.size))
         corner = largest(*np.hypot(*self.window.plane_from_pixels(*corners)).ravel())
         return least(corner, least_root(self._slopes))
 

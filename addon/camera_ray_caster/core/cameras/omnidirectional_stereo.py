@@ -153,7 +153,7 @@ class OmnidirectionalStereo(WindowModel):
         first, second = EYES[self.eyes]
         if first == second:
             return x, y, first
-        length, position = (self.frame[1], y) if self.eyes == "TOP_BOTTOM" else (self.frame[0], x)
+        length, position = (self.size[1], y) if self.eyes == "TOP_BOTTOM" else (self.size[0], x)
         later = position >= length / 2
         position = 2 * (position - np.where(later, length / 2, 0.0))
         side = np.where(later, second, first)
@@ -162,7 +162,7 @@ class OmnidirectionalStereo(WindowModel):
     def _in_frame(self, x, y, later):
         """Return the frame's pixel coordinates of a place in one eye's frame, which is its second half if ``later``."""
         if self.eyes == "TOP_BOTTOM":
-            y = (y + later * self.frame[1]) / 2
+            y = (y + later * self.size[1]) / 2
         elif self.eyes == "SIDE_BY_SIDE":
-            x = (x + later * self.frame[0]) / 2
+            x = (x + later * self.size[0]) / 2
         return x, y

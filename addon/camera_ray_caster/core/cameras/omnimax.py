@@ -100,7 +100,7 @@ class Omnimax(Pitched, OmnimaxLens):
 
     def formula_values(self, x: float, y: float) -> dict[str, Any]:
         """See Model: the frame's edges on the film."""
-        return dict(zip(("left", "right", "bottom", "top"), self.window.extent(self.frame), strict=True))
+        return dict(zip(("left", "right", "bottom", "top"), self.window.extent(self.size), strict=True))
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Omnimax:

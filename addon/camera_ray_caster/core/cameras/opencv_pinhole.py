@@ -87,7 +87,7 @@ class OpencvPinhole(WindowModel):
     @property
     def K(self) -> np.ndarray:
         """See Model."""
-        return self.window.matrix(self.frame[1])
+        return self.window.matrix(self.size[1])
 
     @cached_property
     def _reach(self) -> float:
@@ -98,7 +98,7 @@ class OpencvPinhole(WindowModel):
     @property
     def _edge(self) -> tuple[np.ndarray, np.ndarray]:
         """Pixel coordinates x and y on the edge of the frame, a pixel outside."""
-        width, height = self.frame
+        width, height = self.size
         ends = [np.linspace(-1.0, side + 1.0, EDGE_POINTS) for side in (width, height)]
         x = np.concatenate((ends[0], ends[0], *np.full((2, EDGE_POINTS), ((-1.0,), (width + 1.0,)))))
         y = np.concatenate((*np.full((2, EDGE_POINTS), ((-1.0,), (height + 1.0,))), ends[1], ends[1]))

@@ -83,5 +83,5 @@ class Orthographic(WindowModel):
 
     def facts(self) -> dict[str, object]:
         """Return the width and height of the frame in Blender units."""
-        width, height = self.frame
+        width, height = self.size
         return {"frame": [width * self.window.pitch_x, height * self.window.pitch_y]}

@@ -83,13 +83,13 @@ class Perspective(WindowModel):
     @property
     def K(self) -> np.ndarray | None:
         """See Model."""
-        return self.window.matrix(self.frame[1])
+        return self.window.matrix(self.size[1])
 
     def facts(self) -> dict[str, object]:
         """Return the field of view across and up (degrees, without shift, as in Blender's panel), and d and aspect of
         the normalized ray x u + aspect y v + d w over [-1, 1]², d the distance of its image plane.
         """
-        width, height = self.frame
+        width, height = self.size
         tan_x, tan_y = self.window.pitch_x * width / 2, self.window.pitch_y * height / 2
         return {
             "field_of_view": [degrees(2 * atan(tan_x)), degrees(2 * atan(tan_y))],

@@ -184,7 +184,7 @@ class RealLens(WindowModel):
     def _corner(self) -> float:
         """Radius of the frame's farthest corner on the upright film, with a pixel around the frame."""
         pixel = abs(self.window.pitch_x) + abs(self.window.pitch_y)
-        return self.tilted.farthest(self.chief, self.window.corners(self.frame)) + pixel
+        return self.tilted.farthest(self.chief, self.window.corners(self.size)) + pixel
 
     @lazy
     def search(self) -> ChiefSearch:
@@ -210,7 +210,7 @@ class RealLens(WindowModel):
         wide = float(self.radius * abs(self.optics.entrance_pupil[1]) * self.unit)
         pupil = Pupil(wide, thin.focus, thin.blades, thin.rotation, thin.ratio)
         numbers = float(self.radius), float(self.unit), self._corner, float(self.film)
-        grid = np.meshgrid(*(np.linspace(0.0, side, SAMPLES) for side in self.frame))
+        grid = np.meshgrid(*(np.linspace(0.0, side, SAMPLES) for side in self.size))
         places = self.on_film(*map(np.ravel, grid)) if self.tilted else None
         pupil = measured(self.optics, self.chief, pupil, *numbers, places)
         return replace(pupil, colors=self._colors) if COLOR.read(raw) else pupil
@@ -257,7 +257,7 @@ class RealLens(WindowModel):
     @property
     def K(self) -> np.ndarray:
         """The camera matrix of the paraxial lens; see Model."""
-        matrix = self.window.matrix(self.frame[1])
+        matrix = self.window.matrix(self.size[1])
         matrix[:2, :2] /= 2 * float(self.chief.at(np.float64(0.0))[2])
         return matrix
 
@@ -293,7 +293,7 @@ class RealLens(WindowModel):
         )
         origin, turned = chief.errors[0] + height * chief.rim + front, chief.errors[1] + 2 * tangent * chief.rim
         if self.tilted:
-            off = self.tilted.rounding(chief, self.window.corners(self.frame))
+            off = self.tilted.rounding(chief, self.window.corners(self.size))
             radii, angles, *origins = self.search.table
             origin += off * float(np.hypot(*(np.gradient(values, radii) for values in origins)).max())
             turned += off * float(np.gradient(angles, radii).max())

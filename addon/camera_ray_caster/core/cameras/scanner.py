@@ -106,14 +106,14 @@ class Scanner(Model):
         return self.span
 
     @property
-    def size(self) -> tuple[int, int]:
+    def device_size(self) -> tuple[int, int]:
         """See Model: columns and beams."""
         return self.columns, len(self.beams)
 
     @property
     def firing(self) -> Firing:
         """See Model."""
-        rows = ((np.arange(self.frame[1]) + 0.5) * self._down).astype(int)
+        rows = ((np.arange(self.size[1]) + 0.5) * self._down).astype(int)
         return Firing(self.period * self._across, self.beams.delay[np.minimum(rows, len(self.beams) - 1)])
 
     def facts(self) -> dict[str, object]:
@@ -182,7 +182,7 @@ class Scanner(Model):
     def pixel_rounding(self, x, y):
         """See Model: also that of the start angle and of the beams' azimuths."""
         turned_by = (abs(self.start) + np.abs(self.beams.ends[1]).max()) / abs(self.step * self._across)
-        return gamma(8) * (self.frame[0] + turned_by), gamma(8) * self.frame[1]
+        return gamma(8) * (self.size[0] + turned_by), gamma(8) * self.size[1]
 
     @property
     def ray_rounding(self) -> float:
@@ -195,8 +195,8 @@ class Scanner(Model):
 
     @lazy
     def _across(self) -> float:
-        return self.columns / self.frame[0]
+        return self.columns / self.size[0]
 
     @lazy
     def _down(self) -> float:
-        return len(self.beams) / self.frame[1]
+        return len(self.beams) / self.size[1]

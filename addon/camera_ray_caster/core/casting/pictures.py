@@ -65,7 +65,7 @@ class Picture:
         finds; NaN if it finds none in the full frame. For cameras that see a point more than once.
         """
         pose, model = self.camera.pose, self.camera.model
-        seen_at = pixels_of(model.rays, model.frame, (points - pose.eye) @ inverse(pose.basis).T, start)
+        seen_at = pixels_of(model.rays, model.size, (points - pose.eye) @ inverse(pose.basis).T, start)
         return np.where(self._is_inside(seen_at)[:, None], seen_at, np.nan)
 
     def before(self, points: MovingPoints, pixels: np.ndarray) -> np.ndarray:

@@ -65,7 +65,7 @@ def _unified(model: WindowModel, settings: Mapping[str, float]) -> list[Lens]:
 
 def _lens(model: WindowModel, key: str, focal: float = 1.0, settings: Mapping[str, float] | None = None) -> Lens:
     """Return a lens whose focal lengths are ``focal`` units of the model's image plane."""
-    (fx, skew, cx), (_, fy, cy), _ = model.window.matrix(model.frame[1]).tolist()
+    (fx, skew, cx), (_, fy, cy), _ = model.window.matrix(model.size[1]).tolist()
     matrix = {"fx": fx * focal, "fy": fy * focal, "cx": cx, "cy": cy, "skew": skew * focal}
     return Lens("", key, matrix | dict(settings or {}))
 

@@ -76,7 +76,7 @@ def perspective_of(camera: Camera) -> Camera:
     shift. Raises InputError if these are invalid.
     """
     if camera.K is not None and isinstance(camera.model, WindowModel):
-        return replace(camera, model=Perspective(camera.model.frame, camera.model.window))
+        return replace(camera, model=Perspective(camera.model.size, camera.model.window))
     return replace(camera_from(replace(camera.record, type="PERSP", model="")), pixel_time=None)
 
 

@@ -63,7 +63,7 @@ def lens_drawing(model: RealLens) -> LensDrawing:
     glass += [_circle(model, surface.z + surface.sag(rim * rim)[0], rim) for surface, rim in _rims(model)]
     stop, radius = model.optics.surfaces[model.optics.stop], float(model.radius)
     pupils = [_circle(model, z, abs(size) * radius) for z, size in _pupils(model)]
-    corners = model.window.corners(model.frame)
+    corners = model.window.corners(model.size)
     frame = np.array([_film_point(model, a, b) for a, b in (*corners, corners[0])])
     return LensDrawing(
         glass=np.concatenate([_segments(line) for line in glass]),
@@ -150,7 +150,7 @@ def film_line(model: RealLens, up: np.ndarray, radius: float) -> np.ndarray:
     """Return the line of the film in the plane of the axis and of an upright direction, (2, 3), turned to x = 0: of the
     frame in the image circle, and to a radius on the upright film.
     """
-    corner = float(np.hypot(*model.window.corners(model.frame).T).max())
+    corner = float(np.hypot(*model.window.corners(model.size).T).max())
     reach = max(radius, min(float(model.chief.rim), corner))
     line = []
     for side in (reach, -reach):

@@ -231,7 +231,7 @@ def _formula(camera: Camera, seen: Probe):
     if isinstance(lens, WindowModel):
         plane = lens.window.plane_from_pixels(x, y)
         pitch = lens.window.pitch_x, lens.window.pitch_y
-        moved = {name: 2 * X / (q * side) for name, X, q, side in zip("xy", plane, pitch, model.frame, strict=True)}
+        moved = {name: 2 * X / (q * side) for name, X, q, side in zip("xy", plane, pitch, model.size, strict=True)}
     formulas = [(step.symbols, moved if NORMALIZED in step.words else {}) for step in model.steps]
     noise = dict.fromkeys(values, NOISE)
     for step, lines in zip(model.steps, worked_out(formulas, _known(camera, x, y) | values, noise), strict=True):

@@ -136,7 +136,7 @@ def size_of(file: str, lens: Lens) -> tuple[int, int]:
     """Return the size of the calibrated picture. Raises InputError if the file does not tell it."""
     size = lens.size
     if SIZE[0].name not in lens.settings and FILE in models()[lens.model].SETTINGS:  # the tables tell it
-        size = _of_model(lens.model, (1, 1), **lens.settings).model.size or (0, 0)
+        size = _of_model(lens.model, (1, 1), **lens.settings).model.device_size or (0, 0)
     if not all(size):
         raise InputError(f"calibration file {file!r} does not tell the size of its pictures: give size=")
     return size

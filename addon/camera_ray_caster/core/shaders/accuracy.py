@@ -35,10 +35,10 @@ def ray_bounds(camera: Camera, x, y, shift: tuple[float, float]) -> RayBounds:
 
     shift: Cycles' shift of the raster; see ``camera_shader``. The bounds are of first order, for Cycles on a CPU.
     """
-    frame, x, y = camera.model.frame, *np.broadcast_arrays(x, y)
+    x, y = np.broadcast_arrays(x, y)
     places = [
         Rounded(pixel, side * RASTER * (1 + np.abs(pixel / side + moved)) + 2 * EPS32 * np.abs(pixel))
-        for pixel, side, moved in zip((x, y), frame, shift, strict=True)
+        for pixel, side, moved in zip((x, y), camera.model.size, shift, strict=True)
     ]
     numbers = rounded(ray_record(replace(camera, aperture=None)), (*places, Rounded(0.0), Rounded(0.0)))
     origin, direction = numbers[:3], numbers[3:]

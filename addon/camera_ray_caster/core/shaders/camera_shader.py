@@ -120,7 +120,7 @@ def camera_shader(
     outputs = writer.write(ray_record(camera), [Term("x"), Term("y"), Term("across"), Term("up")])
     none = writer.either(*(term.none for term in outputs)) or writer.NO
     texts = [term.text for term in outputs]
-    (width, height), opening = model.frame, camera.aperture
+    (width, height), opening = model.size, camera.aperture
     frame = {"frame_width": width, "frame_height": height, "frame_shift_x": shift[0], "frame_shift_y": shift[1]}
     settings = {name: value for name, value in inputs.values.items() if name not in frame}
     x, y = turn.places
@@ -151,9 +151,9 @@ def ray_record(camera: Camera) -> Record:
     Its four inputs are the pixel coordinates x and y, and a point of the aperture in radii, or for a hole two numbers
     in [0, 1). The fields of the model are parameters.
     """
-    width, height = camera.model.frame
-    frame = Parameter(width, "frame_width"), Parameter(height, "frame_height")
-    model = named(camera.model, frame=frame)
+    width, height = camera.model.size
+    size = Parameter(width, "frame_width"), Parameter(height, "frame_height")
+    model = named(camera.model, size=size)
     chief_ray = replace(camera, model=model).camera_rays if _is_sheared(camera) else model.rays
     opening = _named(camera.aperture, "aperture")
 

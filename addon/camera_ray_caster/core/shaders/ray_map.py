@@ -87,6 +87,6 @@ def ray_map(model: Model) -> DirectionText:
 
 def _record(model: Model) -> Record:
     """Return the record of the direction at x and y, the numbers of the model its parameters."""
-    width, height = model.frame
-    named_model = named(model, frame=(Parameter(width, "frame_width"), Parameter(height, "frame_height")))
+    width, height = model.size
+    named_model = named(model, size=(Parameter(width, "frame_width"), Parameter(height, "frame_height")))
     return record(lambda x, y: list(named_model.rays(x, y)[1]), 2)

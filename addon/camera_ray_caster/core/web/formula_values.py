@@ -52,10 +52,10 @@ def _film(model: Model, raw: BlenderCamera, raster: Raster, x, y) -> Values:
 def _window(model: Model, raw: BlenderCamera, raster: Raster, x, y) -> Values:
     if not isinstance(model, WindowModel):
         return {}
-    window, (width, height) = model.window, model.frame
+    window, (width, height) = model.window, model.size
     pitches = window.pitch_x, window.pitch_y
     plane = window.plane_from_pixels(x, y)
-    moved = {name: 2 * X / (q * side) for name, X, q, side in zip(NORMALIZED, plane, pitches, model.frame, strict=True)}
+    moved = {name: 2 * X / (q * side) for name, X, q, side in zip(NORMALIZED, plane, pitches, model.size, strict=True)}
     half = width * window.pitch_x / 2
     fov = {"fov": 2 * np.arctan(half)} if model.planar else {}  # others have a setting of this name
     return moved | fov | {"aspect": height * window.pitch_y / (2 * half)}

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from ..camera.asked_size import within
 from ..camera.camera import Camera
-from ..camera.own_frame import within
 from ..cameras import MODELS
 from ..cameras.model import GROUPS, Model
 from ..cameras.parts.parameters import parameters_of
@@ -29,10 +29,10 @@ from .room import SCENE
 from .scene import scene_data
 from .split import functions, glsl
 
-FRAME = 640, 360
+SIZE = 640, 360
 """Width and height in pixels of the page's own cameras; of those with a shape of their own, the largest."""
 
-FRAMES = {"SCANNER": (512, 64)}
+SIZES = {"SCANNER": (512, 64)}
 """Frames of models whose rows are few."""
 
 LINES = {
@@ -136,13 +136,13 @@ def example(model: type[Model], **settings: Any) -> Camera:
     """
     lines = {setting.name: LINES[setting.name] for setting in model.SETTINGS if setting.name in LINES}
 
-    def made(frame: tuple[int, int]) -> Camera:
-        return camera(model.key, frame, **lines, **TABLES_OF.get(model.key, {}), **settings)
+    def made(size: tuple[int, int]) -> Camera:
+        return camera(model.key, size, **lines, **TABLES_OF.get(model.key, {}), **settings)
 
-    if model.key in FRAMES:
-        return made(FRAMES[model.key])
-    shape = made(FRAME).model.shape
-    return made(FRAME if shape is None else within(*FRAME, shape))
+    if model.key in SIZES:
+        return made(SIZES[model.key])
+    shape = made(SIZE).model.shape
+    return made(SIZE if shape is None else within(*SIZE, shape))
 
 
 def dense(code: str) -> str:
@@ -174,7 +174,7 @@ class _Tables:
             variants.append({"choices": variant.choices, "names": variant.names, **places})
         return {
             "key": model.key, "label": model.label, "group": model.group, "description": model.description,
-            "frame": model.frame, "central": model.central, "planar": model.planar,
+            "size": model.size, "central": model.central, "planar": model.planar,
             "knobs": [vars(knob) for knob in program.knobs], "choices": program.choices,
             "options": program.options, "labels": {setting.name: setting.label for setting in model.SETTINGS},
             "fixed": [setting.label for setting in program.fixed],

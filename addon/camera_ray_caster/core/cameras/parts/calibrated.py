@@ -65,7 +65,7 @@ class Calibrated(Radial):
     @property
     def K(self) -> np.ndarray | None:
         """See Model."""
-        return self.window.matrix(self.frame[1])
+        return self.window.matrix(self.size[1])
 
     @cached_property
     def widest(self) -> float:

@@ -38,7 +38,7 @@ class Meridians(WindowModel):
     @cached_property
     def extent(self) -> tuple[float, float, float, float]:
         """The part of the window that the frame shows: lowest and highest longitude, lowest and highest height."""
-        return self.window.extent(self.frame)
+        return self.window.extent(self.size)
 
     @classmethod
     def over_frame(cls, raw: BlenderCamera, raster: Raster, longitudes, heights):

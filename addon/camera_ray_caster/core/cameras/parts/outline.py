@@ -18,18 +18,18 @@ def outline_of(model) -> np.ndarray:
     The place is the frame's middle, or if it has no ray, the place in the frame nearest to the image of the viewing
     direction. All are the same place if that has no ray, either.
     """
-    frame = np.array(model.frame)
+    size = np.array(model.size)
 
     def has_ray(places):
         x, y = np.moveaxis(places, -1, 0)
         return np.broadcast_to(~np.isnan(model.rays(x, y)[1][0]), x.shape)
 
     with np.errstate(all="ignore"):
-        start = frame / 2
+        start = size / 2
         if not has_ray(start[None]):
-            ahead = np.clip(model.project(np.array([[0.0, 0.0, -1.0]]))[0], 0, frame)
+            ahead = np.clip(model.project(np.array([[0.0, 0.0, -1.0]]))[0], 0, size)
             start = np.where(np.isnan(ahead), start, ahead)
-        way, parts = AROUND * frame - start, np.arange(PARTS + 1)[:, None] / PARTS
+        way, parts = AROUND * size - start, np.arange(PARTS + 1)[:, None] / PARTS
         end, length = np.zeros(len(way)), np.ones(len(way))
         for _ in range(PASSES):
             seen = np.logical_and.accumulate(has_ray(start + (end + length * parts)[..., None] * way))

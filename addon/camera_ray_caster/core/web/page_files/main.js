@@ -51,10 +51,10 @@ function build() {
   $("label").textContent = own ? "My camera" : model.label;
   $("description").textContent = own ? "The lines that you wrote" : model.description;
   $("model").value = own ? "OWN" : model.key;
-  $("frame").style.aspectRatio = `${model.frame[0]} / ${model.frame[1]}`;
-  $("frame").style.width = `min(100%, ${62 * model.frame[0] / model.frame[1]}vh)`;
+  $("frame").style.aspectRatio = `${model.size[0]} / ${model.size[1]}`;
+  $("frame").style.width = `min(100%, ${62 * model.size[0] / model.size[1]}vh)`;
   for (const id of ["pixel", "knobs", "view"]) $(id).replaceChildren();
-  ["x", "y"].forEach((name, k) => refreshers.push(slider($("pixel"), name, { label: `Pixel ${name}`, text: k ? "From the bottom edge" : "From the left edge", low: 0, high: model.frame[k], unit: "" }, () => state[name], (value) => { state[name] = value; })));
+  ["x", "y"].forEach((name, k) => refreshers.push(slider($("pixel"), name, { label: `Pixel ${name}`, text: k ? "From the bottom edge" : "From the left edge", low: 0, high: model.size[k], unit: "" }, () => state[name], (value) => { state[name] = value; })));
   if (!own) {
     for (const [name, options] of Object.entries(model.options)) refreshers.push(choice($("knobs"), name, model.labels[name], options, () => state.values[name], (value) => { state.values[name] = value; }));
     for (const knob of model.knobs) refreshers.push(slider($("knobs"), knob.name, knob, () => state.values[knob.name], (value) => { state.values[knob.name] = value; }));
@@ -77,7 +77,7 @@ function row(name, ...parts) {
 }
 
 function numbers() {
-  const { x, y } = state, [width, height] = model.frame, ray = camera.ray(x, y);
+  const { x, y } = state, [width, height] = model.size, ray = camera.ray(x, y);
   $("numbers").replaceChildren();
   row("pixel", `x = ${shown(x)}, y = ${shown(y)}`);
   row("in [-1, 1]²", shown([2 * x / width - 1, 2 * y / height - 1].map((one) => Math.round(one * 1e6) / 1e6)));
@@ -87,14 +87,14 @@ function numbers() {
     row("ray", "none: the camera has no ray for this pixel");
     return;
   }
-  const time = timeOf(state, model.frame, x, y), at = worldRay(pose(state), ray), hit = cast(at.origin, at.direction, time);
+  const time = timeOf(state, model.size, x, y), at = worldRay(pose(state), ray), hit = cast(at.origin, at.direction, time);
   seen = { ray: at, hit, time };
   row("origin o", shown(ray.slice(0, 3)));
-  const length = Math.abs(size(ray.slice(3)) - 1) < 1e-9 ? ["of unit length"] : ray[5] === -1 ? ["at unit depth"] : [];
+  const length = Math.abs(norm(ray.slice(3)) - 1) < 1e-9 ? ["of unit length"] : ray[5] === -1 ? ["at unit depth"] : [];
   row("direction r", shown(ray.slice(3)), ...length);
   row("from the axis", `${shown(Math.atan2(Math.hypot(ray[3], ray[4]), -ray[5]) * DEGREES)}°`);
   row("meets", hit.index < 0 ? "nothing" : `${hit.name}, at distance t = ${shown(hit.t)}, at ${shown(hit.point)} in the ${SCENE.still ? "scene (x right, y up)" : "room"}`);
-  const back = pixelOf(camera, along(ray.slice(0, 3), Math.min(hit.t, 20 * SCENE.scale) / size(ray.slice(3)), ray.slice(3)));
+  const back = pixelOf(camera, along(ray.slice(0, 3), Math.min(hit.t, 20 * SCENE.scale) / norm(ray.slice(3)), ray.slice(3)));
   row("back to the pixel", back ? `(${shown(back[0])}, ${shown(back[1])}), ${shown(Math.hypot(back[0] - x, back[1] - y), 2)} px off (found from the rays by Gauss–Newton)` : "not found from the rays by Gauss–Newton");
   if (state.times !== "none") row("time of the pixel", `${shown(time)} s`);
   $("tag").replaceChildren(make("b", `r = ${shown(ray.slice(3), 3)}`), make("span", hit.index < 0 ? "meets nothing" : `meets ${hit.name}`));
@@ -104,7 +104,7 @@ function steps() {
   const list = $("steps");
   list.replaceChildren();
   if (own) {
-    const known = { x: state.x, y: state.y, W: model.frame[0], H: model.frame[1], pi: Math.PI };
+    const known = { x: state.x, y: state.y, W: model.size[0], H: model.size[1], pi: Math.PI };
     for (const { name, tree, text } of own.made) {
       const value = evaluate(tree, known), item = make("li");
       const set = make("div", undefined, { class: "symbols", title: `${name} = ${text}` });
@@ -134,9 +134,9 @@ function result(name, numbers, value) {
 }
 
 function cross_() {
-  $("cross").style.left = `${100 * state.x / model.frame[0]}%`;
-  $("cross").style.top = `${100 * (1 - state.y / model.frame[1])}%`;
-  const tag = $("tag"), { width, height } = $("frame").getBoundingClientRect(), x = state.x / model.frame[0] * width, y = (1 - state.y / model.frame[1]) * height;
+  $("cross").style.left = `${100 * state.x / model.size[0]}%`;
+  $("cross").style.top = `${100 * (1 - state.y / model.size[1])}%`;
+  const tag = $("tag"), { width, height } = $("frame").getBoundingClientRect(), x = state.x / model.size[0] * width, y = (1 - state.y / model.size[1]) * height;
   tag.style.left = `${Math.max(4, Math.min(x - tag.offsetWidth / 2, width - tag.offsetWidth - 4))}px`;
   tag.style.top = `${y > tag.offsetHeight + 40 ? y - tag.offsetHeight - 36 : y + 36}px`; // beside the finger, not below it
 }
@@ -145,7 +145,7 @@ function cross_() {
 function paint(full) {
   if (!picture.gl) return;
   const began = performance.now();
-  const wide = $("picture").getBoundingClientRect().width * (window.devicePixelRatio || 1) / model.frame[0];
+  const wide = $("picture").getBoundingClientRect().width * (window.devicePixelRatio || 1) / model.size[0];
   const lens = !own && model.glass && glass.moved ? glass : null;
   if (lens && !fine) share = LEAST_SHARE; // the first one
   const drawn = full ? (lens ? whole : 1) : share;
@@ -210,8 +210,8 @@ function openLink(hash) {
 
 function pointAt(event) {
   const box = $("picture").getBoundingClientRect();
-  state.x = Math.min(Math.max((event.clientX - box.left) / box.width, 0), 1) * model.frame[0];
-  state.y = Math.min(Math.max(1 - (event.clientY - box.top) / box.height, 0), 1) * model.frame[1];
+  state.x = Math.min(Math.max((event.clientX - box.left) / box.width, 0), 1) * model.size[0];
+  state.y = Math.min(Math.max(1 - (event.clientY - box.top) / box.height, 0), 1) * model.size[1];
   changed();
 }
 
@@ -245,7 +245,7 @@ function setTheme(name) {
 function readText(text) {
   const made = readOwn(text), lines = text.split("\n").map((line) => line.trim()).filter(Boolean);
   made.forEach((one, k) => { one.text = lines[k].slice(lines[k].indexOf("=") + 1).trim(); });
-  return { made, camera: ownCamera(made, model.frame) };
+  return { made, camera: ownCamera(made, model.size) };
 }
 
 function withOwn(then) {
@@ -284,7 +284,7 @@ $("model").append(make("option", "My camera (written below)", { value: "OWN" }))
 $("model").addEventListener("change", () => {
   if ($("model").value === "OWN") { $("own-use").click(); return; }
   const { x, y, time, times, spread, turn, tilt, walk } = state, next = freshState(MODELS.find((one) => one.key === $("model").value));
-  const moved = [x, y].map((one, k) => one / model.frame[k] * MODELS.find((m) => m.key === next.model).frame[k]);
+  const moved = [x, y].map((one, k) => one / model.size[k] * MODELS.find((m) => m.key === next.model).size[k]);
   choose({ ...next, x: moved[0], y: moved[1], time, times, spread, turn, tilt, walk });
 });
 for (const figure of SCENE.still ? [] : FIGURES) {
@@ -305,7 +305,7 @@ document.querySelectorAll("[data-view]").forEach((button) => button.addEventList
 }));
 dragging($("picture"), pointAt, pointAt);
 dragging($("space"), () => {}, (event) => { turnView(event.movementX / 160, event.movementY / 160); changed(); });
-arrows($("picture"), (a, b) => { state.x = Math.min(Math.max(state.x + a, 0), model.frame[0]); state.y = Math.min(Math.max(state.y + b, 0), model.frame[1]); });
+arrows($("picture"), (a, b) => { state.x = Math.min(Math.max(state.x + a, 0), model.size[0]); state.y = Math.min(Math.max(state.y + b, 0), model.size[1]); });
 arrows($("space"), (a, b) => turnView(-a / 20, b / 20));
 $("share").addEventListener("click", async () => {
   history.replaceState(null, "", `#${linkOf(state, model)}`);

@@ -75,16 +75,16 @@ function glslOf(made) {
   return `bool ray(float x, float y, out vec3 o, out vec3 d) {\n  vec2 frame_size = vec2(k[0], k[1]);\n  bool ok = true;\n${lines.join("\n")}\n  o = ${origin};\n  d = ${names.d[1]};\n  return ok && dot(d, d) > 0.0;\n}`;
 }
 
-function ownCamera(made, frame) {
-  const numbers = frame.map(Number);
+function ownCamera(made, size) {
+  const numbers = size.map(Number);
   const known = (x, y) => {
-    const names = { x, y, W: frame[0], H: frame[1], pi: Math.PI };
+    const names = { x, y, W: size[0], H: size[1], pi: Math.PI };
     for (const { name, tree } of made) names[name] = evaluate(tree, names);
     return names;
   };
   return {
-    key: "OWN", frame, central: !made.some((one) => one.name === "o" && one.tree.of?.some((part) => part.value !== 0)), planar: false, numbers, glsl: glslOf(made),
-    ray: (x, y) => { const { o = [0, 0, 0], d } = known(x, y); return size(d) > 0 && d.every(Number.isFinite) ? [...o, ...scaled(d, 1 / size(d))] : [0, 0, 0, NaN, NaN, NaN]; },
+    key: "OWN", size, central: !made.some((one) => one.name === "o" && one.tree.of?.some((part) => part.value !== 0)), planar: false, numbers, glsl: glslOf(made),
+    ray: (x, y) => { const { o = [0, 0, 0], d } = known(x, y); return norm(d) > 0 && d.every(Number.isFinite) ? [...o, ...scaled(d, 1 / norm(d))] : [0, 0, 0, NaN, NaN, NaN]; },
     values: () => ({}),
   };
 }
@@ -150,7 +150,7 @@ class MyCamera(crc.Model):
     FORMULA = (crc.Step("Lines of the page", ${JSON.stringify(made.map((one) => one.name).join(", "))}),)
 
     def rays(self, x, y):
-        width, height = self.frame
+        width, height = self.size
 ${lines.join("\n")}
         length = np.sqrt(dot(own_d, own_d))
         return tuple(${origin}), tuple(own_d / np.where(length > 0.0, length, np.nan))
@@ -163,7 +163,7 @@ crc.register_model(MyCamera)
 // For each cell of a grid, how far the inverse of a ray's point lies from its pixel, in pixels; NaN without a ray.
 function errorMap(camera, columns, rows) {
   return Array.from({ length: columns * rows }, (_, n) => {
-    const x = (n % columns + 0.5) / columns * camera.frame[0], y = (Math.floor(n / columns) + 0.5) / rows * camera.frame[1], ray = camera.ray(x, y);
+    const x = (n % columns + 0.5) / columns * camera.size[0], y = (Math.floor(n / columns) + 0.5) / rows * camera.size[1], ray = camera.ray(x, y);
     if (Number.isNaN(ray[3])) return NaN;
     const found = pixelOf(camera, along(ray.slice(0, 3), 4, ray.slice(3)));
     return found ? Math.hypot(found[0] - x, found[1] - y) : Infinity;

@@ -187,7 +187,7 @@ class Picture {
   draw(camera, state, share, plain = false, glass = null, samples = 0) {
     const gl = this.gl;
     if (!gl || gl.isContextLost()) return;
-    const made = glass ? this.program("", 0, glass.program) : this.program(camera.glsl, camera.numbers.length), [width, height] = camera.frame;
+    const made = glass ? this.program("", 0, glass.program) : this.program(camera.glsl, camera.numbers.length), [width, height] = camera.size;
     this.canvas.width = Math.max(16, Math.round(share * width));
     this.canvas.height = Math.max(9, Math.round(share * height));
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);

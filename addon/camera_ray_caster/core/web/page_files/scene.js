@@ -13,11 +13,11 @@ function turned(point, time) {
 
 const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 const along = (o, t, d) => [o[0] + t * d[0], o[1] + t * d[1], o[2] + t * d[2]];
-const size = (a) => Math.hypot(a[0], a[1], a[2]);
+const norm = (a) => Math.hypot(a[0], a[1], a[2]);
 const scaled = (a, k) => [a[0] * k, a[1] * k, a[2] * k];
 
 function cast(origin, direction, time) {
-  const d = scaled(direction, 1 / size(direction));
+  const d = scaled(direction, 1 / norm(direction));
   let best = { t: Infinity, index: -1 };
   SPHERES.forEach((sphere, index) => {
     const center = turned(sphere.center, time), to = minus(origin, center), b = dot(to, d), off = minus(to, scaled(d, b));
@@ -31,7 +31,7 @@ function cast(origin, direction, time) {
     if (slope === 0) return;
     const t = dot(n, minus(flat.center, origin)) / slope, point = along(origin, t, d), q = minus(point, flat.center);
     if (!(t > SCENE.near && t < best.t) || Math.abs(dot(q, flat.u)) > dot(flat.u, flat.u) || Math.abs(dot(q, flat.v)) > dot(flat.v, flat.v)) return;
-    best = { t, index: SPHERES.length + k, point, normal: scaled(n, (slope > 0 ? -1 : 1) / size(n)), name: flat.name };
+    best = { t, index: SPHERES.length + k, point, normal: scaled(n, (slope > 0 ? -1 : 1) / norm(n)), name: flat.name };
   });
   for (let n = 0; n < SCENE.nodes;) {
     const at = 8 * n, leaf = FACETS[at + 7];
@@ -48,7 +48,7 @@ function cast(origin, direction, time) {
       const u = dot(to, p) / det, q = cross(to, first), v = dot(d, q) / det, t = dot(second, q) / det;
       if (det === 0 || u < 0 || v < 0 || u + v > 1 || !(t > SCENE.near && t < best.t)) continue;
       const normal = cross(first, second);
-      best = { t, index: SPHERES.length + RECTANGLES.length, point: along(origin, t, d), normal: scaled(normal, (dot(normal, d) > 0 ? -1 : 1) / size(normal)), name, color };
+      best = { t, index: SPHERES.length + RECTANGLES.length, point: along(origin, t, d), normal: scaled(normal, (dot(normal, d) > 0 ? -1 : 1) / norm(normal)), name, color };
     }
     n++;
   }
@@ -74,11 +74,11 @@ function toWorld(at, vector) {
 
 function worldRay(at, ray) {
   const o = toWorld(at, ray.slice(0, 3)), d = toWorld(at, ray.slice(3));
-  return { origin: along(at.eye, 1, o), direction: scaled(d, 1 / size(d)) };
+  return { origin: along(at.eye, 1, o), direction: scaled(d, 1 / norm(d)) };
 }
 
 const TIMES = ["none", "rows", "columns", "circles"];
-function timeOf(state, frame, x, y) {
-  const a = x / frame[0] - 0.5, b = y / frame[1] - 0.5;
-  return state.time + state.spread * [0, b, a, Math.hypot(a * frame[0] / frame[1], b) - 0.5][TIMES.indexOf(state.times)];
+function timeOf(state, size, x, y) {
+  const a = x / size[0] - 0.5, b = y / size[1] - 0.5;
+  return state.time + state.spread * [0, b, a, Math.hypot(a * size[0] / size[1], b) - 0.5][TIMES.indexOf(state.times)];
 }

@@ -43,9 +43,9 @@ class Space {
     SPHERES.map((sphere) => ({ sphere, center: turned(sphere.center, seen ? seen.time : state.time) }))
       .sort((a, b) => this.depth(b.center) - this.depth(a.center)).forEach(({ sphere, center }) => this.ball(center, sphere));
     const image = (x, y) => {
-      const ray = camera.ray(x * camera.frame[0], y * camera.frame[1]);
+      const ray = camera.ray(x * camera.size[0], y * camera.size[1]);
       if (!ray || Number.isNaN(ray[3])) return null;
-      const length = camera.planar ? 1 : size(ray.slice(3));
+      const length = camera.planar ? 1 : norm(ray.slice(3));
       return along(at.eye, 1, toWorld(at, [0, 1, 2].map((k) => ray[k] + (isBox ? -IMAGE : IMAGE) * ray[k + 3] / length)));
     };
     if (isBox) this.box(camera, state, at, image, ink);
@@ -65,8 +65,8 @@ class Space {
     if (!seen) return;
     const { ray, hit } = seen, end = along(ray.origin, hit.index < 0 ? 20 * scale : hit.t, ray.direction);
     this.line([ray.origin, end], ink("--ray"), 2.6);
-    if (size(minus(ray.origin, at.eye)) > 1e-6 * scale) { this.line([at.eye, ray.origin], ink("--ray"), 1, [3, 4]); this.dot(ray.origin, 4, ink("--ray")); this.label(along(ray.origin, 0.12 * scale, at.v), "o", ink("--ray")); }
-    const place = image(state.x / camera.frame[0], state.y / camera.frame[1]);
+    if (norm(minus(ray.origin, at.eye)) > 1e-6 * scale) { this.line([at.eye, ray.origin], ink("--ray"), 1, [3, 4]); this.dot(ray.origin, 4, ink("--ray")); this.label(along(ray.origin, 0.12 * scale, at.v), "o", ink("--ray")); }
+    const place = image(state.x / camera.size[0], state.y / camera.size[1]);
     if (place) this.dot(place, 4, ink("--image"));
     if (place && isBox) this.line([place, at.eye], ink("--ray"), 2.6);
     if (hit.index >= 0) {
@@ -79,10 +79,10 @@ class Space {
 
   // Of the camera obscura: the box between the hole and the wall behind it, and on the wall what its pixels see.
   box(camera, state, at, image, ink) {
-    const [columns, rows] = WALL, [width, height] = camera.frame, g = this.g;
+    const [columns, rows] = WALL, [width, height] = camera.size, g = this.g;
     for (let i = 0; i < columns; i++) for (let j = 0; j < rows; j++) {
       const x = (i + 0.5) / columns, y = (j + 0.5) / rows, ray = camera.ray(x * width, y * height);
-      const seen = worldRay(at, ray), hit = cast(seen.origin, seen.direction, timeOf(state, camera.frame, x * width, y * height));
+      const seen = worldRay(at, ray), hit = cast(seen.origin, seen.direction, timeOf(state, camera.size, x * width, y * height));
       const corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(([a, b]) => image(a / columns, b / rows)).map((one) => one && this.place(one));
       if (hit.index < 0 || corners.includes(null)) continue;
       const light = 0.6 + 0.4 * Math.abs(dot(hit.normal, seen.direction));
@@ -107,9 +107,9 @@ class Space {
     if (!left || !right) return;
     const middle = scaled(along(left, 1, right), 0.5), ahead = minus(middle, at.eye);
     this.line([at.eye, middle], ink("--muted"), 1.4, [5, 4]);
-    this.label(along(along(at.eye, 0.78, ahead), 0.12 * SCENE.scale, minus(left, middle).map((x) => x / size(minus(left, middle)))), "d", ink("--ink"));
+    this.label(along(along(at.eye, 0.78, ahead), 0.12 * SCENE.scale, minus(left, middle).map((x) => x / norm(minus(left, middle)))), "d", ink("--ink"));
     const to = minus(right, at.eye), arc = [];
-    for (let k = 0; k <= 12; k++) { const p = [0, 1, 2].map((i) => ahead[i] + k / 12 * (to[i] - ahead[i])); arc.push(along(at.eye, 0.9 * SCENE.scale / size(p), p)); }
+    for (let k = 0; k <= 12; k++) { const p = [0, 1, 2].map((i) => ahead[i] + k / 12 * (to[i] - ahead[i])); arc.push(along(at.eye, 0.9 * SCENE.scale / norm(p), p)); }
     this.line(arc, ink("--ink"), 1.4);
     this.label(along(at.eye, 1.22, arc[6].map((x, i) => (x - at.eye[i]) / 0.9)), "fov/2", ink("--ink"));
   }

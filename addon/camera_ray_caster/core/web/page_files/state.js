@@ -13,7 +13,7 @@ if (SCENE.still) Object.assign(VIEW.walk, { text: "Distance of the camera behind
 function freshState(model) {
   const values = Object.fromEntries([...model.knobs.map((knob) => [knob.name, knob.value]), ...Object.entries(model.choices)]);
   const view = Object.fromEntries(Object.entries(VIEW).map(([name, one]) => [name, one.value]));
-  return { model: model.key, values, x: 0.7 * model.frame[0], y: 0.55 * model.frame[1], times: "none", ...view };
+  return { model: model.key, values, x: 0.7 * model.size[0], y: 0.55 * model.size[1], times: "none", ...view };
 }
 
 function linkOf(state, model) {
@@ -47,7 +47,7 @@ function stateOf(link, models) {
       const found = model.options[name].find((one) => String(one.value) === text);
       if (!found) throw new Refusal(`the link's ${name} is ${brief(text)}: it must be one of ${model.options[name].map((one) => one.value).join(", ")}`);
       state.values[name] = found.value;
-    } else if (name === "x" || name === "y") state[name] = number(name, text, 0, model.frame[name === "x" ? 0 : 1]);
+    } else if (name === "x" || name === "y") state[name] = number(name, text, 0, model.size[name === "x" ? 0 : 1]);
     else if (Object.hasOwn(VIEW, name)) state[name] = number(name, text, VIEW[name].low, VIEW[name].high);
     else if (name === "times" && TIMES.includes(text)) state.times = text;
     else throw new Refusal(`the link has ${brief(name)}, which this camera does not have`);
@@ -61,7 +61,7 @@ function cameraOf(model, values) {
   if (!variant) throw new Refusal("no camera has these settings: they lie outside of what the model allows");
   const numbers = PREPARE[variant.prepare](values);
   return {
-    key: model.key, frame: model.frame, central: model.central, planar: model.planar, numbers, glsl: GLSL[variant.glsl],
+    key: model.key, size: model.size, central: model.central, planar: model.planar, numbers, glsl: GLSL[variant.glsl],
     ray: (x, y) => RAYS[variant.rays](numbers, x, y),
     values: (x, y) => {
       const list = VALUES[variant.values](numbers, x, y), found = {};
@@ -84,25 +84,25 @@ function knownOf(model, values, camera, x, y) {
   delete given.view_x;
   delete given.view_y;
   const finite = Object.entries(given).filter(([, value]) => [value].flat().every(Number.isFinite));
-  Object.assign(known, Object.fromEntries(numbers), { pi: Math.PI, W: model.frame[0], H: model.frame[1], x, y, p: 1 }, Object.fromEntries(finite));
+  Object.assign(known, Object.fromEntries(numbers), { pi: Math.PI, W: model.size[0], H: model.size[1], x, y, p: 1 }, Object.fromEntries(finite));
   const solved = finite.filter(([name, value]) => Array.isArray(value) || name === "theta").map(([name]) => name);
   return { known, given: solved, own: model.steps.map((step) => step.words.includes("[-1, 1]²") && view.x !== undefined ? view : {}) };
 }
 
 // The pixel whose ray comes nearest to a point in the camera's frame, by Gauss and Newton from the best of a grid.
 function pixelOf(camera, point) {
-  const [width, height] = camera.frame;
+  const [width, height] = camera.size;
   const off = (x, y) => {
-    const ray = camera.ray(x, y), d = ray.slice(3), q = minus(point, ray.slice(0, 3)), length = size(d);
+    const ray = camera.ray(x, y), d = ray.slice(3), q = minus(point, ray.slice(0, 3)), length = norm(d);
     if (Number.isNaN(length) || dot(q, d) <= 0) return null;
-    return scaled(cross(q, d), 1 / (length * size(q)));
+    return scaled(cross(q, d), 1 / (length * norm(q)));
   };
-  let best = { size: Infinity };
+  let best = { angle: Infinity };
   for (let i = 0; i < 16; i++) for (let j = 0; j < 12; j++) {
     const x = (i + 0.5) / 16 * width, y = (j + 0.5) / 12 * height, found = off(x, y);
-    if (found && size(found) < best.size) best = { size: size(found), x, y, found };
+    if (found && norm(found) < best.angle) best = { angle: norm(found), x, y, found };
   }
-  for (let step = 0; step < 40 && best.size < Infinity; step++) {
+  for (let step = 0; step < 40 && best.angle < Infinity; step++) {
     const h = 1e-4, a = off(best.x + h, best.y), b = off(best.x - h, best.y), c = off(best.x, best.y + h), e = off(best.x, best.y - h);
     if (!a || !b || !c || !e) break;
     const p = scaled(minus(a, b), 0.5 / h), q = scaled(minus(c, e), 0.5 / h), pp = dot(p, p), pq = dot(p, q), qq = dot(q, q), det = pp * qq - pq * pq;
@@ -111,9 +111,9 @@ function pixelOf(camera, point) {
     let better = false;
     for (let share = 1; share > 1e-4 && !better; share /= 2) {
       const x = Math.min(Math.max(best.x + share * dx, -1), width + 1), y = Math.min(Math.max(best.y + share * dy, -1), height + 1), found = off(x, y);
-      if (found && size(found) < best.size) { best = { size: size(found), x, y, found }; better = true; }
+      if (found && norm(found) < best.angle) { best = { angle: norm(found), x, y, found }; better = true; }
     }
     if (!better) break;
   }
-  return best.size < 1e-6 ? [best.x, best.y] : null;
+  return best.angle < 1e-6 ? [best.x, best.y] : null;
 }

@@ -18,7 +18,7 @@ LEAST, MOST = 4, 65536
 """Range of Blender's resolution, in pixels."""
 
 
-class OwnFrame(NamedTuple):
+class AskedSize(NamedTuple):
     """The frame that a camera asks for, which is not the one it has."""
 
     width: int
@@ -28,7 +28,7 @@ class OwnFrame(NamedTuple):
     """What is wrong, with both sizes."""
 
 
-def own_frame(raw: BlenderCamera) -> OwnFrame | None:
+def asked_size(raw: BlenderCamera) -> AskedSize | None:
     """Return the frame that a camera asks for; None if its frame has that shape, to the pixel that a percentage of the
     resolution may cut off, or if any frame will do.
 
@@ -45,10 +45,10 @@ def own_frame(raw: BlenderCamera) -> OwnFrame | None:
     else:
         lens = model.from_blender(with_file(raw, model, raster), raster)
         shape = lens.shape
-        if lens.size is not None and lens.size != raster.size:
-            wide, high = lens.size
+        if lens.device_size is not None and lens.device_size != raster.size:
+            wide, high = lens.device_size
             sentence = f"the frame has {raster.width} × {raster.height} pixels, and {model.label} {wide} × {high}"
-            return OwnFrame(wide, high, sentence)
+            return AskedSize(wide, high, sentence)
         if shape is not None:
             shape *= aspect
             wide, high = within(width, height, shape)
@@ -57,7 +57,7 @@ def own_frame(raw: BlenderCamera) -> OwnFrame | None:
         return None
     sentence = f"the picture is stretched: the frame has {raster.width} × {raster.height} pixels, and {asked}"
     wide, high = (min(max(side, LEAST), MOST) for side in (wide, high))
-    return OwnFrame(wide, high, sentence)
+    return AskedSize(wide, high, sentence)
 
 
 def within(width: int, height: int, shape: float) -> tuple[int, int]:

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from camera_ray_caster.core.camera.asked_size import asked_size
 from camera_ray_caster.core.camera.build import camera_from
-from camera_ray_caster.core.camera.own_frame import own_frame
 from camera_ray_caster.core.records import InputError
 
 from ..cameras.model_examples import raw_of
@@ -28,12 +28,12 @@ ANY = ("PERSP", "ORTHO", "FISHEYE_EQUISOLID", "FISHEYE_STEREOGRAPHIC", "DOME_MAS
 def test_in_its_own_frame_a_picture_is_not_stretched(case):
     """Beside the middle of an eye's picture a ray turns as much to the right as upwards."""
     key, settings, size = OWN[case]
-    found = own_frame(raw_of(key, WIDE | settings))
+    found = asked_size(raw_of(key, WIDE | settings))
     assert (found.width, found.height) == size
     assert "1920 × 1080" in found.sentence
     assert f"{size[0]} × {size[1]}" in found.sentence
     raw = raw_of(key, WIDE | settings | dict(zip(("resolution_x", "resolution_y"), size, strict=True)))
-    assert own_frame(raw) is None
+    assert asked_size(raw) is None
     side, eyes = 1e-3, settings.get("eye")
     x = size[0] / (4 if eyes == "SIDE_BY_SIDE" else 2)
     y = size[1] / (4 if eyes == "TOP_BOTTOM" else 2)
@@ -46,17 +46,17 @@ def test_in_its_own_frame_a_picture_is_not_stretched(case):
 def test_a_model_that_fits_any_frame_asks_for_none(key):
     for size in ((1920, 1080), (300, 1000)):
         raw = raw_of(key, WIDE | dict(zip(("resolution_x", "resolution_y"), size, strict=True)))
-        assert own_frame(raw) is None
+        assert asked_size(raw) is None
 
 
 def test_pixels_that_are_twice_as_high_make_a_frame_twice_as_wide():
-    found = own_frame(raw_of("EQUIRECTANGULAR", WIDE | {"pixel_aspect_y": 2.0}))
+    found = asked_size(raw_of("EQUIRECTANGULAR", WIDE | {"pixel_aspect_y": 2.0}))
     assert (found.width, found.height) == (1920, 480)
 
 
 def test_a_calibrated_picture_has_its_own_size():
     lens = WIDE | {"calibration_width": 1241, "calibration_height": 376}
-    found = own_frame(raw_of("OPENCV_PINHOLE", lens))
+    found = asked_size(raw_of("OPENCV_PINHOLE", lens))
     assert (found.width, found.height) == (1241, 376)
     for given in (
         {"resolution_x": 1241, "resolution_y": 376, "resolution_percentage": 37},
@@ -64,14 +64,14 @@ def test_a_calibrated_picture_has_its_own_size():
         {"calibration_unit": "MILLIMETERS"},
         {"pixel_aspect_y": 2.0},
     ):
-        assert own_frame(raw_of("OPENCV_PINHOLE", lens | given)) is None
+        assert asked_size(raw_of("OPENCV_PINHOLE", lens | given)) is None
 
 
 def test_a_file_has_the_size_of_its_pictures(tmp_path):
     path = tmp_path / "cameras.txt"
     path.write_text("1 PINHOLE 96 54 70 70 48 27\n2 PINHOLE 50 54 70 70 48 27\n")
     lens = WIDE | {"calibration_file": str(path), "calibration_camera": "2"}
-    assert own_frame(raw_of("OPENCV_PINHOLE", lens))[:2] == (50, 54)
-    assert own_frame(raw_of("OPENCV_PINHOLE", lens | {"calibration_camera": "1"})) is None
+    assert asked_size(raw_of("OPENCV_PINHOLE", lens))[:2] == (50, 54)
+    assert asked_size(raw_of("OPENCV_PINHOLE", lens | {"calibration_camera": "1"})) is None
     with pytest.raises(InputError, match="has 2 cameras"):
-        own_frame(raw_of("OPENCV_PINHOLE", lens | {"calibration_camera": ""}))
+        asked_size(raw_of("OPENCV_PINHOLE", lens | {"calibration_camera": ""}))

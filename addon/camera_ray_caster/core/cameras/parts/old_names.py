@@ -1,0 +1,26 @@
+"""The names of models before version 1.0, which still work with a warning."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ...arguments import deprecated
+
+
+class OldNames:
+    """``frame`` was the size of the picture, and ``size`` that of a device."""
+
+    size: Any
+
+    def __init_subclass__(cls, **arguments: Any):
+        super().__init_subclass__(**arguments)
+        if isinstance(vars(cls).get("size"), property):
+            deprecated("Model.size of a device is Model.device_size")
+            setattr(cls, "device_size", vars(cls)["size"])  # noqa: B010 (mypy knows it as a property)
+            del cls.size
+
+    @property
+    def frame(self) -> tuple[int, int]:
+        """Width and height of the full picture in pixels."""
+        deprecated("Model.frame is Model.size")
+        return self.size
