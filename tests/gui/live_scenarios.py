@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 from lesson_scenarios import place_of
 from parts import BUTTON, addon, load
+from stranger_scenarios import default_scene
 
 REDRAWS = 8
 SHARE = 3.0
@@ -241,4 +242,43 @@ def live_redraws(user, scenes):
         yield from user.press(f"{BUTTON}see_through(")
 
 
-LIVE_SCENARIOS = (live_picture, live_ends, live_redraws, live_shadings, live_look)
+def live_edges(user, scenes):
+    """In the corners of a fisheye's frame, where no ray is, nothing of Blender's own view is left, a red wall: neither
+    at once after a change nor once the view has settled.
+    """
+    yield from default_scene(user)
+    scene, area, view = bpy.context.scene, user.area(), user.region("WINDOW")
+    space, wall, live = area.spaces.active, bpy.data.objects["Cube"], addon("view3d.live")
+    wall.location, wall.scale, wall.color = scene.camera.location, (30, 30, 30), (1, 0, 0, 1)
+    scene.camera.data.camera_ray_caster.model = "DOME_MASTER"
+    scene.render.resolution_x = scene.render.resolution_y = 512
+    space.overlay.show_overlays, space.shading.light, space.shading.color_type = False, "FLAT", "OBJECT"
+    space.show_gizmo_navigate = False
+    yield from user.wait(0.5)
+    yield from user.press(f"{BUTTON}see_through(")
+    yield from user.wait(0.5)
+    (region,), settled = live._live[space.as_pointer()].values(), live.SETTLED
+    for zoom in (0.0, 3.7, -7.3):
+        space.region_3d.view_camera_zoom = zoom
+        yield from user.wait(1)
+        with bpy.context.temp_override(window=user.window, area=area, region=view):
+            frame = addon("read.view").camera_frame(bpy.context)
+        for moment in ("settled", "changed"):
+            if moment == "changed":
+                count, live.SETTLED = region.count, 5.0
+                scene.camera.location.x += 0.1
+                yield from user.until(lambda count=count: region.count > count, "it is drawn")
+                live.SETTLED = settled
+            shown = user.cut(user.picture(f"live_edges_{moment}"), view)
+            rows, columns = np.nonzero((shown[..., 0] > 0.5) & (shown[..., 1] < 0.2))
+            x = 2 * (columns + 0.5 - frame[0]) / (frame[2] - frame[0]) - 1
+            y = 2 * (rows + 0.5 - frame[1]) / (frame[3] - frame[1]) - 1
+            left = np.hypot(x, y) > 1.02
+            assert (~left).sum() > 1000, "the wall is seen"
+            assert not left.any(), (zoom, moment, frame, set(columns[left]), set(rows[left]))
+    space.overlay.show_overlays, space.shading.light, space.shading.color_type = True, "STUDIO", "MATERIAL"
+    space.show_gizmo_navigate = True
+    yield from user.press(f"{BUTTON}see_through(")
+
+
+LIVE_SCENARIOS = (live_picture, live_ends, live_redraws, live_shadings, live_look, live_edges)

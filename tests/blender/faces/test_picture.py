@@ -14,6 +14,8 @@ from numpy.lib.stride_tricks import sliding_window_view
 from camera_ray_caster import InputError, cast, cast_rays, read_camera, read_shapes
 from camera_ray_caster.blender.faces.driver import check_driver
 from camera_ray_caster.blender.faces.picture import EEVEE, WORKBENCH, engine_name, picture_of
+from camera_ray_caster.blender.output.reports import latest
+from camera_ray_caster.blender.ui.cast_panels import summary
 
 from ..processes import ROOT, script_command
 
@@ -138,12 +140,18 @@ def test_the_button_renders_the_passes_beside_the_picture(blender, cubes, tmp_pa
     expected = picture(cubes)
     assert blender.ops.camera_ray_caster.render_through_model() == {"FINISHED"}
     assert cubes.render.engine == "BLENDER_WORKBENCH"
+    assert "rays, 5 shapes, " in summary(latest(cubes))
+    assert latest(cubes).seconds["faces"] > 0
     cubes.render.image_settings.file_format = "OPEN_EXR"
     path = tmp_path / "picture.exr"
     blender.data.images["Render Result"].save_render(str(path), scene=cubes)
     image = blender.data.images.load(str(path))
     pixels = np.array(image.pixels[:], np.float32).reshape(*expected.shape)
     assert pixels == pytest.approx(expected, abs=1e-3)  # half floats
+    cubes.view_layers[0].use_pass_z = False
+    blender.ops.camera_ray_caster.render_through_model()
+    assert summary(latest(cubes)).startswith("Picture by Workbench, 5 shapes, "), "without rays"
+    assert latest(cubes).rays_per_second is None
 
 
 @pytest.mark.full

@@ -229,9 +229,11 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
                 self.report({"WARNING"}, f"the reference check {finding.witness} failed: see the report")
         self.done = {layer: report} if layer in self.done else {**self.done, layer: report}
         whole = reduce(add, self.done.values())
-        reports.keep(whole, source)
         if self.call is not None:
             self.call.report = whole
+            if self.call.picture is not None:
+                whole = whole.with_seconds(**{self.call.picture.step: self.call.picture.seconds})
+        reports.keep(whole, source)
 
     def advance(self, fraction: float) -> bool:
         """Show the progress of the cast and the time; return whether to continue."""

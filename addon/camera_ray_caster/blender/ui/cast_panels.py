@@ -11,6 +11,7 @@ from . import cast_operator
 from .drawing import Sidebar, draw_message, draw_row
 from .left_out_panels import LeftOut
 from .notes import Popover, draw_line, widen
+from .other_engine import engine_label
 from .show_result import ResultsMenu
 
 
@@ -42,9 +43,12 @@ class SidebarCast(Sidebar, bpy.types.Panel):
 
 
 def summary(report) -> str:
-    """Return the number of rays and shapes of a cast, and its time."""
+    """Return the number of rays and shapes of a cast, and its time; of another engine's picture without passes, the
+    engine.
+    """
     shapes = f"{report.shapes:,} {'shape' if report.shapes == 1 else 'shapes'}"
-    return f"{report.rays:,} rays, {shapes}, {sum(report.seconds.values()):.3g} s"
+    made = f"{report.rays:,} rays" if report.rays else f"Picture by {engine_label(report.combined['engine'])}"
+    return f"{made}, {shapes}, {sum(report.seconds.values()):.3g} s"
 
 
 class SidebarPasses(Sidebar, bpy.types.Panel):

@@ -8,6 +8,7 @@ from ..engine.engine import CameraRayCaster
 from ..output import reports
 from ..properties.passes import PASSES
 from .camera_notes import sample_note
+from .cast_panels import summary
 from .drawing import draw_message
 from .facts_panels import camera_of
 from .notes import draw_notes
@@ -46,7 +47,7 @@ class RenderPanel(EnginePanel, bpy.types.Panel):
         layout.prop(context.scene.render, "film_transparent")
         report = reports.latest(context.scene)
         if report is not None:
-            layout.label(text=f"{report.rays:,} rays in {sum(report.seconds.values()):.3f} s")
+            layout.label(text=summary(report))
             layout.label(text=f"Worst distance error: {reports.relative_error(report, 'worst')}")
         layout.operator("camera_ray_caster.write_report")
         draw_message(layout, context, "for materials and light render with Cycles through this camera")

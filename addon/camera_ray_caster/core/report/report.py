@@ -86,9 +86,9 @@ class Report:
 
     @property
     def rays_per_second(self) -> float | None:
-        """Number of rays divided by the seconds of CAST_STEPS; None if nothing was cast."""
+        """Number of rays divided by the seconds of CAST_STEPS; None without rays."""
         spent = sum(self.seconds.get(step, 0.0) for step in CAST_STEPS)
-        return self.rays / spent if spent > 0 else None
+        return self.rays / spent if self.rays and spent > 0 else None
 
     @property
     def passed(self) -> bool:
