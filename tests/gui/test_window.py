@@ -28,7 +28,8 @@ SCENARIOS = (
     "export_all", "scanned_points", "slit_scan_movie", "slit_scan_preview",
     "drag_x_before_a_class", "autosaved", "lecture",
     "quad_and_local_views", "undone", "linked_cameras", "by_hand", "every_kind", "saved_views", "saved_runs",
-    "live_picture", "live_ends", "live_redraws", "live_shadings", "live_look", "left_however",
+    "live_picture", "live_ends", "live_redraws", "live_shadings", "live_look", "live_edges",
+    "left_however",
     "own_view", "live_mishaps", "disable",
 )  # fmt: skip
 SEEDS = "1", "2", "3", "4"

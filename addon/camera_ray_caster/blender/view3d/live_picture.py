@@ -251,6 +251,7 @@ def _draw_frame(context, frame) -> None:
     with gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
         gpu.matrix.load_identity()
         gpu.matrix.load_projection_matrix(_pixels(context.region.width, context.region.height))
+        gpu.state.blend_set("ALPHA")  # or Blender's own view shows through the line
         draw_batch(batch_of("POLYLINE", lines), "POLYLINE", color, LINE)
 
 
