@@ -19,7 +19,7 @@ CONTRACTS = {
     "Cameras": ("core.cameras.model", "core.cameras.parts.settings"),
     "Shapes": ("core.shapes.kind",),
     "Exports": ("core.exports.format",),
-    "Records": ("core.records", "core.scene"),
+    "Records": ("core.records", "core.shape_records", "core.scene"),
     "Recorded formulas": ("core.maths.recording.record",),
 }
 """Modules of core with what a model, a kind of shape or a format of one's own has to give."""

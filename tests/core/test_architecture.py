@@ -17,7 +17,7 @@ SOURCES = [*MODULES, *sorted((ROOT / "scripts").rglob("*.py")), *sorted((ROOT / 
 # What a part of the package may import of the package: the longest name that fits counts. The lowest layer comes first.
 LOW = {
     "core.conventions", "core.other_names", "core.tuning", "core.materials", "core.mesh", "core.timeline",
-    "core.records", "core.arguments", "core.memory", "core.maths", "core.units",
+    "core.shape_records", "core.records", "core.arguments", "core.memory", "core.maths", "core.units",
 }  # fmt: skip
 FILES = {"core.openexr", "core.programs", "core.text_forms"}
 RAYS = LOW | {"core.lenses", "core.cameras", "core.camera"} | FILES
@@ -31,7 +31,8 @@ MAY_IMPORT = {
     "core.mesh": {"core.tuning"},
     "core.materials": {"core.materials"},
     "core.timeline": set(),
-    "core.records": {"core.conventions", "core.materials", "core.mesh", "core.timeline"},
+    "core.shape_records": {"core.materials", "core.mesh", "core.timeline"},
+    "core.records": {"core.conventions", "core.shape_records"},
     "core.other_names": set(),
     "core.arguments": {"core.other_names", "core.records"},
     "core.memory": {"core.records"},

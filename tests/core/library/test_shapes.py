@@ -128,21 +128,41 @@ def test_joining_forgets_no_field():
 
     joined = crc.join(full(1), full(2))
     assert joined.surface.tolist() == joined.mesh.tolist() == joined.name_index.tolist() == [0, 1]
-    for field in fields(Shapes):
-        value = getattr(joined, field.name)
-        if field.name == "lights":
-            assert [len(getattr(value, part.name)) for part in fields(Lights)] == [3, 3, 3, 3, 3, 2]
-        elif field.name == "slots":
-            assert [part.name for part in fields(Slots)] == ["first", "material_index", "color", "surface"]
-            assert value.first.tolist() == [0, 1]
-            assert value.material_index.tolist() == [0, 0, 1]
-            assert value.surface.tolist() == [0, 1, 1]
-        elif field.name == "world_color":
-            assert value == (1, 0, 0, 1)
-        elif field.name == "background":
-            assert value == "world 1"
-        elif field.name != "timeline":
-            assert len(value) == 2, field.name
+    assert [field.name for field in fields(Lights)] == ["position", "is_sun", "color", "axis", "cone", "left_out"]
+    assert [len(getattr(joined.lights, field.name)) for field in fields(Lights)] == [3, 3, 3, 3, 3, 2]
+    assert joined.world.color == (1, 0, 0, 1)
+    assert joined.world.background == "world 1"
+    for group in (joined.geometry, joined.looks, joined.remarks):
+        for field in fields(group):
+            value = getattr(group, field.name)
+            assert value is getattr(joined, field.name), field.name
+            if field.name == "slots":
+                assert [part.name for part in fields(Slots)] == ["first", "material_index", "color", "surface"]
+                assert value.first.tolist() == [0, 1]
+                assert value.material_index.tolist() == [0, 0, 1]
+                assert value.surface.tolist() == [0, 1, 1]
+            else:
+                assert len(value) == 2, field.name
+
+
+def test_groups_and_values_by_name_are_two_ways_to_the_same():
+    """``Shapes`` and ``replace`` take a group, values by name, or both: the values go before those of the group."""
+    ball = crc.spheres((0, 0, -5), name="ball")
+    far = np.array([(0, 0, -9.0)])
+    moved = replace(ball, center=far, world_color=(1, 0, 0, 1), left_out=(("rope", "hidden"),))
+    assert moved.geometry.center is moved.center is far
+    assert moved.looks is ball.looks
+    assert moved.color is ball.color
+    assert moved.world.color == moved.world_color == (1, 0, 0, 1)
+    assert moved.remarks.left_out == (("rope", "hidden"),)
+    again = Shapes(geometry=ball.geometry, looks=moved.looks, world=moved.world, center=far)
+    assert (again.center is far, again.world_color, again.left_out) == (True, (1, 0, 0, 1), ())
+    with pytest.raises(TypeError, match="Shapes has no colour, radius"):
+        replace(ball, colour=None, radius=1)
+    with pytest.raises(TypeError, match="axes"):
+        Shapes(ball.kind, ball.center)
+    with pytest.raises(AttributeError):
+        ball.center = far
 
 
 @pytest.mark.parametrize(

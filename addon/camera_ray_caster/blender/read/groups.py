@@ -8,10 +8,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ...core.records import EVERYWHERE, Shapes, Slots
+from ...core.shape_records import World
 from ...core.shapes.instances import Primitive, castable, lights_in_world, put_in_world
 from ..process.signals import raise_if_stopping
 from .kept import Found
-from .lights import World
 from .materials import Look
 
 SINGULAR = "its size is zero in some direction, or not finite: clear its scale (Alt S) or apply it"
@@ -140,8 +140,7 @@ def gathered(groups: list[Group], left_out: Counter, world: World) -> Shapes:
         lights=lights_in_world(
             [(light.is_sun, light.looks[0].color, light.cone, light.placings().matrices) for light in lights]
         ),
-        world_color=world.color,
-        background=world.background,
+        world=world,
         left_out=listed(left_out),
         meshes=tuple(meshes.values()),
         mesh=column(rows, np.int32) if meshes else np.zeros(0, np.int32),

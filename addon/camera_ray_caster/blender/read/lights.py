@@ -1,13 +1,13 @@
 """Lights and the world, as evaluated by a depsgraph."""
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
 from ...core.materials.directions import over_all_directions
 from ...core.materials.values import Constant, Value, constant
 from ...core.records import AREA, EVERYWHERE
+from ...core.shape_records import World
 from .materials import ALWAYS_NODES, VIEWPORT_COLOR, as_color, shown
 from .nodes import Nodes, Unread, output_of
 from .shader_nodes import colors
@@ -15,17 +15,6 @@ from .value_nodes import ENVIRONMENT, READ, READ_OF_WORLDS
 
 DIRECTIONS = 1 << 12
 """Number of directions, evenly spread, whose mean is the light of a background that changes."""
-
-
-class World(NamedTuple):
-    """What is behind everything."""
-
-    color: tuple[float, float, float, float]
-    """RGBA: (0, 0, 0, 0) under a transparent film, black without a world."""
-    background: Value | None = None
-    """See ``Shapes.background``; ``color`` is its mean then."""
-    unread: tuple[tuple[str, str], ...] = ()
-    """The world's name and what is not read of it, in words."""
 
 
 def cone_of(light) -> tuple[float, float]:
@@ -53,18 +42,19 @@ def light_color(light) -> tuple[float, float, float]:
     return tuple(strength * a * b * c for a, b, c in zip(light.color, tint, nodes.tolist(), strict=True))
 
 
-def world_of(depsgraph) -> World:
-    """Return the world that a depsgraph shows: the view layer's world override, or the scene's world.
+def world_of(depsgraph) -> tuple[World, tuple[tuple[str, str], ...]]:
+    """Return the world that a depsgraph shows: the view layer's world override, or the scene's world; and its name and
+    what is not read of it, in words.
 
     It is what the nodes of the world emit. A world without nodes, or with others than are read, shows its viewport
-    color.
+    color. Its alpha is 0 under a transparent film; without a world it is black.
     """
     scene = depsgraph.scene_eval
     world = depsgraph.view_layer_eval.world_override or scene.world
     if scene.render.film_transparent:
-        return World((0.0, 0.0, 0.0, 0.0))
+        return World((0.0, 0.0, 0.0, 0.0)), ()
     if world is None:
-        return World((0.0, 0.0, 0.0, 1.0))
+        return World(), ()
     unread: tuple[tuple[str, str], ...] = ()
     try:
         emitted = _emitted(world, READ_OF_WORLDS) if ALWAYS_NODES or world.use_nodes else None
@@ -72,9 +62,9 @@ def world_of(depsgraph) -> World:
         emitted, unread = None, ((world.name, f"the world's color is not read: {error}. {VIEWPORT_COLOR}"),)
     if emitted is None or isinstance(emitted, Constant):
         red, green, blue = shown(world.color if emitted is None else emitted.values[:, 0].tolist())
-        return World((red, green, blue, 1.0), None, unread)
+        return World((red, green, blue, 1.0)), unread
     red, green, blue = over_all_directions(emitted, DIRECTIONS).tolist()
-    return World((red, green, blue, 1.0), emitted)
+    return World((red, green, blue, 1.0), emitted), ()
 
 
 def _emitted(owner, read: dict) -> Value | None:

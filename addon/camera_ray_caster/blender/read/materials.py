@@ -68,7 +68,7 @@ class Look(NamedTuple):
         return self._replace(color=(0.0,) * 4, surface=surface)
 
 
-class Looks:
+class LayerLooks:
     """Looks of objects in a view layer; each material is looked up once."""
 
     def __init__(self, layer, has_colors: bool):

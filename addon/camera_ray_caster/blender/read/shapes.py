@@ -9,12 +9,13 @@ import bpy
 
 from ...core.mesh import Mesh
 from ...core.records import Shapes
+from ...core.shape_records import World
 from ..properties.declared import EXACT_SHAPES, PRIMITIVE
 from .geometry import mesh_shapes, shapes_of
 from .groups import Group, cancellable, gathered, listed
 from .kept import Found, Reading
-from .lights import World, cone_of, light_color, world_of
-from .materials import Look, Looks, first_slot, is_finite
+from .lights import cone_of, light_color, world_of
+from .materials import LayerLooks, Look, first_slot, is_finite
 from .nodes import Unread
 from .stored import own_value
 from .unique import unique_name
@@ -51,10 +52,10 @@ class _Scene:
     """Collector of the groups in a depsgraph's list of instances."""
 
     def __init__(self, depsgraph, has_colors: bool):
-        self.world = world_of(depsgraph) if has_colors else World((0.0, 0.0, 0.0, 1.0))
+        self.world, self.unread = world_of(depsgraph) if has_colors else (World(), ())
         self.visibility = ItemVisibility(depsgraph)
         self.reading = Reading(depsgraph)
-        self.looks = Looks(depsgraph.view_layer_eval, has_colors)
+        self.looks = LayerLooks(depsgraph.view_layer_eval, has_colors)
         self.exact = own_value(depsgraph.scene_eval, EXACT_SHAPES)
         self.groups: dict[tuple, Group] = {}
         self.left_out: Counter[tuple[str, str]] = Counter()
@@ -145,7 +146,7 @@ class _Scene:
 
     def record(self) -> Shapes:
         """Return the record of all groups."""
-        dark: Counter[tuple[str, str]] = Counter(self.world.unread)
+        dark: Counter[tuple[str, str]] = Counter(self.unread)
         for group in self.groups.values():
             if group.reason:
                 (dark if group.is_light else self.left_out)[group.name, group.reason] += len(group.matrices)

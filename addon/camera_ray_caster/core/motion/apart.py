@@ -22,7 +22,7 @@ BY_SHAPE = (
 OF_ALL = "slots", "surfaces", "uv"
 """What several shapes show."""
 
-LIGHT = "lights", "world_color", "background"
+LIGHT = "lights", "world"
 """What lights all shapes and stands behind them: in the combined pass alone."""
 
 
