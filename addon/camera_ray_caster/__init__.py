@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from .core.cameras.parts.settings import Choice, Flag, Item, Number
     from .core.cast import cast
     from .core.casting.images import Images
+    from .core.casting.top_down import top_down
     from .core.casting.visibility import Visibility, visible
     from .core.clouds.cloud import PointCloud, scan
     from .core.exports.camera_json import camera_from_json, camera_to_json
@@ -62,7 +63,6 @@ if TYPE_CHECKING:
     from .core.library.poses import look_at, pose_from_opencv
     from .core.library.rigs import load_rig
     from .core.library.shapes import mesh, planes, spheres
-    from .core.library.top_down import top_down
     from .core.records import Cancelled, InputError, Rays, Shapes
     from .core.scene import Scene
     from .core.version import VERSION
@@ -70,110 +70,53 @@ if TYPE_CHECKING:
     __version__ = VERSION
 
 _MODULES = {
-    "Camera": ".core.camera.camera",
-    "Cancelled": ".core.records",
-    "Choice": ".core.cameras.parts.settings",
-    "Fit": ".core.camera.fit",
-    "Flag": ".core.cameras.parts.settings",
-    "Images": ".core.casting.images",
-    "InputError": ".core.records",
-    "Item": ".core.cameras.parts.settings",
-    "Model": ".core.cameras.model",
-    "Number": ".core.cameras.parts.settings",
-    "PointCloud": ".core.clouds.cloud",
-    "Rays": ".core.records",
-    "Scene": ".core.scene",
-    "Shapes": ".core.records",
-    "Step": ".core.cameras.model",
-    "Visibility": ".core.casting.visibility",
-    "__version__": ".core.version:VERSION",
-    "camera": ".core.library.cameras",
-    "camera_from_json": ".core.exports.camera_json",
-    "camera_to_json": ".core.exports.camera_json",
-    "cast": ".core.cast",
-    "cast_rays": ".core.any_rays.door",
-    "explain": ".core.library.explaining",
-    "export": ".core.library.files",
-    "fit": ".core.library.fitting",
-    "join": ".core.library.join",
-    "load_calibration": ".core.library.cameras",
-    "load_rig": ".core.library.rigs",
-    "look_at": ".core.library.poses",
-    "mesh": ".core.library.shapes",
-    "models": ".core.library.models",
-    "occluded": ".core.any_rays.door",
-    "planes": ".core.library.shapes",
-    "pose_from_opencv": ".core.library.poses",
-    "read_camera": ".blender.read",
-    "read_scene": ".blender.read",
-    "read_shapes": ".blender.read",
-    "save_points": ".core.library.clouds",
-    "scan": ".core.clouds.cloud",
-    "spheres": ".core.library.shapes",
-    "top_down": ".core.library.top_down",
-    "verify": ".blender.verification.check:verify_camera",
-    "visible": ".core.casting.visibility",
+    ".blender.read": "read_camera read_scene read_shapes",
+    ".blender.verification.check:verify_camera": "verify",
+    ".core.any_rays.door": "cast_rays occluded",
+    ".core.camera.camera": "Camera",
+    ".core.camera.fit": "Fit",
+    ".core.cameras.model": "Model Step",
+    ".core.cameras.parts.settings": "Choice Flag Item Number",
+    ".core.cast": "cast",
+    ".core.casting.images": "Images",
+    ".core.casting.top_down": "top_down",
+    ".core.casting.visibility": "Visibility visible",
+    ".core.clouds.cloud": "PointCloud scan",
+    ".core.exports.camera_json": "camera_from_json camera_to_json",
+    ".core.library.cameras": "camera load_calibration",
+    ".core.library.clouds": "save_points",
+    ".core.library.explaining": "explain",
+    ".core.library.files": "export",
+    ".core.library.fitting": "fit",
+    ".core.library.join": "join",
+    ".core.library.models": "models",
+    ".core.library.poses": "look_at pose_from_opencv",
+    ".core.library.rigs": "load_rig",
+    ".core.library.shapes": "mesh planes spheres",
+    ".core.records": "Cancelled InputError Rays Shapes",
+    ".core.scene": "Scene",
+    ".core.version:VERSION": "__version__",
 }
-"""Module of each public name, and the name there if it is another."""
+"""Public names by module; after a colon the name there, if it is another."""
+_MODULE_OF = {name: module for module, names in _MODULES.items() for name in names.split()}
 
 __all__ = [
-    "Camera",
-    "Cancelled",
-    "Choice",
-    "Fit",
-    "Flag",
-    "Images",
-    "InputError",
-    "Item",
-    "Model",
-    "Number",
-    "PointCloud",
-    "Rays",
-    "Scene",
-    "Shapes",
-    "Step",
-    "Visibility",
-    "camera",
-    "camera_from_json",
-    "camera_to_json",
-    "cast",
-    "cast_rays",
-    "explain",
-    "export",
-    "fit",
-    "join",
-    "load_calibration",
-    "load_rig",
-    "look_at",
-    "mesh",
-    "models",
-    "occluded",
-    "planes",
-    "pose_from_opencv",
-    "read_camera",
-    "read_scene",
-    "read_shapes",
-    "register",
-    "register_model",
-    "save_points",
-    "scan",
-    "spheres",
-    "top_down",
-    "unregister",
-    "verify",
-    "visible",
-]
+    "Camera", "Cancelled", "Choice", "Fit", "Flag", "Images", "InputError", "Item", "Model", "Number", "PointCloud",
+    "Rays", "Scene", "Shapes", "Step", "Visibility", "camera", "camera_from_json", "camera_to_json", "cast",
+    "cast_rays", "explain", "export", "fit", "join", "load_calibration", "load_rig", "look_at", "mesh", "models",
+    "occluded", "planes", "pose_from_opencv", "read_camera", "read_scene", "read_shapes", "register",
+    "register_model", "save_points", "scan", "spheres", "top_down", "unregister", "verify", "visible",
+]  # fmt: skip
 
 
 if not TYPE_CHECKING:  # a type checker sees the imports above, and nothing else
 
     def __getattr__(name: str):
-        if name not in _MODULES:
-            from .core.other_names import FUNCTIONS
+        if name not in _MODULE_OF:
+            from .core.other_names import FUNCTIONS, instead
 
-            use = f": use {FUNCTIONS[name.lower()]}" if name.lower() in FUNCTIONS else ""
-            raise AttributeError(f"module {__name__!r} has no attribute {name!r}{use}")
-        module, _, other = _MODULES[name].partition(":")
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}{instead(name, FUNCTIONS, __all__)}")
+        module, _, other = _MODULE_OF[name].partition(":")
         try:
             value = getattr(import_module(module, __name__), other or name)
         except ModuleNotFoundError as error:

@@ -130,8 +130,8 @@ def mesh(''',
     copy.change(
         f"{PACKAGE}/__init__.py",
         ("shapes import mesh, planes", "shapes import discs, mesh, planes"),
-        ('    "explain": ', '    "discs": ".core.library.shapes",\n    "explain": '),
-        ('    "explain",', '    "discs",\n    "explain",'),
+        ('"mesh planes', '"discs mesh planes'),
+        ('"explain", ', '"discs", "explain", '),
     )
     copy.change(
         f"{PACKAGE}/blender/properties/declared.py",

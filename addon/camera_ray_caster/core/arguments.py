@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Callable, Collection, Iterable
-from difflib import get_close_matches
 from functools import wraps
 from itertools import islice
 from math import inf, nan
@@ -19,7 +18,7 @@ from zlib import error as ZlibError
 
 import numpy as np
 
-from .other_names import meant
+from .other_names import meant, nearest
 from .records import InputError
 
 P = ParamSpec("P")
@@ -171,10 +170,8 @@ def numbers(value, name: str) -> np.ndarray:
 
 def unknown(kind: str, value, known: Collection[str]) -> InputError:
     """Return the error for a word that is none of ``known``: it names the nearest one, and all."""
-    spellings = {spelling.lower(): spelling for spelling in known}
-    near = get_close_matches(value.lower(), spellings, 1) if isinstance(value, str) else []
-    nearest = (isinstance(value, str) and meant(value, known)) or (spellings[near[0]] if near else "")
-    guess = f"did you mean {nearest}? " if nearest else ""
+    near = (meant(value, known) or nearest(value, known)) if isinstance(value, str) else ""
+    guess = f"did you mean {near}? " if near else ""
     return InputError(f"unknown {kind} {shown(value)}: {guess}choose from {', '.join(known)}")
 
 

@@ -21,8 +21,10 @@ from .casting.previews import Previews, Show
 from .casting.request import MATERIAL, SHADINGS, Request
 from .casting.search import nearest_hits
 from .casting.tiles import TIMED_STEPS, Effort, Tile, cast_tile, in_threads, listening, moments, shares
+from .casting.top_down import top_down
+from .conventions import BOTTOM, TOP
 from .maths.speed import Scratch, processors
-from .records import Shapes
+from .records import InputError, Shapes
 from .scene import Scene
 
 MOST_SAMPLES = 1 << 24
@@ -45,6 +47,7 @@ def cast(
     finished: Callable[[Images, slice], None] | None = None,
     preview: Show | None = None,
     into: Images | None = None,
+    rows: str = BOTTOM,
 ) -> Images:
     """Return the passes of a picture as a mapping of name to array, (rows, columns[, channels]), row 0 at the bottom.
 
@@ -75,6 +78,7 @@ def cast(
         memory. Each requested pass must be there with the shape and type of this cast, writable, C-contiguous and
         without memory of another; other passes are removed, and its camera, shapes, plan and seconds are replaced. Its
         contents are undefined after Cancelled, and after an error while it is written.
+    rows: "top" returns ``top_down(images)``, as OpenCV has them; ``finished`` and ``preview`` are as before.
 
     Raises InputError for an unknown pass or shading, for a dtype that is not a floating-point type, for a
     number of samples or threads that is not whole or below 1, for more than MOST_SAMPLES samples, for flow to frames
@@ -89,6 +93,9 @@ def cast(
     progress, finished = arguments.function(progress, "progress"), arguments.function(finished, "finished")
     preview = arguments.function(preview, "preview")
     passes = arguments.words(passes, "passes", PASSES)
+    rows = arguments.word(rows, "rows", (BOTTOM, TOP))
+    if rows == TOP and into is not None:
+        raise InputError("into has row 0 at the bottom: cast without rows, and call top_down(images)")
     if precision is not None:
         warnings.warn("precision has no effect; version 0.4 will refuse it", DeprecationWarning, stacklevel=2)
     request = Request(passes, tuple(PASSES), shading, arguments.flag(cull, "cull"))
@@ -146,7 +153,7 @@ def cast(
     images.seconds |= dict(zip(TIMED_STEPS, busy * share, strict=True))
     if finished is not None:
         images.seconds["write"] = write
-    return images
+    return images if rows == BOTTOM else top_down(images)
 
 
 class _Work:

@@ -44,6 +44,10 @@ LAST_FRAME = 1048574
 """Largest frame number in Blender; the smallest is its negative."""
 
 
+BOTTOM, TOP = "bottom", "top"
+"""Where row 0 is: ``rows`` of a function. TOP has OpenCV's pixels: y down from the center of the top left pixel."""
+
+
 def gamma(n: int, unit_roundoff: float = EPS) -> float:
     """Return n u / (1 - n u), the upper bound of the relative error of n rounded operations in sequence.
 

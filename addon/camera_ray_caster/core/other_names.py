@@ -1,106 +1,190 @@
-"""Names from other libraries, and the names that they have here: they complete the messages on unknown names."""
+"""Names from other libraries, and the names that they have here: they complete the messages on unknown names.
+
+Each line of a table has what to use, and after <- the names that people try: OpenCV's, COLMAP's, Open3D's, PyTorch3D's,
+trimesh's, Blender's and others. Case and underscores do not count, nor does a leading ``get``.
+"""
 
 from __future__ import annotations
 
-FUNCTIONS = {
-    "load_mesh": "mesh(vertices, faces), or mesh(object of trimesh)",
-    "from_trimesh": "mesh(object of trimesh)",
-    "load_camera": "load_calibration(path)",
-    "load_cameras": "load_rig(path)",
-    "from_opencv": 'camera("OPENCV_PINHOLE", size, fx=..., k1=...)',
-    "project": "camera(...).project(points)",
-    "unproject": "camera(...).rays_at(x, y)",
-    "undistort": 'export(camera, path, format="stmap")',
-    "render": "cast(camera, shapes)",
-    "raycast": "cast(camera, shapes), or cast_rays(origins, directions, shapes)",
-    "trace": "cast(camera, shapes), or cast_rays(origins, directions, shapes)",
-    "sphere": "spheres(centers, radii)",
-    "plane": "planes(centers, axes)",
-    "box": "mesh(vertices, faces)",
-    "cube": "mesh(vertices, faces)",
-    "flip": "top_down(images)",
-    "save": "export(cameras, path), or save_points(cloud, path)",
-    "lidar": 'scan(camera("SCANNER", size), shapes)',
-}
+from collections.abc import Collection
+from difflib import get_close_matches
+
+
+def _folded(word: str) -> str:
+    return word.lower().replace("_", "").replace("-", "").removeprefix("get")
+
+
+def _table(text: str) -> dict[str, list[str]]:
+    """Return what to use by name, in the order of the lines."""
+    lines: dict[str, list[str]] = {}
+    for use, _, names in (line.partition(" <- ") for line in text.strip().splitlines()):
+        for name in names.split():
+            lines.setdefault(_folded(name), []).append(use)
+    return lines
+
+
+FUNCTIONS = _table("""
+mesh(vertices, faces), or mesh(object of trimesh) <- load_mesh read_mesh read_triangle_mesh load_obj load_ply load_objs
+mesh(vertices, faces), or mesh(object of trimesh) <- TriangleMesh Meshes triangles trimesh icosphere from_pytorch3d
+mesh(object of trimesh) <- from_trimesh from_open3d
+mesh(vertices, faces) <- box cube create_box cylinder cone
+spheres(centers, radii) <- sphere ball balls uv_sphere create_sphere
+planes(centers, axes) <- plane ground floor quad
+join(shapes, ...) <- merge concatenate concat combine union
+camera("OPENCV_PINHOLE", size, fx=..., k1=...) <- from_opencv from_k from_matrix from_intrinsics camera_from_k
+camera("OPENCV_PINHOLE", size, fx=..., k1=...) <- PinholeCamera PinholeCameraIntrinsic pinhole k intrinsics
+camera("OPENCV_FISHEYE", size, fx=..., k1=...) <- fisheye FisheyeCamera FisheyeCameras kb4 kb8 kannala_brandt
+camera("PERSP", size, lens=..., sensor_width=...) <- perspective PerspectiveCamera PerspectiveCameras fov from_fov
+camera("PERSP", size, lens=..., sensor_width=...) <- FoVPerspectiveCameras
+camera("ORTHO", size, ortho_scale=...) <- orthographic OrthographicCamera FoVOrthographicCameras
+camera(model, size, pose, clip_start=..., clip_end=...) <- near far znear zfar
+camera(model, size, pose, k1=..., k2=...) <- dist dist_coeffs distortion
+camera(model, size, pose) <- create_camera make_camera cameras
+models() <- list_models camera_models available_models camera_model model
+load_calibration(path) <- load_camera read_calibration load_intrinsics from_kalibr from_ros calibration
+load_rig(path) <- load_cameras read_cameras read_model load_colmap from_colmap from_nerfstudio load_transforms rig
+look_at(eye, target) <- lookat pose look_at_view_transform look_at_rotation
+pose_from_opencv(matrix) <- extrinsics from_extrinsics from_w2c rodrigues
+camera(...).project(points) <- project project_points world_to_pixel distort distort_points
+camera(...).rays_at(x, y) <- unproject unproject_points backproject pixel_to_ray undistort_points undistort_point
+camera(...).rays() <- rays generate_rays ray_directions
+cast(camera, shapes, passes="depth") <- depth depth_map render_depth
+cast(camera, shapes, passes="position") <- depth_to_points depth_to_point_cloud
+cast(camera, shapes, passes="normal") <- normals
+cast(camera, shapes, passes="flow_forward") <- flow optical_flow
+cast(camera, shapes) <- render rasterize render_image
+cast(camera, shapes), or cast_rays(origins, directions, shapes) <- raycast trace raytrace ray_trace raycaster
+cast_rays(origins, directions, shapes) <- intersect intersects ray_intersect cast_ray intersects_location closest_hit
+cast_rays(origins, directions, shapes) <- RaycastingScene intersects_first
+occluded(origins, targets, shapes) <- intersects_any test_occlusions occlusion shadow
+visible(camera, shapes, points) <- is_visible visibility
+scan(camera("SCANNER", size), shapes) <- lidar lidar_scan point_cloud scanner
+export(camera, path, format="stmap") <- undistort rectify remap init_undistort_rectify_map undistort_image
+export(cameras, path), or save_points(cloud, path) <- save write
+export(cameras, path, format=...) <- save_cameras write_cameras to_colmap to_nerfstudio to_opencv write_model
+save_points(cloud, path) <- save_ply save_pcd write_ply to_ply write_point_cloud
+camera_from_json(path) <- load_json from_json
+top_down(images) <- flip flipud flip_y
+fit(camera, model) <- calibrate calibrate_camera convert
+read_scene(scene), or mesh(vertices, faces) <- load_scene from_blender
+InputError <- error crc_error exception
+camera_ray_caster.blender.cycles.to_cycles(scene) <- to_cycles
+""")
 """What to use in place of a function that this package does not have."""
 
-ATTRIBUTES = {
-    "unproject": "rays_at(x, y)",
-    "pixel_to_ray": "rays_at(x, y)",
-    "get_rays": "rays()",
-    "world_to_pixel": "project(points)",
-    "undistort": 'crc.export(camera, path, format="stmap")',
-    "distort": "project(points)",
-    "render": "crc.cast(camera, shapes)",
-    "cast": "crc.cast(camera, shapes)",
-    "fov": "settings, or rays() for the angles",
-    "near": "clip_start",
-    "far": "clip_end",
-    "k": "K",
-    "intrinsics": "K and settings",
-    "intrinsic_matrix": "K",
-    "camera_matrix": "K",
-    "extrinsics": "opencv_from_world",
-    "world_to_camera": "opencv_from_world",
-    "camera_from_world": "opencv_from_world",
-    "camera_to_world": "world_from_camera",
-    "matrix_world": "world_from_camera",
-    "position": "pose.eye",
-    "center": "pose.eye",
-    "rotation": "pose.basis",
-    "dist": "settings",
-    "distortion": "settings",
-    "dist_coeffs": "settings",
-    "size": "width and height",
-    "resolution": "width and height",
-    "fx": 'settings["fx"], or K',
-    "fy": 'settings["fy"], or K',
-    "cx": 'settings["cx"], or K',
-    "cy": 'settings["cy"], or K',
-    "save": "crc.export(camera, path)",
-}
+ATTRIBUTES = _table("""
+rays_at(x, y) <- unproject unproject_points backproject pixel_to_ray pixel2ray image_to_world pixel_to_world ray
+rays_at(x, y) <- rays_from_pixels undistort_points undistort_point
+rays() <- rays generate_rays ray_directions ray_bundle
+project(points) <- project_points world_to_pixel world2pixel world_to_image transform_points distort distort_points
+crc.export(camera, path, format="stmap") <- undistort undistort_image rectify
+crc.export(camera, path) <- save export write to_colmap to_opencv to_nerfstudio
+crc.camera_to_json(camera) <- to_json to_dict as_dict
+crc.cast(camera, shapes) <- render cast raycast trace depth
+settings, or rays() for the angles <- fov fovx fovy hfov vfov xfov yfov field_of_view
+clip_start <- near znear clip_near near_plane near_clip
+clip_end <- far zfar clip_far far_plane far_clip
+K <- k intrinsic_matrix intrinsics_matrix camera_matrix calibration_matrix projection_matrix kk
+K and settings <- intrinsics intrinsic calibration
+numpy.linalg.inv(camera.K), or rays_at(x, y) with distortion <- k_inv inv_k
+opencv_from_world <- extrinsics extrinsic extrinsic_matrix world_to_camera camera_from_world cam_from_world w2c rt view
+opencv_from_world <- t_cw tcw view_matrix world_view_transform world_to_view_transform world_to_cam
+opencv_from_world[:3, :3] <- r r_w2c
+opencv_from_world[:3, 3] <- t tvec translation
+world_from_camera <- camera_to_world matrix_world c2w cam_to_world world_from_cam t_wc twc matrix transform
+pose.eye <- position location center origin eye camera_center optical_center c
+pose.basis <- rotation rotation_matrix r_c2w
+settings <- dist dist_coeffs distortion distortion_coeffs distortion_params distortion_coefficients params d
+width and height <- size resolution image_size img_size shape w h
+settings["fx"], or K <- fx f focal focal_length fl_x
+settings["fy"], or K <- fy fl_y
+settings["cx"], or K <- cx principal_point
+settings["cy"], or K <- cy
+settings["lens"] <- lens focal_mm
+settings["sensor_width"] <- sensor_width sensor_size
+model.key <- type camera_type camera_model model_name
+with_pose(pose) <- set_pose look_at move
+with_settings(...) <- replace copy clone with_fov
+crc.camera(model, size) of the other size <- resize rescale with_size downscale
+""")
 """What to use in place of an attribute that a camera does not have."""
 
-WORDS: dict[str, tuple[tuple[str, ...], ...]] = {
-    "fov": (("fisheye_fov",), ("fx",), ("lens", "sensor_width")),
-    "hfov": (("fov",), ("fisheye_fov",), ("fx",), ("lens", "sensor_width")),
-    "vfov": (("fov",), ("fisheye_fov",), ("fy",), ("lens", "sensor_width")),
-    "near": (("clip_start",),),
-    "far": (("clip_end",),),
-    "k": (("fx", "fy", "cx", "cy"), ("lens", "sensor_width")),
-    "intrinsics": (("fx", "fy", "cx", "cy"), ("lens", "sensor_width")),
-    "camera_matrix": (("fx", "fy", "cx", "cy"), ("lens", "sensor_width")),
-    "dist": (("k1", "k2", "p1", "p2", "k3"), ("k1", "k2", "k3", "k4")),
-    "distortion": (("k1", "k2", "p1", "p2", "k3"), ("k1", "k2", "k3", "k4")),
-    "dist_coeffs": (("k1", "k2", "p1", "p2", "k3"), ("k1", "k2", "k3", "k4")),
-    "focal_length": (("fx", "fy"), ("lens",)),
-    "focal": (("fx", "fy"), ("lens",)),
-    "f": (("fx", "fy"), ("lens",)),
-    "f_stop": (("aperture_fstop",),),
-    "fstop": (("aperture_fstop",),),
-    "xi": (("unified_xi",),),
-    "alpha": (("unified_alpha",),),
-    "beta": (("unified_beta",),),
-    "omega": (("fov_omega",),),
-    **dict.fromkeys(("kb", "kb3", "kb4", "kb8", "kannala_brandt", "kannalabrandt", "kannala_brandt4", "fisheye",
-                     "equidistant"), (("OPENCV_FISHEYE",),)),
-    **dict.fromkeys(("pinhole", "simple_pinhole", "radtan", "brown", "brown_conrady", "opencv", "full_opencv",
-                     "plumb_bob", "rational_polynomial"), (("OPENCV_PINHOLE",),)),
-    **dict.fromkeys(("mei", "omni", "unified", "cata"), (("UCM",),)),
-    **dict.fromkeys(("erp", "panorama", "pano", "spherical", "equirect", "360"), (("EQUIRECTANGULAR",),)),
-    **dict.fromkeys(("lidar", "laser"), (("SCANNER",),)),
-    **dict.fromkeys(("scaramuzza", "omnidirectional"), (("OCAM",),)),
-    **dict.fromkeys(("rgb", "color", "image", "beauty"), (("combined",),)),
-    **dict.fromkeys(("z", "range"), (("depth",),)),
-    **dict.fromkeys(("normals",), (("normal",),)),
-    **dict.fromkeys(("points", "xyz"), (("position",),)),
-    **dict.fromkeys(("mask", "segmentation", "instance"), (("shape_index",),)),
-    **dict.fromkeys(("flow", "optical_flow"), (("flow_forward",),)),
-}  # fmt: skip
-"""Words for models, passes and settings in lower case; the first of the choices that is known is meant."""
+WORDS = _table("""
+fisheye_fov <- fov hfov vfov fov_x fov_y xfov yfov
+fx, fy <- focal_length focal f
+fx <- fov hfov fov_x xfov fl_x angle
+fy <- vfov fov_y yfov fl_y
+clip_start <- near znear near_plane clip_near near_clip
+clip_end <- far zfar far_plane clip_far far_clip
+fx, fy, cx, cy <- k intrinsics camera_matrix intrinsic_matrix
+lens, sensor_width <- fov hfov vfov fov_x fov_y xfov yfov k intrinsics camera_matrix angle fx fl_x
+lens <- focal_length focal f fx fy fl_x fl_y
+cx, cy <- principal_point
+cx <- px u0 ppx
+cy <- py v0 ppy
+shift_x, shift_y <- principal_point cx cy px py
+k1, k2, p1, p2, k3 <- dist distortion dist_coeffs distortion_coeffs distortion_params d
+k1, k2, k3, k4 <- dist distortion dist_coeffs distortion_coeffs distortion_params d
+aperture_fstop <- f_stop f_number fnumber aperture
+focus_distance <- focus focus_dist
+sensor_width <- sensor_size
+pixel_aspect_x, pixel_aspect_y <- aspect aspect_ratio pixel_aspect
+time_mode <- shutter rolling_shutter
+pose <- r t rt rvec tvec rotation translation position location look_at c2w transform_matrix matrix_world extrinsics
+size <- width height w h resolution image_size img_size resolution_x resolution_y
+scanner_device <- device
+unified_xi <- xi
+unified_alpha <- alpha
+unified_beta <- beta
+fov_omega <- omega
+PERSP <- perspective thin_lens FoVPerspectiveCameras PerspectiveCameras dof
+ORTHO <- orthographic parallel orthogonal OrthographicCameras
+OPENCV_FISHEYE <- kb kb3 kb4 kb8 kannala_brandt kannala_brandt4 kannala_brandt8 fisheye equidistant radial_fisheye
+OPENCV_FISHEYE <- simple_radial_fisheye
+OPENCV_PINHOLE <- pinhole simple_pinhole simple_radial radial radtan brown brown_conrady opencv full_opencv plumb_bob
+OPENCV_PINHOLE <- rational_polynomial rational
+UCM <- mei omni unified cata
+DOUBLE_SPHERE <- ds
+EQUIRECTANGULAR <- erp panorama pano spherical equirect 360 latlong vr180
+EQUIANGULAR_CUBEMAP_FACE <- cubemap cube cube_map eac
+SCANNER <- lidar laser velodyne ouster
+PUSHBROOM <- linescan line_scan rpc satellite
+OMNIDIRECTIONAL_STEREO <- ods
+OCAM <- scaramuzza omnidirectional ocamcalib
+combined <- rgb rgba color image beauty alpha
+albedo <- diffuse base_color diffuse_color
+depth <- z range t t_hit inv_depth disparity
+normal <- normals normal_map
+position <- points xyz point_cloud
+shape_index <- mask instance instance_id instances geometry_ids instance_index
+object_index <- segmentation semantic semantics labels class category object_id
+face_index <- primitive_id primitive_ids triangle_id
+flow_forward <- flow optical_flow motion_vector motion vector speed
+flow_hidden <- occlusion
+valid <- hit
+nerf <- blender nerf_synthetic
+nerfstudio <- transforms instant_ngp
+opencv <- yaml yml xml
+stmap <- exr uvmap
+""")
+"""What is meant by a word for a model, setting, pass or format: the first line all of whose words are known."""
 
 
-def meant(word: str, known) -> str:
+def nearest(word: str, known: Collection[str], likeness: float = 0.6) -> str:
+    """Return the word of ``known`` that is spelled most like a word; "" if none is like it."""
+    spellings = {name.lower(): name for name in known}
+    return next((spellings[name] for name in get_close_matches(word.lower(), spellings, 1, likeness)), "")
+
+
+def instead(word: str, table: dict[str, list[str]], known: Collection[str]) -> str:
+    """Return what to use in place of a name that does not exist: by a table, or the nearest of the public names among
+    ``known``, as the end of a message; "" if there is none.
+    """
+    public = [] if word.startswith("_") else [name for name in known if not name.startswith("_")]
+    use = next(iter(table.get(_folded(word), ())), "") or nearest(word, public, 0.75)
+    return f": use {use}" if use else ""
+
+
+def meant(word: str, known: Collection[str]) -> str:
     """Return what is meant by a word of another library, one or several words of ``known``; "" if it is not listed."""
-    choices = WORDS.get(word.lower(), ())
-    return next((", ".join(choice) for choice in choices if all(name in known for name in choice)), "")
+    return next((use for use in WORDS.get(_folded(word), ()) if {*use.split(", ")} <= {*known}), "")

@@ -38,6 +38,22 @@ def test_camera_and_shapes_are_what_the_doors_give(scene, sphere):
         assert found.shapes.timeline == camera.timeline == Timeline()
 
 
+@pytest.mark.parametrize("read", [read_scene, read_shapes])
+def test_arguments_by_place_are_read_with_a_warning(scene, sphere, read):
+    """The frame came second before; now the camera does, as in read_camera."""
+    scene.camera.data.camera_ray_caster.time_mode = "NONE"
+    key(sphere, "location", (1, -3.0), (25, 3.0), index=0)
+    places = (7,), (np.int64(7),), (None, scene.camera), (7, scene.camera), (scene.camera, 7), (7, scene.camera, "")
+    for arguments in places:
+        with pytest.warns(DeprecationWarning, match="as keywords: frame="):
+            found = read(scene, *arguments)
+        center = getattr(found, "shapes", found).center
+        frame = None if arguments[0] is None else 7
+        np.testing.assert_array_equal(center, read_shapes(scene, frame=frame).center)
+    with pytest.raises(InputError, match="7 is not an object"):  # by its name it is no old form: no warning
+        read(scene, camera_object=7)
+
+
 def test_motion_is_evaluated_once_for_camera_and_shapes(scene, sphere, counted):
     key(sphere, "location", (1, -3.0), (25, 3.0), index=0)
     scene.frame_set(7)

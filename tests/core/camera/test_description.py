@@ -102,7 +102,13 @@ def test_what_cannot_be_changed_is_refused_in_one_line():
             fisheye().with_settings(**dict([settings]))
 
 
-@pytest.mark.parametrize(("name", "use"), {"near": "clip_start", "unproject": "rays_at", "fov": "settings"}.items())
+USES = {
+    "near": "clip_start", "unproject": "rays_at", "fov": "settings", "K_inv": "numpy.linalg.inv",
+    "getW2C": "opencv_from_world", "projct": "project",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "use"), USES.items())
 def test_names_of_other_libraries_lead_to_the_right_one(name, use):
     with pytest.raises(AttributeError, match=f"no {name}: use {use}"):
         getattr(fisheye(), name)

@@ -103,8 +103,17 @@ def test_words_are_known_in_any_case_and_functions_take_a_scene():
     [
         ({"near": 1}, "did you mean clip_start"), ({"K": np.eye(3)}, "did you mean fx, fy, cx, cy"),
         ({"dist": [0.1]}, "did you mean k1, k2, p1, p2, k3"), ({"focal_length": 1}, "did you mean fx, fy"),
+        ({"R": np.eye(3)}, "did you mean pose"), ({"width": 64}, "did you mean size"),
     ],
 )  # fmt: skip
 def test_names_of_other_libraries_lead_to_the_right_one(settings, said):
     with pytest.raises(crc.InputError, match=said):
         crc.camera("OPENCV_PINHOLE", SIZE, **settings)
+
+
+@pytest.mark.parametrize(("word", "model"), {"orthographic": "ORTHO", "KannalaBrandt8": "OPENCV_FISHEYE"}.items())
+def test_models_of_other_libraries_lead_to_the_right_one(word, model):
+    with pytest.raises(crc.InputError, match=f"did you mean {model}"):
+        crc.camera(word, SIZE)
+    with pytest.raises(crc.InputError, match="use with_pose"):
+        CAMERA.with_settings(pose=np.eye(4))

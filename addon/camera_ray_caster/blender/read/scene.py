@@ -3,6 +3,7 @@
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial, wraps
+from numbers import Real
 
 import bpy
 
@@ -27,10 +28,11 @@ def _frame_came_second(function):
     """Let a function take its arguments by position as they were before version 0.3, with a DeprecationWarning."""
 
     @wraps(function)
-    def call(scene, camera_object=None, *others, **keywords):
-        if not others and not isinstance(camera_object, int | float):
-            return function(scene, camera_object, **keywords)
-        old = dict(zip(("frame", "camera_object", "view", "passes"), (camera_object, *others), strict=False))
+    def call(scene, *others, **keywords):
+        if not others or (len(others) == 1 and not isinstance(others[0], Real)):
+            return function(scene, *others, **keywords)
+        first = ("frame", "camera_object") if isinstance(others[0], Real | None) else ("camera_object", "frame")
+        old = dict(zip((*first, "view", "passes"), others, strict=False))
         deprecated(f"{function.__name__} takes all but the scene and the camera as keywords: frame=..., view=...")
         return function(scene, **old, **keywords)
 

@@ -9,12 +9,12 @@ from typing import Any, ClassVar, Literal, overload
 
 import numpy as np
 
-from ..arguments import numbers, shown
+from ..arguments import numbers, shown, word
 from ..cameras import find_model
 from ..cameras.model import Model
 from ..cameras.parts.aperture import Aperture
 from ..cameras.parts.parameters import varied
-from ..conventions import gamma
+from ..conventions import BOTTOM, TOP, gamma
 from ..maths.speed import lazy
 from ..maths.vector import matvec, norm
 from ..memory import of_pixels, require
@@ -160,14 +160,17 @@ class Camera(Description):
         gram = self.pose.basis.T @ self.pose.basis
         return bool(np.abs(gram - np.eye(3)).max() <= gamma(8))
 
-    def rays_at(self, x, y) -> Rays:
-        """Return the world rays through pixel coordinates x, y (scalars or arrays that broadcast), as ``rays`` does.
+    def rays_at(self, x, y, *, rows: str = BOTTOM) -> Rays:
+        """Return the world rays through pixel coordinates x, y (scalars or arrays that broadcast), as ``rays`` does;
+        with ``rows="top"`` through OpenCV's: see ``project``.
 
         Pixel coordinates that are not finite have no ray. With pixel times, coordinates beyond the frame have the time
         of its nearest edge. Raises InputError for values that are not numbers, for shapes that do not broadcast, and
         for rays that need more memory than is available.
         """
         x, y, shape = checked_pixels(x, y)
+        if word(rows, "rows", (BOTTOM, TOP)) == TOP:
+            x, y = x + 0.5, self.height - 0.5 - y
         timed = self.pixel_time is not None
         require((57 if timed else 25 if self.model.central else 49) * math.prod(shape), of_pixels("the rays", shape))
         if isinstance(self.pixel_time, SweepTime):
@@ -232,20 +235,28 @@ class Camera(Description):
         return self.rays_jacobian_at(self.raster.columns(), self.raster.rows())
 
     @overload
-    def project(self, points, jacobian: Literal[False] = False) -> np.ndarray: ...
+    def project(self, points, jacobian: Literal[False] = False, *, rows: str = BOTTOM) -> np.ndarray: ...
     @overload
-    def project(self, points, jacobian: Literal[True, "settings"]) -> tuple[np.ndarray, np.ndarray]: ...
-    def project(self, points, jacobian=False):
+    def project(
+        self, points, jacobian: Literal[True, "settings"], *, rows: str = BOTTOM
+    ) -> tuple[np.ndarray, np.ndarray]: ...
+    def project(self, points, jacobian=False, *, rows=BOTTOM):
         """Return the pixel coordinates (..., 2) in the full frame of world points (..., 3); NaN for points that are not
         seen or not finite. With ``jacobian`` return also the derivatives with respect to the points, (..., 2, 3), in
         pixels per world unit, for every model; see ``camera.jacobian``. With ``jacobian="settings"`` these are the
         derivatives by the n numbers of ``parameters`` instead, (..., 2, n), in pixels per unit of each (radians for
-        angles); 0 by a number on which the picture does not depend.
+        angles); 0 by a number on which the picture does not depend. ``rows="top"``: pixels as OpenCV has them, those of
+        ``K``, with y down from the center of the top left one.
 
         With pixel times and a moving camera the pixels are found by a search, with points that stand still: see
         ``meeting``. Raises InputError for derivatives in this case and of a scanner, and for an array of another
         shape.
         """
+        if word(rows, "rows", (BOTTOM, TOP)) == TOP:
+            result = self.project(points, jacobian)
+            pixels = result[0] if isinstance(result, tuple) else result
+            pixels = np.stack((pixels[..., 0] - 0.5, self.height - 0.5 - pixels[..., 1]), axis=-1)
+            return (pixels, result[1] * [[1], [-1]]) if isinstance(result, tuple) else pixels
         points = numbers(points, "points")
         if points.shape[-1:] != (3,):
             raise InputError(f"points of shape {points.shape} cannot be projected: give x, y, z, shape (..., 3)")

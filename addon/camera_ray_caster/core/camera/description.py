@@ -13,7 +13,7 @@ from ..cameras.model import Model
 from ..cameras.parts.parameters import parameters_of, values_of
 from ..conventions import FROM_BLENDER
 from ..maths.vector import inverse
-from ..other_names import ATTRIBUTES
+from ..other_names import ATTRIBUTES, instead
 from ..records import BlenderCamera, Pose, Raster
 from .equality import same
 
@@ -103,8 +103,8 @@ class Description:
     if not TYPE_CHECKING:
 
         def __getattr__(self, name: str):
-            use = ATTRIBUTES.get(name, ATTRIBUTES.get(name.lower(), ""))
-            raise AttributeError(f"a camera has no {name}" + (f": use {use}" if use else ""), name=name, obj=self)
+            use = instead(name, ATTRIBUTES, dir(type(self)))
+            raise AttributeError(f"a camera has no {name}{use}", name=name, obj=self)
 
 
 def vars_of(camera: Any) -> dict[str, Any]:

@@ -51,8 +51,11 @@ def checked(model: str, declared: Mapping[str, Setting], settings: Mapping[str, 
         if with_ports and key not in declared:
             words = " or ".join(with_ports)
             raise InputError(f"{key} of {model} has no effect unless {PORT.name} is {words}: change one of them")
+        if key in ("pose", "size"):
+            raise InputError(f"{key} is no setting: use with_pose(pose), and for another size crc.camera")
         if key not in declared and key not in (*ANY_MODEL, PORT.name):
-            raise unknown(f"setting of {model}", key, dict.fromkeys([*declared, *ANY_MODEL, PORT.name]))
+            others = PORT.name, pixel_time.MODE.name, "name", "frame", "pose", "size"
+            raise unknown(f"setting of {model}", key, dict.fromkeys([*declared, *ANY_MODEL, *others]))
     return {
         key: plain(declared[key], value) if key in declared else ANY_MODEL.get(key, word)(value, key)
         for key, value in with_angles(declared, settings).items()

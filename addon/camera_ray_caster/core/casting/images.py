@@ -9,6 +9,7 @@ import numpy as np
 
 from ..arguments import shown
 from ..camera.camera import Camera
+from ..conventions import BOTTOM
 from ..records import InputError, Shapes
 from .passes import PASSES
 from .plan import Plan
@@ -17,6 +18,7 @@ from .plan import Plan
 class Images(dict[str, np.ndarray]):
     """The passes by name, (rows, columns[, channels]) arrays with row 0 at the bottom, and how they were made."""
 
+    rows = BOTTOM
     camera: Camera
     shapes: Shapes
     plan: Plan
@@ -54,6 +56,8 @@ def check_reusable(images: Images | None, passes: tuple[str, ...], shape: tuple[
     """Raise InputError, which names the pass, if a cast cannot write passes into the images of an earlier one."""
     if not isinstance(images, Images):
         raise InputError(f"into is {shown(images)}: it must be the images that an earlier cast returned")
+    if images.rows != BOTTOM:
+        raise InputError("into has row 0 at the top: give the images of a cast without rows='top'")
     for name in passes:
         image, meant = images.get(name), PASSES[name]
         whole = meant.shape(shape)

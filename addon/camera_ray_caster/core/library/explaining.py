@@ -9,13 +9,16 @@ import numpy as np
 from ..arguments import numbers, shown, word
 from ..camera.camera import Camera
 from ..casting.request import MATERIAL, SHADINGS
+from ..conventions import BOTTOM, TOP
 from ..lesson.lesson import Lesson, lesson
 from ..records import InputError, Shapes
 from ..scene import Scene
 
 
 @overload
-def explain(scene: Scene, pixel: Any, /, *, shading: str = MATERIAL, samples: int = 1) -> Lesson: ...
+def explain(
+    scene: Scene, pixel: Any, /, *, shading: str = MATERIAL, samples: int = 1, rows: str = BOTTOM
+) -> Lesson: ...
 @overload
 def explain(
     camera: Camera | Scene,
@@ -24,13 +27,14 @@ def explain(
     *,
     shading: str = MATERIAL,
     samples: int = 1,
+    rows: str = BOTTOM,
 ) -> Lesson: ...
-def explain(camera, shapes=None, pixel=None, *, shading: str = MATERIAL, samples: int = 1) -> Lesson:
+def explain(camera, shapes=None, pixel=None, *, shading: str = MATERIAL, samples: int = 1, rows: str = BOTTOM):
     """Return how a pixel gets its color: raster, view coordinates, the model's formula with its numbers, the ray, each
     shape's equation, the hit, and each lamp's light. ``print`` shows all steps.
 
     camera, shapes: as in ``cast``; also ``explain(scene, pixel)``.
-    pixel: (column, row), whole numbers from the bottom left of the full frame.
+    pixel: (column, row), whole numbers from the bottom left of the full frame; with ``rows="top"`` from the top left.
     shading, samples: as in ``cast``.
     Raises InputError, in one line, for a pixel outside of the frame; TypeError for a camera or shapes of another type.
     """
@@ -39,6 +43,7 @@ def explain(camera, shapes=None, pixel=None, *, shading: str = MATERIAL, samples
     if position.shape != (2,) or not (np.isfinite(position) & (position == np.floor(position))).all():
         raise InputError(f"pixel is {shown(pixel)}: it must be (column, row), two whole numbers")
     column, row = position.astype(int).tolist()
+    row = scene.camera.height - 1 - row if word(rows, "rows", (BOTTOM, TOP)) == TOP else row
     time = scene.camera.pixel_time
     frame = None if time is None else float(np.asarray(time.frame_at(column + 0.5, row + 0.5)).ravel()[0])
     shading = word(shading, "shading", SHADINGS)

@@ -29,10 +29,57 @@ def test_rows_pixels_k_and_flow_belong_together(border):
 
     np.testing.assert_allclose(pixels_of(position), np.stack((column, row), axis=1), atol=1e-9)
     np.testing.assert_allclose(turned.project(position), np.stack((column, row), axis=1), atol=1e-9)
+    assert same_pictures(crc.cast(scene, passes=(*images,), dtype=np.float64, rows="top"), turned)
     then = position + np.array((0.1, 0.05, 0.1))
     flow = turned["flow_forward"][row, column]
     np.testing.assert_allclose(pixels_of(then) - pixels_of(position), flow, atol=1e-9)
     assert (flow[:, 1] < 0).mean() > 0.9, "the ball rises: y, which points down, falls"
+
+
+def same_pictures(first, second):
+    """Whether two sets of passes are equal, with their camera matrix."""
+    equal = all(np.array_equal(first[name], second[name], equal_nan=True) for name in second)
+    return [*first] == [*second] and equal and np.array_equal(first.K, second.K)
+
+
+def test_pixels_from_the_top_are_those_of_k_in_every_function():
+    lens = {"fx": 60.0, "fy": 61.0, "cx": 30.0, "cy": 25.0}
+    camera = crc.camera("OPENCV_PINHOLE", (64, 48), POSE, **lens)
+    points = np.array([(0.2, 0.1, 0.6), (0.5, 0.5, 0.0)])
+    seen = points @ camera.opencv_from_world[:3, :3].T + camera.opencv_from_world[:3, 3]
+    pixels, change = camera.project(points, jacobian=True, rows="top")
+    np.testing.assert_allclose(pixels, (seen / seen[:, 2:]) @ camera.K[:2].T, atol=1e-9)
+    np.testing.assert_array_equal(camera.project(points, rows="TOP"), pixels)
+    moved = [camera.project(points + step, rows="top") for step in 1e-6 * np.eye(3)]
+    np.testing.assert_allclose(change, np.stack([(there - pixels) / 1e-6 for there in moved], axis=-1), atol=1e-3)
+    rays = camera.rays_at(*pixels.T, rows="top")
+    ahead = points - rays.origins
+    np.testing.assert_allclose(rays.directions, ahead / np.linalg.norm(ahead, axis=1)[:, None], atol=1e-12)
+    column, row = np.rint(pixels[0]).astype(int)
+    lesson = crc.explain(camera, BALL, (column, row), rows="top")
+    assert str(lesson) == str(crc.explain(camera, BALL, (column, 47 - row)))
+    for call in (crc.cast, lambda *scene, rows: camera.project(points, rows=rows)):
+        with pytest.raises(crc.InputError, match="rows is 'up': it must be one of bottom, top"):
+            call(camera, BALL, rows="up")
+
+
+def test_pictures_from_the_top_are_not_turned_twice_or_written_into():
+    camera = crc.camera("PERSP", (8, 6))
+    turned = crc.cast(camera, BALL, rows="top")
+    assert crc.top_down(turned) is turned
+    images = crc.cast(camera, BALL)
+    for keywords in ({"into": turned}, {"into": images, "rows": "top"}):
+        with pytest.raises(crc.InputError, match="into has row 0 at the"):
+            crc.cast(camera, BALL, **keywords)
+    with pytest.raises(TypeError, match="passes by name"):
+        crc.top_down(images["depth"])
+
+
+def test_layers_of_a_file_are_turned_as_their_passes():
+    flow = np.arange(24.0).reshape(4, 3, 2)
+    turned = crc.top_down({"Near.flow_forward": flow, "flow_forward": flow})
+    np.testing.assert_array_equal(turned["Near.flow_forward"], turned["flow_forward"])
+    np.testing.assert_array_equal(turned["flow_forward"][0, :, 1], -flow[3, :, 1])
 
 
 def test_the_reader_of_data_sets_turns_arrays_and_channels_alike():

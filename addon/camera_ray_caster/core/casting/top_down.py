@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
-from ..camera.camera import Camera
-from ..casting.images import Images
+from ..arguments import shown
+from ..conventions import TOP
+from .images import Images
 
 OFFSETS = "flow_forward", "flow_backward"
 """Passes whose last axis is an offset in pixels, x and y."""
 
 
-class TopDown(dict[str, np.ndarray]):
+class TopDown(Images):
     """Passes by name with row 0 at the top and y down, C-contiguous, and the camera in the same pixels."""
 
-    camera: Camera | None = None
+    camera: Any = None
     """The camera of the pictures; None of arrays that no cast returned."""
+    rows = TOP
 
     @property
     def K(self) -> np.ndarray | None:
@@ -27,7 +30,7 @@ class TopDown(dict[str, np.ndarray]):
         if self.camera is None or self.camera.K is None:
             return None
         matrix = self.camera.K.copy()
-        matrix[:2, 2] -= self._corner(self.camera)
+        matrix[:2, 2] -= self._corner()
         return matrix
 
     def project(self, points) -> np.ndarray:
@@ -36,25 +39,29 @@ class TopDown(dict[str, np.ndarray]):
         """
         if self.camera is None:
             raise TypeError("these pictures have no camera: use top_down(images) of a cast")
-        x, y = np.moveaxis(self.camera.project(points), -1, 0)
-        return np.stack((x - 0.5, self.camera.height - 0.5 - y), axis=-1) - self._corner(self.camera)
+        return self.camera.project(points, rows=TOP) - self._corner()
 
-    @staticmethod
-    def _corner(camera: Camera) -> tuple[int, int]:
+    def _corner(self) -> tuple[int, int]:
         """Return the columns left of the pictures, and the rows above."""
-        return camera.raster.x0, camera.raster.height - camera.raster.y1
+        return self.camera.raster.x0, self.camera.raster.height - self.camera.raster.y1
 
 
 def top_down(images: Mapping[str, np.ndarray]) -> TopDown:
     """Return the pictures of a cast, or other passes by name, as OpenCV and most programs have them: row 0 at the top,
     y down, offsets of flow as well, in new C-contiguous arrays. ``K`` and ``project`` of the result are for its pixels.
+    Names may have that of a layer in front, as in NPZ files: "Layer.flow_forward". What is top down already is
+    returned as it is.
 
-    Positions, normals and all other values are in the world, as before.
+    Positions, normals and all other values are in the world, as before. Raises TypeError for a single array.
     """
+    if isinstance(images, TopDown):
+        return images
+    if not isinstance(images, Mapping):
+        raise TypeError(f"top_down takes passes by name, such as the images of a cast, not {shown(type(images))}")
     turned = TopDown()
-    turned.camera = images.camera if isinstance(images, Images) else None
+    vars(turned).update(vars(images) if isinstance(images, Images) else {})
     for name, image in images.items():
         turned[name] = np.ascontiguousarray(np.asarray(image)[::-1])
-        if name in OFFSETS:
+        if name.rpartition(".")[2] in OFFSETS:
             turned[name] = turned[name] * np.array((1, -1), turned[name].dtype)
     return turned
