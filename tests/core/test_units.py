@@ -12,8 +12,8 @@ from camera_ray_caster.core.clouds.formats import POINT_FORMATS as CLOUDS
 from camera_ray_caster.core.clouds.formats import files_of
 from camera_ray_caster.core.clouds.sequences import sequence
 from camera_ray_caster.core.exports import EXPORT_FORMATS, export_files
+from camera_ray_caster.core.exports.file_writer import write
 from camera_ray_caster.core.exports.format import Shot
-from camera_ray_caster.core.exports.writing import write
 from camera_ray_caster.core.programs import PROGRAMS
 from camera_ray_caster.core.programs.parts.document import Document
 from camera_ray_caster.core.programs.parts.placed import Placed

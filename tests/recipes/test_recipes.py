@@ -103,7 +103,7 @@ def _mesh(''',
         ("MESH: _mesh}", "MESH: _mesh, DISC: _disc}"),
     )
     imported = "from ..records import INF", "from ..records import DISC, INF"
-    copy.change(f"{CORE}/annotations/poses.py", imported, ("[row] == PLANE", "[row] in (PLANE, DISC)"))
+    copy.change(f"{CORE}/annotations/object_poses.py", imported, ("[row] == PLANE", "[row] in (PLANE, DISC)"))
     copy.change(
         f"{CORE}/motion/landmarks.py", imported, ("(shapes.kind == PLANE) |", "np.isin(shapes.kind, (PLANE, DISC)) |")
     )

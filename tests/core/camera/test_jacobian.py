@@ -9,7 +9,7 @@ import pytest
 from mpmath import mpf
 
 from camera_ray_caster.core import memory
-from camera_ray_caster.core.camera import pixels
+from camera_ray_caster.core.camera import pixel_coordinates
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.records import InputError
@@ -159,7 +159,7 @@ def test_a_picture_has_the_derivatives_of_its_pixels(key):
 
 @pytest.mark.parametrize("key", ["EQUIRECTANGULAR", "CROSS_SLIT"])
 def test_a_picture_of_several_blocks_and_threads_and_windows_on_top_of_each_other(key, monkeypatch):
-    monkeypatch.setattr(pixels, "SHARED_PIXELS", 1 << 10)
+    monkeypatch.setattr(pixel_coordinates, "SHARED_PIXELS", 1 << 10)
     cam = camera(key, {"resolution_x": 300, "resolution_y": 170})
     whole = cam.rays_jacobian()
     x, y = cam.raster.columns(), cam.raster.rows()

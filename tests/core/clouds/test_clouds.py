@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import camera_ray_caster as crc
-from camera_ray_caster.core.clouds.beams import FROM_CAMERA
 from camera_ray_caster.core.clouds.cloud import WORLD
+from camera_ray_caster.core.clouds.cloud_beams import FROM_CAMERA
 from camera_ray_caster.core.clouds.formats import POINT_FORMATS, files_of
 from camera_ray_caster.core.clouds.sequences import sequence
 from camera_ray_caster.core.motion.apart import rows_of

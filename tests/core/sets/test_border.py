@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.exports import EXPORT_FORMATS, export_files
-from camera_ray_caster.core.exports.writing import write
+from camera_ray_caster.core.exports.file_writer import write
 from camera_ray_caster.core.programs.reading.lenses import lenses_of
 from camera_ray_caster.core.records import InputError
 from camera_ray_caster.core.sets import SET_FORMATS, read_set

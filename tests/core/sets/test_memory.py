@@ -69,7 +69,7 @@ from pathlib import Path
 sys.path[:0] = [{addon!r}, {scripts!r}]
 from camera_ray_caster.core.exports import export_files
 from camera_ray_caster.core.exports.format import Each
-from camera_ray_caster.core.exports.writing import write
+from camera_ray_caster.core.exports.file_writer import write
 from camera_ray_caster.core.sets import SET_FORMATS, read_set
 key, out, *folders = sys.argv[1:]
 for folder in map(Path, folders):  # the smaller one first

@@ -11,7 +11,7 @@ from camera_ray_caster.core.camera.facts import camera_facts
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.exports import export_files
 from camera_ray_caster.core.exports.camera_json import recorded
-from camera_ray_caster.core.exports.writing import write
+from camera_ray_caster.core.exports.file_writer import write
 from camera_ray_caster.core.records import PLANE, SPHERE, InputError
 from camera_ray_caster.core.sets import SET_FORMATS, chosen, read_set, with_splits
 from camera_ray_caster.core.sets.png import png

@@ -8,8 +8,8 @@ import numpy as np
 import camera_ray_caster as crc
 from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.records import InputError
+from camera_ray_caster.core.web.camera_program import with_settings
 from camera_ray_caster.core.web.page import example, own_program, page_models
-from camera_ray_caster.core.web.program import with_settings
 
 KEYS = [model.key for model in page_models()]
 ROUNDS = 4

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.cameras.real_lens import RealLens
-from camera_ray_caster.core.lesson.glass import chief_path
+from camera_ray_caster.core.lesson.lens_diagram import chief_path
 from camera_ray_caster.core.web.page import example
 
 from .test_page import by_id, fresh, mouse, settled, state

@@ -1,7 +1,7 @@
 """A lamp for Cycles that shines a picture through a camera's model: a projector of structured light.
 
 A point lamp at the camera's eye, whose nodes turn the direction of each ray into a place of the picture by a table of
-the model's inverse (``core.faces.projector``). It needs no OSL, so that it works on every device, and in a Blender
+the model's inverse (``core.faces.inverse_table``). It needs no OSL, so that it works on every device, and in a Blender
 without this add-on.
 """
 
@@ -12,7 +12,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ...core.faces.faces import turn_of
-from ...core.faces.projector import InverseTable, inverse_table
+from ...core.faces.inverse_table import InverseTable, inverse_table
 from ..read.evaluated import camera_at
 from ..read.scene import evaluated_camera
 

@@ -13,8 +13,8 @@ import bpy
 from ...core.annotations.coco import Sheet, as_text, document, merged_text
 from ...core.annotations.keypoints import seen_key_points
 from ...core.cast import Images
-from ...core.sets.common import ANNOTATIONS, dataset_of, with_objects, without_objects
-from ...core.sets.common import COCO as ENDING
+from ...core.sets.shared_facts import ANNOTATIONS, dataset_of, with_objects, without_objects
+from ...core.sets.shared_facts import COCO as ENDING
 from ..read.frames import frame_of
 from ..read.keypoints import key_points
 from ..read.unique import find_unique
@@ -29,7 +29,7 @@ def annotated(
     """Return the annotations of a picture that was just rendered from the scene, as JSON in COCO's format.
 
     ``file_name`` is the PNG or, if combined is not cast, the file of passes; ``suffix`` is that of the view in a stereo
-    scene; for ``keypoints``, see ``read.keypoints``. ``objects``: those of the data set; see ``core.sets.common``.
+    scene; for ``keypoints``, see ``read.keypoints``. ``objects``: see ``core.sets.shared_facts``.
     """
     camera = images.camera
     image = {"file_name": file_name, "camera": camera.name + suffix, "frame": frame_of(scene)}

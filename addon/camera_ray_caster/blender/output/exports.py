@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ...core.exports import export_files, find_format, writing
+from ...core.exports import export_files, file_writer, find_format
 from ...core.exports.format import Shot
 from ...core.names import file_name, file_names
 from ...core.records import InputError
@@ -42,7 +42,7 @@ def write(
     if target is not None and not find_format(key).takes_target:
         raise InputError(f"format {key} has no target camera: only maps have a target")
     files, remarks = export_files(key, shots(scene, cameras, frames, target, own_sizes, shown, say), fit)
-    return remarks, writing.write(_until_stopped(files, say), folder, _write_image)
+    return remarks, file_writer.write(_until_stopped(files, say), folder, _write_image)
 
 
 def _until_stopped(files: Iterable, say: Say | None) -> Iterator:

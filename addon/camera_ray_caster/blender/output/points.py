@@ -20,7 +20,7 @@ from ...core.clouds.sequences import sequence
 from ...core.exports.camera_json import camera_from_json
 from ...core.file_set import atomic_folder
 from ...core.records import InputError
-from ...core.sets.common import dataset_of
+from ...core.sets.shared_facts import dataset_of
 from ..read.unique import find_unique
 from .annotations import CATEGORY
 

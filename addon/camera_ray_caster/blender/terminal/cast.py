@@ -11,7 +11,7 @@ from pathlib import Path
 import bpy
 
 from ...core.file_set import clear_up
-from ...core.report.notes import sentences
+from ...core.report.pass_notes import sentences
 from . import dataset, farm, files
 from .jobs import PictureJob, first_jobs
 from .options import add_frame, add_json, command_parser, show, warn

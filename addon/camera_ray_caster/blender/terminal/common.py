@@ -1,4 +1,4 @@
-"""What is the same for all pictures of a data set, from the first picture: see ``core.sets.common``."""
+"""What is the same for all pictures of a data set, from the first picture: see ``core.sets.shared_facts``."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 import bpy
 
-from ...core.annotations.poses import object_poses
+from ...core.annotations.object_poses import object_poses
 from ...core.report.indices import indices_of
 from ...core.report.report import Report, as_data, uncolored
 from ..output.annotations import category_of

@@ -21,12 +21,12 @@ from typing import Any
 import bpy
 
 from ...core.clouds.formats import SEQUENCED
-from ...core.exports.writing import write
+from ...core.exports.file_writer import write
 from ...core.file_set import Taken, atomic_folder, clear_up
 from ...core.records import InputError
 from ...core.sets import companions, shares
-from ...core.sets.common import DATASET
 from ...core.sets.run import Run
+from ...core.sets.shared_facts import DATASET
 from ...core.text_forms.json_text import as_text
 from ..output.annotations import merged_files
 from ..output.points import collect_sequences
@@ -39,7 +39,7 @@ from .pictures import Pictures, of_job
 from .ray_maps import made_map
 
 ABOUT = "run", "common", "objects"
-"""What dataset.json has beside the stamp: see ``core.sets.run`` and ``core.sets.common``."""
+"""What dataset.json has beside the stamp: see ``core.sets.run`` and ``core.sets.shared_facts``."""
 MOST_NAMES = 10
 """Number of missing pictures that are named."""
 

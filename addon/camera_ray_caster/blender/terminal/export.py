@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from ...core.exports import EXPORT_FORMATS, export_files
+from ...core.exports.file_writer import write
 from ...core.exports.format import Each
-from ...core.exports.writing import write
 from ...core.records import InputError, Shapes
 from ...core.sets import SET_FORMATS, chosen, read_set, sparse, with_splits
 from ...core.sets.recast import MeshView, with_meshes

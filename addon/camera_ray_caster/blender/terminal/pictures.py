@@ -20,8 +20,8 @@ from ...core.memory import exhausted
 from ...core.names import file_names, frame_digits
 from ...core.records import InputError
 from ...core.report.report import Report
-from ...core.sets.common import dataset_of
 from ...core.sets.run import Run
+from ...core.sets.shared_facts import dataset_of
 from ..cycles.device import device_notes, use_device
 from ..cycles.picture import CyclesPicture, picture_of
 from ..cycles.shader import check_cycles

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from ...core.report.notes import sentences
+from ...core.report.pass_notes import sentences
 from ..output import images, reports
 from ..properties.passes import PASSES, ticked
 from . import cast_operator

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import bpy
 
-from ...core.exports.writing import write
+from ...core.exports.file_writer import write
 from ...core.maths.recording import NotRecordable
 from ...core.names import file_name
 from ...core.records import InputError

@@ -19,8 +19,8 @@ from ...core.camera.camera import Camera
 from ...core.conventions import EPS32
 from ...core.records import Finding, InputError
 from ...core.report.sample import angles_between, finding, length_of, not_compared
-from ...core.shaders.accuracy import ray_bounds
 from ...core.shaders.camera_shader import CameraShader, camera_shader
+from ...core.shaders.shader_accuracy import ray_bounds
 from ..cycles.shader import check_cycles, set_shader, texture_folder
 
 CYCLES = "Cycles"

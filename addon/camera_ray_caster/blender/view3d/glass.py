@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core.camera.camera import Camera
 from ...core.cameras.real_lens import RealLens
-from ...core.lesson.glass import LensDrawing, chief_path, fan_of, lens_drawing
+from ...core.lesson.lens_diagram import LensDrawing, chief_path, fan_of, lens_drawing
 from ...core.lesson.lesson import Lesson
 from ..read.scene_cache import cached_scene
 from ..read.view import camera_frame

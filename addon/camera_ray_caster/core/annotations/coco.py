@@ -5,7 +5,7 @@ visibility: 0 outside, 1 hidden, 2 seen; a pixel's center is at + 0.5. Instances
 are run lengths, column by column. Besides COCO's own keys there are ``bbox_whole``, ``area_whole`` and
 ``segmentation_whole``, the amodal mask, of the object if it were alone in the picture, ``visible_fraction``, ``object``
 and ``shape_index``; and the lists ``hidden``, of objects without visible pixels, ``keypoints``, of all key points with
-their world coordinates and depth, and ``objects``, of the poses of all objects (see ``poses``).
+their world coordinates and depth, and ``objects``, of the poses of all objects (see ``object_poses``).
 Reference: https://cocodataset.org/#format-data.
 """
 
@@ -29,7 +29,7 @@ from ..motion.moments import check_rows, check_still
 from ..records import Raster, Shapes
 from ..version import VERSION
 from .keypoints import SeenKeyPoint
-from .poses import object_poses
+from .object_poses import object_poses
 from .silhouettes import Box, Silhouette, silhouettes
 
 Document = dict[str, Any]

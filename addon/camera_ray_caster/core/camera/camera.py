@@ -25,7 +25,7 @@ from .description import Description
 from .evaluation import pixels_of, rays_through
 from .jacobian import of_projection, of_rays, of_settings
 from .meeting import meeting
-from .pixels import by_time, checked_pixels
+from .pixel_coordinates import by_time, checked_pixels
 from .posed import posed
 from .sampling import sampled
 from .spherical_stereo import with_eye

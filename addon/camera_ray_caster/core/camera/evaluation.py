@@ -18,7 +18,7 @@ from ..maths.speed import whole_rows
 from ..maths.vector import ALL, components, cut, dot, inverse, is_grid, matvec, norm
 from ..records import Rays
 from .guard import checked
-from .pixels import in_blocks
+from .pixel_coordinates import in_blocks
 
 FARTHEST = 1e15
 """Coordinate, in pixels or Blender units, up to which no length or polynomial overflows."""

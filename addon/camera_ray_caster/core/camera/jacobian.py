@@ -43,7 +43,7 @@ from ..maths.vector import (
     norm,
 )
 from ..records import Pose, RaysJacobian
-from .pixels import in_blocks
+from .pixel_coordinates import in_blocks
 
 BLOCK_PIXELS = 1 << 14
 """Number of pixels differentiated at once: half as many or four times as many take 1.0 to 1.6 times the time."""

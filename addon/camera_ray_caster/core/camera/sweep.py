@@ -10,7 +10,7 @@ import numpy as np
 from ..maths.vector import norm
 from ..records import InputError, Rays
 from .evaluation import rays_through
-from .pixels import in_blocks
+from .pixel_coordinates import in_blocks
 from .times import SweepTime
 
 BLOCK = 1 << 14

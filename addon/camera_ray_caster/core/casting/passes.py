@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from ..errors.hits import HitErrors
-from ..maths.kept import empty
+from ..maths.reused_memory import empty
 from ..maths.speed import write_where
 from ..maths.vector import matvec, unit
 from . import shading

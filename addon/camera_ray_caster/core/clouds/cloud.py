@@ -26,7 +26,7 @@ from ..casting.hits import NOTHING
 from ..motion.moments import check_rows
 from ..records import InputError, Shapes
 from ..scene import Scene
-from .beams import CameraBeams, CloudBeams, RayBeams
+from .cloud_beams import CameraBeams, CloudBeams, RayBeams
 from .patterns import SCANNED, pattern_in
 
 MOST_CATEGORY = np.iinfo(np.int32).max

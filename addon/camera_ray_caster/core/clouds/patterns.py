@@ -9,7 +9,7 @@ from ..cameras.parts.pose import pose_matrix
 from ..programs import PROGRAMS, program_of
 from ..programs.parts.document import Document
 from ..programs.parts.program import in_words
-from .beams import FROM_CAMERA
+from .cloud_beams import FROM_CAMERA
 
 SCANNED = in_words(program.name for program in PROGRAMS if program.rays is not None)
 """The programs whose rays are read, in words."""

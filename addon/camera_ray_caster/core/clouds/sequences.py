@@ -15,7 +15,7 @@ import numpy as np
 from ..camera.camera import Camera
 from ..conventions import FROM_BLENDER
 from ..units import METERS, UNIT_SCALE, factor
-from .beams import FROM_CAMERA
+from .cloud_beams import FROM_CAMERA
 
 
 def sequence(cameras: Sequence[Camera], seconds: Sequence[float]) -> Iterator[tuple[str, str]]:

@@ -28,7 +28,7 @@ from ..text_forms.json_text import as_text
 from ..timeline import Timeline
 from ..version import VERSION
 from .format import Format, Shot
-from .plain import merged, plain, restored, shared, without
+from .json_values import merged, plain, restored, shared, without
 
 FORMAT = "camera_ray_caster camera"
 NUMBER = 1

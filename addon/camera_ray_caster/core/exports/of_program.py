@@ -13,7 +13,7 @@ from ..programs.parts.lens import Lens, Models, beyond, word_of
 from ..programs.parts.placed import FROM_BLENDER, Rolling
 from ..programs.parts.program import CameraRecord, ProgramFiles
 from .format import OWN_TIMES, Format, Shot
-from .lenses import calibrations
+from .lens_calibrations import calibrations
 
 NO_LENS = Lens("", "", {})
 """The lens of formats that have poses alone."""

@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..camera.camera import Camera
-from ..camera.pixels import in_blocks
+from ..camera.pixel_coordinates import in_blocks
 from .faces import Face, chosen, turn_of
 from .lens_points import LensPoint
 

@@ -25,7 +25,7 @@ from ..casting.request import MATERIAL, Request
 from ..records import InputError, Shapes
 from .diagram import PROBED, Probe, probe_of
 from .formula import NOISE, digits, shown, worked_out
-from .glass import refraction_lines
+from .lens_diagram import refraction_lines
 from .light import color_lines
 from .meetings import Meeting, meetings, nearest, words
 

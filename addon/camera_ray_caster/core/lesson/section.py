@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..cameras.real_lens import RealLens
-from .glass import GlassPath, chief_path, fan_of, film_line, sections, stop_lines
+from .lens_diagram import GlassPath, chief_path, fan_of, film_line, sections, stop_lines
 
 SIDE = 360
 """Rows and columns of the picture."""

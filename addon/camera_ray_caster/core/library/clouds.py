@@ -8,7 +8,7 @@ from .. import arguments
 from ..any_rays.door import RayImages
 from ..clouds.cloud import AXES, SENSOR, PointCloud, scan
 from ..clouds.formats import ENDINGS, POINT_FORMATS, files_of
-from ..exports.writing import write
+from ..exports.file_writer import write
 from ..names import file_name
 from ..programs.parts.program import in_words
 from .files import Exported, destination, format_came_first

@@ -15,8 +15,8 @@ from ..arguments import folder as a_folder
 from ..camera.camera import Camera
 from ..camera.fit import region_of
 from ..exports import EXPORT_FORMATS, export_files, find_format
+from ..exports.file_writer import write
 from ..exports.format import Content, Shot
-from ..exports.writing import write
 from ..names import file_names
 from ..programs import PROGRAMS
 from ..programs.parts.program import in_words

@@ -17,7 +17,7 @@ from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
 
-from . import kept
+from . import reused_memory
 
 T = TypeVar("T")
 
@@ -137,14 +137,14 @@ def lending() -> Iterator[Callable[[], Scratch]]:
         yield lend
     finally:
         for scratch in lent:
-            if scratch.size + sum(unused.size for unused in _unused) <= kept.MOST_BYTES:
+            if scratch.size + sum(unused.size for unused in _unused) <= reused_memory.MOST_BYTES:
                 _unused.append(scratch)
 
 
 def release() -> None:
     """Free the working arrays, and the memory of arrays that have gone, that are kept for later work."""
     _unused.clear()
-    kept.release()
+    reused_memory.release()
 
 
 class Shared(Generic[T]):

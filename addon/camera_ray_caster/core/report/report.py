@@ -17,12 +17,12 @@ from ..cast import TIMED_STEPS, Images
 from ..casting.needs import has_colors
 from ..conventions import EPS32
 from ..exports.camera_json import recorded
-from ..exports.plain import differing, plain
+from ..exports.json_values import differing, plain
 from ..records import Finding, Shapes
 from ..version import VERSION
 from .accuracy import QUANTITIES, Accuracy
 from .indices import indices_of
-from .notes import camera_notes, sentences
+from .pass_notes import camera_notes, sentences
 
 WIDTH = 100
 """Maximum width of the table in columns."""

@@ -10,8 +10,8 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from . import frame_list, labels, maps, object_scenes, sparse
-from .format import SetFormat
-from .reading import Files, View, chosen, read_set, views_of, with_splits
+from .finished_set import Files, View, chosen, read_set, views_of, with_splits
+from .set_formats import SetFormat
 
 SET_FORMATS = {
     **object_scenes.FORMAT, **sparse.FORMAT, **frame_list.FORMAT,

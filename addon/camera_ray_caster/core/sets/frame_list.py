@@ -16,9 +16,9 @@ import numpy as np
 
 from ..programs.nerfstudio import camera_model, frame_of
 from ..records import InputError
-from .format import SetFormat
+from .finished_set import TRAIN, VALIDATION, Files, View
 from .png import png
-from .reading import TRAIN, VALIDATION, Files, View
+from .set_formats import SetFormat
 from .streams import Records, Waiting
 
 MOST_16_BITS = 65535

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from ..annotations.coco import Merging, unpacked
+from .finished_set import TRAIN, VALIDATION, Files, View
 from .png import png
-from .reading import TRAIN, VALIDATION, Files, View
 from .streams import Waiting
 
 

@@ -10,8 +10,8 @@ import numpy as np
 from ..conventions import FROM_BLENDER
 from ..records import InputError
 from ..units import MILLIMETERS, factor
+from .finished_set import View
 from .png import png, srgb
-from .reading import View
 
 MOST_16_BITS = 65535
 SHOWN = "combined", "depth", "distance", "shape_index", "object_index", "normal"

@@ -21,10 +21,10 @@ from ..exports import find_format, records
 from ..programs.bop import image_of
 from ..records import InputError, Shapes
 from ..units import MILLIMETERS, factor
-from .format import SetFormat
+from .finished_set import Files, View
 from .object_models import diameter, model_of, ply
 from .png import png
-from .reading import Files, View
+from .set_formats import SetFormat
 from .streams import Waiting
 
 MOST_16_BITS = 65535

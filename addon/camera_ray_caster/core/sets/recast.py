@@ -15,8 +15,8 @@ import numpy as np
 from ..annotations.coco import Sheet, document
 from ..cast import cast
 from ..records import Shapes
+from .finished_set import View
 from .object_models import check_size, no_shape
-from .reading import View
 
 ShapesAt = Callable[[float], Shapes]
 

@@ -16,9 +16,9 @@ import numpy as np
 from ..exports import remarks
 from ..programs.colmap import IMAGES, POINTS, texts
 from ..records import InputError
-from .format import SetFormat
+from .finished_set import VALIDATION, Files, View
 from .png import srgb
-from .reading import VALIDATION, Files, View
+from .set_formats import SetFormat
 from .streams import Records, Tracks, Waiting
 
 COUNT = 10_000

@@ -12,7 +12,7 @@ import numpy as np
 from ..exports import records
 from ..programs.parts.program import CameraRecord
 from ..records import InputError
-from .reading import View
+from .finished_set import View
 
 CHUNK = 1 << 16
 """Number of characters that are read back at once."""

@@ -14,7 +14,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..maths.recording import Entries, Operation
-from .texels import FIRST, MOST_IN_TEXT, WIDE, texture_of
+from .table_textures import FIRST, MOST_IN_TEXT, WIDE, texture_of
 from .writer import C_ABSENT, C_FUNCTIONS, C_HELPERS, Term, Writer, in_range
 
 LITERALS = frozenset((0.0, 0.5, 1.0, 2.0, 3.0, 4.0, math.pi / 2, math.pi, 2 * math.pi, math.inf))
@@ -37,7 +37,7 @@ class OslWriter(Writer):
     folder: str = ""
     """The folder of textures."""
     textures: dict[str, np.ndarray] = field(default_factory=dict)
-    """Images of tables that are too long for the text, by the paths of their files: see ``texels``."""
+    """Images of tables that are too long for the text, by the paths of their files: see ``table_textures``."""
     _names: dict[tuple, str] = field(default_factory=dict)
     _files: dict[str, tuple[str, int]] = field(default_factory=dict)
     _texels: dict[tuple, str] = field(default_factory=dict)

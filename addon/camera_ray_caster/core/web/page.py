@@ -23,10 +23,10 @@ from ..library.cameras import camera
 from ..records import InputError, Shapes
 from ..shaders.glsl import GlslWriter
 from ..shaders.javascript import RUNTIME
+from .camera_program import Program, program_of
 from .figures import FIGURES
-from .program import Program, program_of
+from .page_scene import scene_data
 from .room import SCENE
-from .scene import scene_data
 from .split import functions, glsl
 
 SIZE = 640, 360
@@ -76,7 +76,7 @@ def lesson_page(
     """Return the text of the page.
 
     camera: a camera with which the page begins, with its own frame, settings and lines; default the page's pinhole.
-    shapes: the scene in which that camera stands: see ``scene``; default the page's room.
+    shapes: the scene in which that camera stands: see ``page_scene``; default the page's room.
     pixel: column and row, from the bottom left, of that camera's pixel; default one of the page's.
 
     Raises NotRecordable for a camera whose model cannot be recorded.

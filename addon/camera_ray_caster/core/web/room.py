@@ -49,7 +49,7 @@ SCENE: dict[str, Any] = {
 }  # fmt: skip
 """What the page's scripts know of the room. ``turn``: x and z of the axis about which the balls turn; ``height``: of
 the eye; ``near``: least distance of a hit; ``camera``: its place and axes when it is not moved; ``scale``: of what the
-second view draws; the others are those of ``scene``, of which the room has none.
+second view draws; the others are those of ``page_scene``, of which the room has none.
 """
 
 

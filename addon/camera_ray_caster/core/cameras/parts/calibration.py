@@ -15,7 +15,7 @@ from math import radians
 
 from ...maths.recording.scalars import largest
 from ...records import BlenderCamera, InputError, Raster
-from .affine import AffineWindow
+from .affine_window import AffineWindow
 from .film import FARTHEST_PIXELS, FILM, LENS, OFF_AXIS, Film, Window
 from .left_out import MIDDLE, OF_FRAME, SAME
 from .settings import Choice, FilePath, Item, Number, Text, Whole

@@ -18,7 +18,7 @@ from ...maths.panels import Disc, is_raster, on_raster
 from ...maths.speed import lazy
 from ...maths.vector import components
 from ..model import IN_CASTS, Step, WindowModel
-from .affine import AffineWindow
+from .affine_window import AffineWindow
 from .settings import ABOVE_ZERO, CAMERA, Number
 from .silhouette import pixel_bounds, radial_intervals
 

@@ -25,7 +25,7 @@ from ..exports.format import Shot
 from ..names import file_name
 from ..records import InputError
 from . import channels
-from .common import ANNOTATIONS, COCO, DATASET, dataset_of, with_objects
+from .shared_facts import ANNOTATIONS, COCO, DATASET, dataset_of, with_objects
 
 NO_REPORTS = COCO, DATASET, ANNOTATIONS
 

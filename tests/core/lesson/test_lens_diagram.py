@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import camera_ray_caster as crc
-from camera_ray_caster.core.lesson.glass import chief_path, fan_of, lens_drawing, refraction_lines
+from camera_ray_caster.core.lesson.lens_diagram import chief_path, fan_of, lens_drawing, refraction_lines
 from camera_ray_caster.core.lesson.lesson import GLASS, lesson
 from camera_ray_caster.core.lesson.section import FILM, SIDE, section
 from camera_ray_caster.core.records import no_shapes

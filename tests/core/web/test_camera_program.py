@@ -10,9 +10,9 @@ from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.errors.rays import world_rays
 from camera_ray_caster.core.maths.recording import NUMPY
 from camera_ray_caster.core.shaders.javascript import RUNTIME
+from camera_ray_caster.core.web.camera_program import holds
 from camera_ray_caster.core.web.formula_values import values_of
 from camera_ray_caster.core.web.page import example
-from camera_ray_caster.core.web.program import holds
 from camera_ray_caster.core.web.split import RAY, functions
 
 from ..shaders.javascript import NUMBERS, node

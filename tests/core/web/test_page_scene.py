@@ -5,7 +5,7 @@ import pytest
 
 import camera_ray_caster as crc
 from camera_ray_caster.core.web.page import lesson_page
-from camera_ray_caster.core.web.scene import MOST_FACETS, PAGE, scene_data
+from camera_ray_caster.core.web.page_scene import MOST_FACETS, PAGE, scene_data
 
 from ..shapes.meshes import ball
 from .chromium import browser

@@ -3,7 +3,7 @@
 import json
 
 from camera_ray_caster.core.sets import read_set
-from camera_ray_caster.core.sets.common import with_objects, without_objects
+from camera_ray_caster.core.sets.shared_facts import with_objects, without_objects
 
 from .test_sets import made, view  # noqa: F401
 

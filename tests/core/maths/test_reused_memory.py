@@ -6,7 +6,7 @@ import sys
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.maths import kept
+from camera_ray_caster.core.maths import reused_memory
 from camera_ray_caster.core.maths.speed import lending, release
 
 SHAPE = 300, 200, 3
@@ -14,7 +14,7 @@ SHAPE = 300, 200, 3
 
 @pytest.fixture(autouse=True)
 def nothing_kept(monkeypatch):
-    monkeypatch.setattr(kept, "_unused", {})
+    monkeypatch.setattr(reused_memory, "_unused", {})
 
 
 def place(array: np.ndarray) -> int:
@@ -23,7 +23,7 @@ def place(array: np.ndarray) -> int:
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64, np.int32])
 def test_an_array_is_as_that_of_numpy_empty(dtype):
-    array = kept.empty(SHAPE, dtype)
+    array = reused_memory.empty(SHAPE, dtype)
     assert (array.shape, array.dtype) == (SHAPE, dtype)
     assert array.flags.c_contiguous
     assert array.flags.writeable
@@ -31,40 +31,40 @@ def test_an_array_is_as_that_of_numpy_empty(dtype):
 
 
 def test_memory_comes_back_when_the_last_view_has_gone():
-    array = kept.empty(SHAPE, np.float32)
+    array = reused_memory.empty(SHAPE, np.float32)
     array.fill(1)
     view, first = array[5:, ::2].T, place(array)
     del array
-    other = kept.empty(SHAPE, np.float32)
+    other = reused_memory.empty(SHAPE, np.float32)
     other.fill(2)
     assert place(other) != first
     assert (view == 1).all()
     del view
-    assert place(kept.empty(SHAPE, np.int32)) == first
+    assert place(reused_memory.empty(SHAPE, np.int32)) == first
 
 
 def test_memory_is_given_once_though_other_memory_comes_back_meanwhile():
     """As the garbage collector, or another thread, may do between the look-up of a list and its ``pop``."""
-    first, second = kept.empty(SHAPE, np.float32), kept.empty(SHAPE, np.float32)
+    first, second = reused_memory.empty(SHAPE, np.float32), reused_memory.empty(SHAPE, np.float32)
     at = place(first), place(second)
     del first
-    (blocks,) = kept._unused.values()
+    (blocks,) = reused_memory._unused.values()
     del second
     given = {place(blocks.pop()) for _ in range(2)}
     assert given == {*at}
-    assert not any(kept._unused.values())
+    assert not any(reused_memory._unused.values())
 
 
 def test_no_more_is_kept_than_the_limit(monkeypatch):
     size = np.empty(SHAPE, np.float32).nbytes
-    monkeypatch.setattr(kept, "MOST_BYTES", 3 * size)
-    arrays = [kept.empty(SHAPE, np.float32) for _ in range(2)]
-    arrays += [kept.empty((2, *SHAPE), np.float32)]
+    monkeypatch.setattr(reused_memory, "MOST_BYTES", 3 * size)
+    arrays = [reused_memory.empty(SHAPE, np.float32) for _ in range(2)]
+    arrays += [reused_memory.empty((2, *SHAPE), np.float32)]
     del arrays
     gc.collect()
-    assert sum(one * len(blocks) for one, blocks in kept._unused.items()) <= 3 * size
-    assert kept.empty((4, *SHAPE), np.float32).base is None  # too large to be kept
-    assert kept.empty((4, 4), np.float32).base is None  # the C library's
+    assert sum(one * len(blocks) for one, blocks in reused_memory._unused.items()) <= 3 * size
+    assert reused_memory.empty((4, *SHAPE), np.float32).base is None  # too large to be kept
+    assert reused_memory.empty((4, 4), np.float32).base is None  # the C library's
 
 
 def test_memory_that_the_system_does_not_have_is_said_once(monkeypatch):
@@ -75,18 +75,18 @@ def test_memory_that_the_system_does_not_have_is_said_once(monkeypatch):
     monkeypatch.setattr(sys, "unraisablehook", said.append)
     monkeypatch.setattr(np, "empty", none)
     with pytest.raises(MemoryError):
-        kept.empty(SHAPE, np.float32)
+        reused_memory.empty(SHAPE, np.float32)
     gc.collect()
     assert said == []
 
 
 def test_what_is_kept_is_released():
-    kept.empty(SHAPE, np.float32)
+    reused_memory.empty(SHAPE, np.float32)
     with lending() as lend:
         working = lend()
-    assert kept._unused
+    assert reused_memory._unused
     release()
-    assert not kept._unused
+    assert not reused_memory._unused
     with lending() as lend:
         assert lend() is not working
 

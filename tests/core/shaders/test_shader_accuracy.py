@@ -8,9 +8,9 @@ import pytest
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.conventions import EPS32
 from camera_ray_caster.core.maths.recording import NUMPY, record
-from camera_ray_caster.core.shaders.accuracy import ray_bounds
 from camera_ray_caster.core.shaders.camera_shader import ray_record
 from camera_ray_caster.core.shaders.rounding import Rounded, rounded
+from camera_ray_caster.core.shaders.shader_accuracy import ray_bounds
 
 from ..cameras.model_examples import EXAMPLES, camera
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.cameras import MODELS
-from camera_ray_caster.core.exports.lenses import calibrations
+from camera_ray_caster.core.exports.lens_calibrations import calibrations
 from camera_ray_caster.core.programs.parts.lens import ANGLES
 
 from ..cameras.model_examples import EXAMPLES, IDENTITY, camera

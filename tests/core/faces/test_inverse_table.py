@@ -5,7 +5,7 @@ import pytest
 
 import camera_ray_caster as crc
 from camera_ray_caster.core.faces.faces import turn_of
-from camera_ray_caster.core.faces.projector import inverse_table
+from camera_ray_caster.core.faces.inverse_table import inverse_table
 
 POSE = crc.look_at((1.0, 2.0, 3.0), (0.0, 0.5, 0.2))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from .reading import Files
+from .finished_set import Files
 
 
 class SetFormat(NamedTuple):
