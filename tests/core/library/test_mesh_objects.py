@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from PIL import Image
 
 import camera_ray_caster as crc
 
@@ -40,6 +41,50 @@ def test_what_is_transparent_is_no_hit():
     assert (hit[5, 30], hit[30, 5]) == (-1, 0)
 
 
+TEXELS = np.array([[(255, 0, 0, 255), (0, 255, 0, 255)], [(0, 0, 255, 0), (255, 255, 255, 255)]], np.uint8)
+"""The image's upper row comes first."""
+UV = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], float)
+QUARTERS = {(30, 10): (1, 0, 0), (30, 30): (0, 1, 0), (10, 10): (0, 0, 1), (10, 30): (1, 1, 1)}
+"""The colors of pixels in the middle of a texel, row and column from the bottom left."""
+
+
+@pytest.mark.parametrize(
+    ("material", "factor"),
+    [
+        ({"image": TEXELS, "main_color": (9, 9, 9, 255)}, (1, 1, 1)),
+        ({"baseColorTexture": TEXELS, "baseColorFactor": (51, 255, 255, 255), "alphaMode": "OPAQUE"}, (0.2, 1, 1)),
+    ],
+)
+def test_a_texture_shows_as_trimesh_means_it(material, factor):
+    camera = crc.camera("PERSP", (40, 40), lens=54.0)  # a texel's middle is at a quarter of the frame
+    textured = thing(kind="texture", uv=UV, material=SimpleNamespace(**material))
+    images = crc.cast(camera, crc.mesh(textured), passes=("albedo", "uv", "valid", "shape_index"))
+    opaque = "alphaMode" in material
+    for (row, column), color in QUARTERS.items():
+        assert images["shape_index"][row, column] == (0 if opaque or color != (0, 0, 1) else -1)
+        if images["shape_index"][row, column] == 0:
+            nearest = np.rint(images["albedo"][row, column] / factor)
+            assert tuple(nearest) == color
+    assert images["uv"][30, 10][0] < 0.5 < images["uv"][30, 10][1]
+
+
+@pytest.mark.parametrize(
+    ("material", "color"),
+    [({"main_color": (255, 0, 188, 255)}, (1, 0, 0.5029)), ({"baseColorFactor": (51, 0, 255, 255)}, (0.2, 0, 1))],
+)
+def test_a_material_without_an_image_is_its_color(material, color):
+    plain = thing(kind="texture", uv=None, material=SimpleNamespace(**material))
+    assert albedo(plain)[20, 20] == pytest.approx(color, abs=1e-4)
+
+
+def test_a_mesh_of_open3d_has_triangles_and_colors_of_its_own():
+    """Its vectors are no arrays, and empty ones are what it does not have."""
+    mesh = SimpleNamespace(vertices=[*VERTICES], triangles=[*FACES], vertex_colors=[])
+    assert albedo(mesh)[20, 20] == pytest.approx((0.8, 0.8, 0.8))
+    mesh.vertex_colors = [(1.0, 0.0, 0.0)] * 4
+    assert albedo(mesh)[20, 20] == pytest.approx((1, 0, 0))
+
+
 def test_what_is_no_mesh_is_refused_in_one_line():
     with pytest.raises(crc.InputError, match="has no vertices and faces"):
         crc.mesh(VERTICES)
@@ -51,3 +96,9 @@ def test_a_mesh_of_trimesh():
     trimesh = pytest.importorskip("trimesh")
     mesh = trimesh.Trimesh(VERTICES, FACES, process=False, face_colors=FACE_COLORS)
     np.testing.assert_array_equal(albedo(mesh), albedo(thing(kind="face", face_colors=FACE_COLORS)))
+    visual = trimesh.visual.TextureVisuals(UV, image=Image.fromarray(TEXELS[..., :3]))
+    textured = trimesh.Trimesh(VERTICES, FACES, process=False, visual=visual)
+    same = thing(kind="texture", uv=UV, material=SimpleNamespace(image=visual.material.image))
+    np.testing.assert_array_equal(albedo(textured), albedo(same))
+    with pytest.raises(crc.InputError, match=r"scene.to_mesh\(\)"):
+        crc.mesh(trimesh.Scene([mesh]))

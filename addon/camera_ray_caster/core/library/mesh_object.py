@@ -1,4 +1,6 @@
-"""Meshes of other libraries, such as trimesh: objects with ``vertices``, ``faces`` and, in ``visual``, colors."""
+"""Meshes of other libraries: objects with ``vertices`` and ``faces``, as trimesh has them, or Open3D's ``triangles``, and
+their colors, of vertices, of faces, or by a texture.
+"""
 
 from __future__ import annotations
 
@@ -9,8 +11,8 @@ import numpy as np
 
 from ..arguments import numbers, shown
 from ..materials.surface import Surface
-from ..materials.textures import linear
-from ..materials.values import Layer, channel, function_of
+from ..materials.textures import Texels, Texture, linear
+from ..materials.values import UV, Coordinates, Layer, channel, function_of
 from ..records import InputError, Shapes
 
 LAYER = Layer("color", 4)
@@ -21,22 +23,28 @@ def arrays_of(mesh: Any) -> dict[str, Any]:
     """Return the vertices, faces and UV map of an object of trimesh, or of one that is like it, by argument of
     ``crc.mesh``. Raises InputError for any other object.
     """
-    vertices, faces = (getattr(mesh, name, None) for name in ("vertices", "faces"))
+    vertices, faces = getattr(mesh, "vertices", None), getattr(mesh, "faces", getattr(mesh, "triangles", None))
     if vertices is None or faces is None:
-        type_name = shown(type(mesh))
-        raise InputError(f"{type_name} has no vertices and faces: give mesh(vertices, faces), or a mesh of trimesh")
+        raise InputError(
+            f"{shown(type(mesh))} has no vertices and faces: give mesh(vertices, faces), or a mesh of trimesh or Open3D; "
+            "of a scene of trimesh, scene.to_mesh()"
+        )
     uv = getattr(getattr(mesh, "visual", None), "uv", None)
     return {"vertices": np.asarray(vertices), "faces": np.asarray(faces), "uv": None if uv is None else np.asarray(uv)}
 
 
 def with_colors(shapes: Shapes, mesh: Any) -> Shapes:
-    """Return the shapes of a mesh with the colors of its vertices or faces: sRGB, with 8 bits or from 0 to 1."""
-    visual = getattr(mesh, "visual", None)
+    """Return the shapes of a mesh with the colors of its vertices or faces, sRGB with 8 bits or from 0 to 1, or with the
+    texture or color of its material.
+    """
+    visual = getattr(mesh, "visual", mesh)
     names = {"vertex": ("vertex_colors",), "face": ("face_colors",), "any": ("vertex_colors", "face_colors")}
     candidates = ((name, getattr(visual, name, None)) for name in names.get(getattr(visual, "kind", "any"), ()))
-    name, colors = next(((name, colors) for name, colors in candidates if colors is not None), ("", None))
-    if colors is None or not len(shapes):
+    name, colors = next(((name, colors) for name, colors in candidates if np.size(colors) > 1), ("", None))
+    if not len(shapes):
         return shapes
+    if colors is None:
+        return _with_material(shapes, getattr(visual, "material", None), getattr(visual, "uv", None) is not None)
     of_faces = name == "face_colors"
     (triangles,) = shapes.meshes
     count = int(triangles.polygon.max()) + 1 if of_faces else triangles.vertices.shape[1]
@@ -47,11 +55,36 @@ def with_colors(shapes: Shapes, mesh: Any) -> Shapes:
     alpha = rgba[:, 3:] if rgba.shape[1] == 4 else np.ones((len(rgba), 1))
     rgba = np.concatenate((linear(rgba[:, :3]), alpha), axis=1).astype(np.float32)
     corners = np.broadcast_to(triangles.polygon, triangles.triangles.shape) if of_faces else triangles.triangles
-    surface = Surface(
-        lit=function_of(lambda values: values[:3], LAYER), alpha=None if (alpha == 1).all() else channel(LAYER, 3)
-    )
+    lit, opacity = function_of(lambda values: values[:3], LAYER), None if (alpha == 1).all() else channel(LAYER, 3)
+    shapes = replace(shapes, meshes=(replace(triangles, layers=((LAYER.name, rgba[corners]),)),))
+    return _with_surface(shapes, Surface(lit, alpha=opacity), rgba.mean(axis=0))
+
+
+def _with_material(shapes: Shapes, material: Any, has_uv: bool) -> Shapes:
+    """Return the shapes with a material of trimesh, a SimpleMaterial or PBRMaterial: its image, or its one color."""
+    if material is None:
+        return shapes
+    factor = getattr(material, "baseColorFactor", None)
+    color = np.asarray(getattr(material, "main_color", (204, 204, 204, 255)) if factor is None else factor, float) / 255
+    color = color if factor is not None else np.append(linear(color[:3]), color[3:])  # glTF's factor is linear
+    images = (getattr(material, name, None) for name in ("baseColorTexture", "image"))
+    image = next((image for image in images if image is not None), None)
+    if image is None or not has_uv:
+        return replace(shapes, color=np.tile(color.astype(np.float32), (len(shapes), 1)))
+    texels = np.asarray(image.convert("RGBA") if hasattr(image, "convert") else image)
+    if texels.dtype != np.uint8 or texels.ndim != 3 or texels.shape[2] != 4:
+        raise InputError(f"the texture of the mesh is {texels.dtype} of shape {texels.shape}: give RGBA of 8 bits")
+    scale = np.ones(4) if factor is None else color
+    texture = Texture(Texels("texture", np.ascontiguousarray(texels[::-1]), True, True), Coordinates(UV))
+    lit = function_of(lambda values: values * scale[:3, None], texture)
+    solid = (texels[..., 3] == 255).all() or getattr(material, "alphaMode", "MASK") in (None, "OPAQUE")
+    alpha = None if solid else function_of(lambda values: values * scale[3], replace(texture, is_alpha=True))
+    threshold = getattr(material, "alphaCutoff", None) or 0.5
+    mean = np.append(linear(texels[..., :3] / 255).mean(axis=(0, 1)), 1.0) * scale
+    return _with_surface(shapes, Surface(lit, alpha=alpha, threshold=threshold), mean)
+
+
+def _with_surface(shapes: Shapes, surface: Surface, mean: np.ndarray) -> Shapes:
     n = len(shapes)
-    return replace(
-        shapes, color=np.tile(rgba.mean(axis=0), (n, 1)), surfaces=(surface,), surface=np.zeros(n, np.int32),
-        meshes=(replace(triangles, layers=((LAYER.name, rgba[corners]),)),),
-    )  # fmt: skip
+    color = np.tile(mean.astype(np.float32), (n, 1))
+    return replace(shapes, color=color, surfaces=(surface,), surface=np.zeros(n, np.int32))
