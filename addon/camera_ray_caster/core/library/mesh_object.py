@@ -1,5 +1,5 @@
-"""Meshes of other libraries: objects with ``vertices`` and ``faces``, as trimesh has them, or Open3D's ``triangles``, and
-their colors, of vertices, of faces, or by a texture.
+"""Meshes of other libraries: objects with ``vertices`` and ``faces``, as of trimesh, or ``triangles``, as of Open3D,
+and their colors: of vertices, of faces, or by a texture.
 """
 
 from __future__ import annotations
@@ -26,16 +26,16 @@ def arrays_of(mesh: Any) -> dict[str, Any]:
     vertices, faces = getattr(mesh, "vertices", None), getattr(mesh, "faces", getattr(mesh, "triangles", None))
     if vertices is None or faces is None:
         raise InputError(
-            f"{shown(type(mesh))} has no vertices and faces: give mesh(vertices, faces), or a mesh of trimesh or Open3D; "
-            "of a scene of trimesh, scene.to_mesh()"
+            f"{shown(type(mesh))} has no vertices and faces: give mesh(vertices, faces), or a mesh of trimesh or Open3D"
+            "; of a scene of trimesh, scene.to_mesh()"
         )
     uv = getattr(getattr(mesh, "visual", None), "uv", None)
     return {"vertices": np.asarray(vertices), "faces": np.asarray(faces), "uv": None if uv is None else np.asarray(uv)}
 
 
 def with_colors(shapes: Shapes, mesh: Any) -> Shapes:
-    """Return the shapes of a mesh with the colors of its vertices or faces, sRGB with 8 bits or from 0 to 1, or with the
-    texture or color of its material.
+    """Return the shapes of a mesh with the colors of its vertices or faces, sRGB with 8 bits or from 0 to 1, or with
+    the texture or color of its material.
     """
     visual = getattr(mesh, "visual", mesh)
     names = {"vertex": ("vertex_colors",), "face": ("face_colors",), "any": ("vertex_colors", "face_colors")}

@@ -86,8 +86,8 @@ def mesh(
     """Return a mesh, or several instances of it.
 
     vertices: (v, 3). float32 is kept as it is, as Blender has it; all else becomes float64. Or an object with vertices
-        and faces, such as a mesh of trimesh or Open3D: ``mesh(object)``, with its UV map and, unless ``color`` is given,
-        the colors of its vertices or faces, or its texture.
+        and faces, such as a mesh of trimesh or Open3D: ``mesh(object)``, with its UV map and, unless ``color`` is
+        given, the colors of its vertices or faces, or its texture.
     faces: (k, 3) triangles, (k, 4) quads, or a list of faces with any number of corners: whole numbers, the vertices of
         each face, counterclockwise as seen from its front. A face of more than three corners is cut into triangles from
         its first corner on, as fits a convex one. ``face_index`` of a pixel is the row.
