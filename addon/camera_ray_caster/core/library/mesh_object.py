@@ -39,8 +39,9 @@ def with_colors(shapes: Shapes, mesh: Any) -> Shapes:
     """
     visual = getattr(mesh, "visual", mesh)
     names = {"vertex": ("vertex_colors",), "face": ("face_colors",), "any": ("vertex_colors", "face_colors")}
-    candidates = ((name, getattr(visual, name, None)) for name in names.get(getattr(visual, "kind", "any"), ()))
-    name, colors = next(((name, colors) for name, colors in candidates if np.size(colors) > 1), ("", None))
+    candidates = {name: getattr(visual, name, None) for name in names.get(getattr(visual, "kind", "any"), ())}
+    known = {name: colors for name, colors in candidates.items() if colors is not None and len(colors)}
+    name, colors = next(iter(known.items()), ("", None))
     if not len(shapes):
         return shapes
     if colors is None:
