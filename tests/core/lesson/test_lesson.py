@@ -130,10 +130,12 @@ def test_a_pixel_outside_of_the_frame_is_refused():
 
 def test_pages_of_a_lecture_are_few_and_equally_long():
     seven, uneven = ("direction",) * 7, ("a", "  1", "  2", "b", "  1", "  2", "c", "  1", "  2", "d")
+    last = tuple(line for count in (2, 2, 2, 2, 2, 4, 2, 1) for line in ("a", *("  1",) * (count - 1)))
     explained = lesson(camera(), scene(), 20, 15)
     steps = tuple((title, lines) for title, lines in explained.steps if title == "Ray in the world")
-    pages = replace(explained, steps=(*steps, ("Seven", seven), ("Uneven", uneven))).screens[1:]
+    pages = replace(explained, steps=(*steps, ("Seven", seven), ("Uneven", uneven), ("Last", last))).screens[1:]
     assert [(title, len(lines)) for title, lines in pages] == [
         ("Ray in the world", 6), ("Seven", 4), ("Seven", 3), ("Uneven", 6), ("Uneven", 4),
+        ("Last", 6), ("Last", 4), ("Last", 4), ("Last", 3),
     ]  # fmt: skip
     assert [line.split(" = ")[0] for line in pages[0][1]] == ["eye", "u", "v", "w", "o", "r"]

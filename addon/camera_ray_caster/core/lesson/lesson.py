@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -61,15 +60,10 @@ class Lesson:
     @property
     def screens(self) -> list[tuple[str, tuple[str, ...]]]:
         """The pages of a lecture: the model's formula in symbols, then the steps, in which it has its numbers. A step
-        of more than ``PAGE`` lines has several pages of about as many lines; a line and the indented lines below it
-        stay together.
+        of more than ``PAGE`` lines has several pages; a line and the indented lines below it stay together.
         """
-        pages = [(self.label, self.formula)]
-        for title, lines in self.steps:
-            fewest = len(_cut(lines, PAGE))
-            cuts = (_cut(lines, length) for length in range(1, PAGE + 1))
-            pages += [(title, page) for page in next(cut for cut in cuts if len(cut) == fewest)]
-        return pages
+        pages = [(title, page) for title, lines in self.steps for page in _pages(lines)]
+        return [(self.label, self.formula), *pages]
 
     def lines(self) -> list[str]:
         """Return all steps as lines of text."""
@@ -93,15 +87,19 @@ class Lesson:
         return "\n".join(self.lines())
 
 
-def _cut(lines: tuple[str, ...], length: int) -> list[tuple[str, ...]]:
-    """Cut lines before lines without indent into pages of up to ``length`` lines, or one such line and those below."""
+def _pages(lines: tuple[str, ...]) -> list[tuple[str, ...]]:
+    """Cut lines before lines without indent into as few pages of up to ``PAGE`` lines as possible, the shortest of them
+    as long as possible. A line with more lines below it has a page of its own.
+    """
     starts = [k for k, line in enumerate(lines) if not line.startswith(" ")] + [len(lines)]
-    pages, first = [], starts[0]
-    for start, end in pairwise(starts):
-        if end - first > length and start > first:
-            pages.append(lines[first:start])
-            first = start
-    return [*pages, lines[first:]]
+    best: dict[int, list[tuple[str, ...]]] = {len(lines): []}
+    """The pages from each of these lines to the end."""
+    for k in reversed(range(len(starts) - 1)):
+        first = starts[k]
+        ends = [starts[k + 1], *(end for end in starts[k + 2 :] if end - first <= PAGE)]
+        cuts = ([lines[first:end], *best[end]] for end in reversed(ends))
+        best[first] = min(cuts, key=lambda pages: (len(pages), -min(map(len, pages))))
+    return best[0]
 
 
 def _plain(value: Any) -> Any:
