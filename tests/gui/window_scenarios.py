@@ -86,7 +86,7 @@ def other_engine(user, scenes):
     yield from user.point(*middle(user.region("WINDOW")))
     yield from user.key("F12")
     yield from user.until(lambda: said, "the status bar says it")
-    assert said[0].startswith("Workbench does not support Omnimax: it renders a perspective view"), said
+    assert said[0].startswith("Workbench renders a perspective view, not Omnimax"), said
     yield from user.see_render("other_engine_f12")
     yield from user.wait(0.5)
     user.picture("other_engine")

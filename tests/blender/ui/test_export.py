@@ -3,6 +3,7 @@
 import json
 import re
 from time import sleep
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -141,3 +142,15 @@ def test_a_dialog_proposes_no_folder_of_another_format(blender):
     known = blender.ops.camera_ray_caster.export.get_rna_type().properties["filepath"]
     assert known.is_skip_save
     assert known.subtype == "FILE_PATH"
+
+
+def test_the_dialog_s_folder_is_named_after_the_format(tmp_path):
+    dialog = SimpleNamespace(filepath=str(tmp_path / "room_json"), format="json")
+    check = export_operators.Export.check
+    assert not check(dialog, None), "as proposed"
+    dialog.format = "colmap"
+    assert check(dialog, None)
+    assert dialog.filepath == str(tmp_path / "room_colmap")
+    dialog.filepath, dialog.format = str(tmp_path / "mine"), "npz"
+    assert not check(dialog, None)
+    assert dialog.filepath == str(tmp_path / "mine"), "a name of the user's"

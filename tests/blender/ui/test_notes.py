@@ -29,7 +29,7 @@ def unknown(scene, data):
 
 def sharp(scene, data):
     data.dof.use_dof, data.dof.focus_distance, data.dof.aperture_fstop = True, 5.0, 1.0
-    return "Nothing is blurred with 1 sample: every ray passes through the center of the aperture samples"
+    return "No blur with 1 sample: every ray passes through the center of the aperture samples"
 
 
 def wide_open(scene, data):
@@ -47,7 +47,7 @@ def all_at_once(scene, data):
 
 def still(scene, data):
     data.camera_ray_caster.time_mode, scene.frame_end = "ROWS", 9
-    return "All frames have the same pixel times camera_ray_caster.follow_timeline"
+    return "All frames have the same times camera_ray_caster.follow_timeline"
 
 
 def no_camera(scene, data):
@@ -81,7 +81,7 @@ def test_every_note_is_in_the_popover_with_its_buttons(blender, scene):
     blender.context.view_layer.update()
     found = drawn(blender, CameraNotes)
     assert len(notes(blender.context)) == 3
-    for said in ("set_frame", "use_this_engine", "use_in_cycles", "Nothing is blurred", "samples"):
+    for said in ("set_frame", "use_this_engine", "use_in_cycles", "No blur", "samples"):
         assert said in found
 
 
@@ -91,6 +91,21 @@ def test_of_two_missing_slits_each_is_added_by_the_same_button(blender, scene):
         assert f"camera_ray_caster.add_line {name}" in drawn(blender, SidebarCamera)
         blender.ops.camera_ray_caster.add_line(setting=name)
     assert "add_line" not in drawn(blender, SidebarCamera)
+
+
+def test_operators_on_rays_are_gray_without_slits(blender, scene):
+    ours = blender.ops.camera_ray_caster
+    operators = ours.use_in_cycles, ours.fit_lens, ours.add_projector, ours.render_through_model
+    assert [operator.poll() for operator in operators] == [True] * 4
+    missing(scene, scene.camera.data)
+    blender.context.view_layer.update()
+    assert not any(operator.poll() for operator in operators)
+    with pytest.raises(RuntimeError, match="Slit"):
+        ours.use_in_cycles()
+    for name in ("slit_1", "slit_2"):
+        ours.add_line(setting=name)
+    blender.context.view_layer.update()
+    assert [operator.poll() for operator in operators] == [True] * 3 + [False], "many origins are no warp of faces"
 
 
 def test_the_times_of_a_slit_scan_go_with_the_timeline(blender, scene):

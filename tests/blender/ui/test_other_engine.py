@@ -7,12 +7,12 @@ from camera_ray_caster.blender.ui import other_engine
 
 EEVEE = "BLENDER_EEVEE" if bpy.app.version >= (5, 0) else "BLENDER_EEVEE_NEXT"
 SAID = [
-    ("BLENDER_WORKBENCH", "OMNIMAX", "PERSP", "NONE", "Workbench does not support Omnimax: it renders a perspective"),
-    ("CYCLES", "OMNIMAX", "PERSP", "NONE", "Cycles does not support Omnimax: it renders a perspective view"),
-    ("CYCLES", "CROSS_SLIT", "ORTHO", "NONE", "Cycles does not support Cross-Slit: it renders an orthographic view"),
-    ("CYCLES", "OMNIMAX", "PANO", "NONE", "Cycles does not support Omnimax: it renders Blender's own model"),
-    ("CYCLES", "BLENDER", "PERSP", "ROWS", "Cycles does not support the time of each pixel: it renders all pixels"),
-    (EEVEE, "BLENDER", "PANO", "NONE", "EEVEE does not support Fisheye Equidistant: it renders a perspective view"),
+    ("BLENDER_WORKBENCH", "OMNIMAX", "PERSP", "NONE", "Workbench renders a perspective view, not Omnimax"),
+    ("CYCLES", "OMNIMAX", "PERSP", "NONE", "Cycles renders a perspective view, not Omnimax"),
+    ("CYCLES", "CROSS_SLIT", "ORTHO", "NONE", "Cycles renders an orthographic view, not Cross-Slit"),
+    ("CYCLES", "OMNIMAX", "PANO", "NONE", "Cycles renders Blender's own model, not Omnimax"),
+    ("CYCLES", "BLENDER", "PERSP", "ROWS", "Cycles renders all pixels at one time"),
+    (EEVEE, "BLENDER", "PANO", "NONE", "EEVEE renders a perspective view, not Fisheye Equidistant"),
     (EEVEE, "BLENDER", "PERSP", "NONE", ""),
     ("CYCLES", "BLENDER", "PANO", "NONE", ""),
     ("CAMERA_RAY_CASTER", "OMNIMAX", "PERSP", "ROWS", ""),
@@ -37,7 +37,7 @@ def test_a_camera_that_cycles_knows_is_named_for_others_only(osl, blender, camer
     assert camera_scene.render.engine == "CYCLES"
     assert other_engine.ignored(camera_scene, camera_scene.camera) == ""
     camera_scene.render.engine = EEVEE
-    assert "EEVEE does not support Omnimax" in other_engine.ignored(camera_scene, camera_scene.camera)
+    assert "EEVEE renders a perspective view, not Omnimax" in other_engine.ignored(camera_scene, camera_scene.camera)
     assert blender.ops.camera_ray_caster.use_this_engine() == {"FINISHED"}
     assert camera_scene.render.engine == "CAMERA_RAY_CASTER"
 
@@ -52,7 +52,7 @@ def test_a_render_in_a_terminal_prints_the_line(blender, camera_scene, capfd):
     camera_scene.render.engine = "CYCLES"
     camera_scene.cycles.samples = 1
     blender.ops.render.render()
-    assert "Warning: Cycles does not support Omnimax: it renders a perspective view" in capfd.readouterr().out
+    assert "Warning: Cycles renders a perspective view, not Omnimax" in capfd.readouterr().out
     camera_scene.render.engine = "CAMERA_RAY_CASTER"
     blender.ops.render.render()
-    assert "does not support" not in capfd.readouterr().out
+    assert "renders" not in capfd.readouterr().out

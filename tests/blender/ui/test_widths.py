@@ -1,5 +1,6 @@
 """Labels and sentences fit the sidebar at its default width, by Blender's own font."""
 
+import numpy as np
 import pytest
 
 from camera_ray_caster.blender.properties import groups
@@ -53,6 +54,8 @@ def context(blender, monkeypatch):
 
 def test_wrapped_sentences_fit(context):
     texts = [setting.text for model in MODELS for setting in model.SETTINGS] + [model.description for model in MODELS]
-    lines = [line for text in texts for line in drawing.wrap(text, drawing.letters(context))]
+    room = drawing.width_of(context) - drawing.BESIDE - drawing.ICON
+    lines = [line for text in texts for line in drawing.lines_of(text, room)]
     assert len(lines) > 500
     assert {line: width(line) for line in lines if width(line) > CONTENT - ICON} == {}
+    assert np.median([width(line) for line in lines]) > 0.85 * room, "no room is left unused"

@@ -112,7 +112,7 @@ def _eye(scene, view: str, engine: str) -> tuple[bpy.types.Object, Camera]:
     if not reason and camera.pixel_time is not None:
         reason = f"each pixel of camera {camera.name!r} has its own time"
     if reason:
-        raise InputError(f"{reason}: {engine} cannot render that; cast it, or use --engine CYCLES")
+        raise InputError(f"{reason}: {engine} cannot render that. Cast it, or render with Cycles")
     return active, camera
 
 

@@ -33,7 +33,7 @@ def notes(context) -> list[Note]:
     if cast_camera is not None and (remark := cast_camera.model.remark(cast_camera.record)):
         every.append(Note(remark))
     if context.space_data is not None and is_seen_through(context) and not drawn_alike(camera):
-        text = "A click selects the object in the picture; Blender draws its gizmos in perspective"
+        text = "Clicks select in the picture. Gizmos stay in perspective"
         every.append(Note(text, icon="INFO"))
     return every
 
@@ -43,7 +43,7 @@ def sample_note(scene, camera) -> Note | None:
     settings = scene.camera_ray_caster
     if camera is None or camera.aperture is None or settings.samples != 1:
         return None
-    text = "Nothing is blurred with 1 sample: every ray passes through the center of the aperture"
+    text = "No blur with 1 sample: every ray passes through the center of the aperture"
     return Note(text, lambda row: row.prop(settings, "samples"), "INFO")
 
 

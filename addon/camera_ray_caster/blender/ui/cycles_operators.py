@@ -11,10 +11,10 @@ from ..cycles import add_projector, from_cycles, to_cycles
 from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
 from ..read.camera import shader_mark
 from ..read.scene import read_camera
-from .needs import OfCamera, camera_object_of, reporting, select_alone
+from .needs import OfCamera, OfRays, camera_object_of, reporting, select_alone
 
 
-class UseInCycles(OfCamera, bpy.types.Operator):
+class UseInCycles(OfRays, bpy.types.Operator):
     """Let Cycles render with this camera's rays: the camera becomes a custom camera, whose shader is stored in the
     file"""
 
@@ -59,7 +59,7 @@ class BackToBlender(OfCamera, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class FitLens(OfCamera, bpy.types.Operator):
+class FitLens(OfRays, bpy.types.Operator):
     """Replace the camera model with the nearest of Blender's own lenses, and report the error in pixels. The lens is
     perspective or orthographic, for any engine, or a polynomial fisheye, for Cycles on any device. The lens of a dome
     looks up: it gets a camera of its own, which follows this one"""
@@ -99,7 +99,7 @@ def _turned(context, item, elevation: float):
     return turned
 
 
-class AddProjector(OfCamera, bpy.types.Operator):
+class AddProjector(OfRays, bpy.types.Operator):
     """Add a lamp that shines a picture through this camera's model in Cycles, on any device. The picture is a color
     grid, to be exchanged in the lamp's nodes"""
 

@@ -1,11 +1,10 @@
 """Helpers for drawing panels: wrapped sentences, table rows."""
 
+from functools import lru_cache
 from textwrap import wrap
 
 import blf
 
-LETTER = 6.3
-"""Approximate width of a letter in a panel, in pixels at interface scale 1."""
 FIELD_MARGIN = 20.0
 """Approximate margin on each side of a panel's fields, in pixels at interface scale 1."""
 FONT_SIZE, LABELS, BESIDE = 11.0, 0.4, 56.0
@@ -14,8 +13,10 @@ margins.
 """
 TICK = 36.0
 """Width of a tick box with its margins, in pixels at interface scale 1."""
-ICON = 65.0
-"""Width that a panel's margins and an icon leave no letters for, in pixels at interface scale 1."""
+ICON = 24.0
+"""Width of an icon, or of a popover's arrow, in pixels at interface scale 1."""
+FEWEST = 16
+"""Letters of a line in the narrowest region."""
 NARROW = 280
 """Region width up to which a label next to its field would be cut off, in pixels at interface scale 1."""
 
@@ -53,7 +54,7 @@ def draw_field(layout, context, owner, name: str, label: str = ""):
         row = layout.row(align=True)
         row.prop(owner, name, text=label)
         return row
-    room = (LETTER * len(label) + FIELD_MARGIN) / max(width_of(context) - 2 * FIELD_MARGIN, 1.0)
+    room = (text_width(label) + FIELD_MARGIN) / max(width_of(context) - 2 * FIELD_MARGIN, 1.0)
     row = layout.split(factor=min(room, 0.6), align=True)
     row.label(text=label)
     row = row.row(align=True)
@@ -79,13 +80,21 @@ def draw_message(layout, context, text: str, icon: str = "INFO") -> None:
     text = capital(text)
     column = layout.column(align=True)
     column.scale_y = 0.85
-    for i, line in enumerate(wrap(text, letters(context))):
+    for i, line in enumerate(lines_of(text, width_of(context) - BESIDE - ICON)):
         column.label(text=line, icon="BLANK1" if i else icon)
 
 
-def letters(context) -> int:
-    """Return how many letters fit into a row with an icon."""
-    return max(16, int((width_of(context) - ICON) / LETTER))
+@lru_cache(1000)
+def lines_of(text: str, width: float, most: int | None = None) -> list[str]:
+    """Return a text as lines that fit a width in pixels at interface scale 1: at most so many, then the last one ends
+    in "..." where words are left out.
+    """
+    usual = int(len(text) * width / max(text_width(text), 1.0))
+    for letters in range(usual + 8, FEWEST, -1):  # lines of narrow letters have some more
+        lines = wrap(text, letters, max_lines=most, placeholder=" ...")
+        if all(text_width(line) <= width for line in lines):
+            return lines
+    return wrap(text, FEWEST, max_lines=most, placeholder=" ...")
 
 
 def capital(text: str) -> str:

@@ -105,6 +105,14 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
         self.in_process = True
         return super().invoke(context, event)
 
+    def check(self, context):
+        """Exchange the format at the end of the folder's name for one that is chosen in the file dialog."""
+        path = Path(self.filepath)
+        before = next((entry.key for entry in EXPORT_FORMATS if path.name.endswith(f"_{entry.key}")), self.format)
+        if before != self.format:
+            self.filepath = str(path.with_name(path.name.removesuffix(before) + self.format))
+        return before != self.format
+
     def draw(self, context):
         """Draw the options in the file dialog."""
         layout = self.layout

@@ -49,7 +49,7 @@ def timeline_note(scene, camera) -> Note | None:
     moves = camera.data.animation_data
     if moves is not None and (moves.action or any(START.name in driver.data_path for driver in moves.drivers)):
         return None
-    text = "All frames have the same pixel times"
+    text = "All frames have the same times"
     return Note(text, lambda row: row.operator(FollowTimeline.bl_idname, icon="DRIVER"), "INFO")
 
 

@@ -10,6 +10,7 @@ from ...core.records import InputError
 from ..properties.labels import in_labels
 from ..read.camera import check_camera
 from .drawing import draw_message
+from .facts_panels import camera_of
 
 LINKED = "The camera is linked from another file: first make it local or a library override"
 
@@ -68,6 +69,15 @@ class OfCamera:
     def poll(cls, context):
         """Gray out the operator without a camera in the context, and for one that cannot be changed."""
         return can_use(cls, objection(context, camera_object_of(context), is_changed=True))
+
+
+class OfRays(OfCamera):
+    """Base of the operators that need the rays of the panel's camera."""
+
+    @classmethod
+    def poll(cls, context):
+        """Gray out the operator also for a camera that cannot be cast, as without a slit."""
+        return super().poll(context) and can_use(cls, camera_of(context, camera_object_of(context))[1])
 
 
 class OfFile:

@@ -7,10 +7,9 @@ the full text.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from textwrap import shorten, wrap
 from typing import Any, NamedTuple
 
-from .drawing import capital, draw_message, letters, width_of
+from .drawing import BESIDE, ICON, capital, draw_message, lines_of, width_of
 
 UNIT = 20.0
 """Pixels of an interface unit at interface scale 1."""
@@ -46,9 +45,9 @@ def draw_first(layout, context, notes: list[Note], panel: str) -> None:
         draw_line(layout, context, text, panel, first.icon)
         first.mend(layout.row(align=True))
         return
-    line, *continued = wrap(text, letters(context))
+    line, *continued = lines_of(text, _room(context), most=2)
     layout.popover(panel, text=line, icon=first.icon)
-    layout.label(text=shorten(" ".join(continued), letters(context), placeholder=" ..."), icon="BLANK1")
+    layout.label(text="".join(continued), icon="BLANK1")
 
 
 def draw_line(layout, context, text: str, panel: str, icon: str = "INFO", otherwise: str = "") -> None:
@@ -56,9 +55,14 @@ def draw_line(layout, context, text: str, panel: str, icon: str = "INFO", otherw
     empty.
     """
     if text:
-        layout.popover(panel, text=shorten(text, letters(context), placeholder=" ..."), icon=icon)
+        layout.popover(panel, text=lines_of(text, _room(context), most=1)[0], icon=icon)
     else:
         layout.label(text=otherwise, icon="BLANK1")
+
+
+def _room(context) -> float:
+    """Return the width of a popover's text, between its icon and its arrow."""
+    return width_of(context) - BESIDE - 2 * ICON
 
 
 class Popover:

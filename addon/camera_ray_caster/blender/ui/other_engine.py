@@ -36,7 +36,9 @@ class UseThisEngine(OfScene, bpy.types.Operator):
 
 
 def ignored(scene, camera) -> str:
-    """Return a sentence on what the scene's engine does not support of a camera object; "" if it supports all of it."""
+    """Return a sentence on what the scene's engine renders in place of a camera object's model or pixel times; "" if it
+    supports them.
+    """
     engine = scene.render.engine
     if engine.startswith(ENGINE) or camera is None or camera.type != "CAMERA":
         return ""
@@ -50,11 +52,11 @@ def ignored(scene, camera) -> str:
     if not (is_ours or has_times or (kind not in ("PERSP", "ORTHO") and engine != CYCLES)):
         return ""
     model = settings.model if is_ours else blender_type(camera.data)
-    subject = label_of(model) if is_ours or not has_times else "the time of each pixel"
+    if has_times and not is_ours:
+        return f"{engine_label(engine)} renders all pixels at one time"
     others = {"PERSP": "a perspective view", "ORTHO": "an orthographic view"}
     instead = others.get(kind, "a perspective view" if engine != CYCLES else "Blender's own model")
-    instead = "all pixels at one time" if subject == "the time of each pixel" else instead
-    return f"{engine_label(engine)} does not support {subject}: it renders {instead}"
+    return f"{engine_label(engine)} renders {instead}, not {label_of(model)}"
 
 
 def engine_label(engine: str) -> str:

@@ -8,7 +8,8 @@ from ..cycles.renderer import changed
 from ..engine.engine import RenderCall
 from ..faces.picture import EEVEE, NAMES, WORKBENCH, picture_of
 from ..properties.declared import ENGINE
-from .needs import OfScene, reporting
+from ..view3d.live_picture import why_not
+from .needs import OfScene, can_use, reporting
 
 
 class RenderThroughModel(OfScene, bpy.types.Operator):
@@ -21,11 +22,13 @@ class RenderThroughModel(OfScene, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """Gray out the operator without a camera, and during a render."""
+        """Gray out the operator without a camera, during a render, and for pictures that are no warp."""
         if not super().poll(context):
             return False
-        cls.poll_message_set("Blender is rendering: wait until it has ended")
-        return not bpy.app.is_job_running("RENDER")
+        if bpy.app.is_job_running("RENDER"):
+            return can_use(cls, "Blender is rendering: wait until it has ended")
+        reason = why_not(context.scene.camera, context.evaluated_depsgraph_get())
+        return can_use(cls, reason and f"{reason}: cast it, or render with Cycles")
 
     @reporting
     def execute(self, context):
