@@ -129,7 +129,7 @@ def drawn(count):
 
 
 test_a_camera_agrees_with_itself_or_is_refused = pytest.mark.parametrize("key", [one.key for one in MODELS])(drawn(5))
-test_many_cameras_agree_with_themselves_or_are_refused = pytest.mark.full(
+test_many_cameras_agree_with_themselves_or_are_refused = pytest.mark.hostile(
     pytest.mark.parametrize("key", [one.key for one in MODELS])(drawn(100))
 )
 
