@@ -76,7 +76,10 @@ STORED = {
         {**SMALL, "ftheta_reference": "RADIUS_TO_ANGLE", "ftheta_radius_to_angle": "0 0.0125 3e-6 -9e-8"},
     ),
     "ocam": ("OCAM", {**SMALL, "ocam_polynomial": "-68 0 0.0045 1e-6 2.5e-8", "ocam_c": 0.999, "ocam_d": 0.002}),
-    "ray_table": ("RAY_TABLE", {"ray_axes": "BLENDER", "ray_interpolation": "CUBIC", "ray_slide": False}),
+    "ray_table": ("RAY_TABLE", {
+        "ray_axes": "BLENDER", "ray_interpolation": "CUBIC", "ray_block_columns": 0, "ray_block_rows": 0,
+        "ray_slide": False,
+    }),
     "omnimax": ("OMNIMAX", {"tilt": radians(20)}),
     "dome_master": ("DOME_MASTER", {"fov": pi, "tilt": radians(15)}),
     "equirectangular": ("EQUIRECTANGULAR", {"longitude_min": -pi, "latitude_max": pi / 2}),

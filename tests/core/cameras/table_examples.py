@@ -42,6 +42,11 @@ def with_holes():
     return table
 
 
+def shuffled():
+    """A pinhole's table, whose 3 x 3 blocks stand in reverse order."""
+    return np.block([[[block] for block in np.split(rows, 3, axis=1)[::-1]] for rows in np.split(pinhole(), 3)[::-1]])
+
+
 ORIGINS, DIRECTIONS = without_eye()
 
 ONLY_SOME = {"ray_directions": pinhole()}
@@ -56,6 +61,7 @@ EXAMPLES = {
         BORDER | {"ray_directions": with_holes()},
         {"ray_directions": pinhole(96, 54), "ray_area": (0.1, -0.2, 0.8, 1.0)},
         {"ray_directions": pinhole() * (1, -1, -1), "ray_axes": "OPENCV"},
+        {"ray_directions": shuffled(), "ray_block_columns": 8, "ray_block_rows": 6},
     ],
 }
 
@@ -79,6 +85,10 @@ FACTS = {
          (0.8 * (7 / 24 - 1), 0.8 * (11 / 18 - 1), -1)),
         # without interpolation all of an entry's square has its ray
         ({"ray_interpolation": "NONE"}, (12.5, 17.5), (0, 0, 0), (0.8 * (7 / 24 - 1), 0.8 * (11 / 18 - 1), -1)),
+        # at the edge between columns 3 and 4 the lines of the right block go on to where it begins
+        ({"ray_interpolation": "LINEAR", "ray_block_columns": 4, "ray_origins": stacked(
+            (np.arange(24) % 4)[None], np.zeros((18, 1)), 0.0), "ray_directions": np.full((18, 24, 3), (0, 0, -1.0))},
+         (16, 27), (-0.5, 0, 0), (0, 0, -1)),
         # the left half of the frame alone has a table
         ({"ray_area": (0, 0, 0.5, 1)}, (7, 16.5), (0, 0, 0), (0.8 * (7 / 24 - 1), 0.8 * (11 / 18 - 1), -1)),
     ],
@@ -114,6 +124,11 @@ REFUSED = {
         ({"ray_origins": np.zeros((3, 3, 3))}, r"origins are of shape \(3, 3, 3\)"),
         ({"ray_origins": np.full((18, 24, 3), NAN)}, "no ray"),
         ({"ray_area": (0.5, 0, 0.5, 1)}, "ray_area.*ascending"),
+        ({"ray_block_rows": 7}, "blocks of 24 x 7 entries do not divide a table of 24 x 18: fill it up with NaN"),
+        ({"ray_block_columns": 1}, "blocks have 2 or more rows and columns"),
+        ({"ray_block_columns": 8, "ray_interpolation": "SPLINE"}, "control points have no blocks"),
+        ({"ray_block_columns": -8}, "ray_block_columns .*must be from 0"),
+        ({"ray_directions": changed((6, 12, 2), 9.0), "ray_block_columns": 8}, "column 12, row 5.*90 degrees"),
         ({"ray_interpolation": "NEAREST"}, "ray_interpolation.*CUBIC, LINEAR, SPLINE"),
     ],
 }

@@ -9,7 +9,7 @@ from ..cameras.model import Model
 from ..cameras.parts.calibration import FILE
 from ..cameras.parts.film import farthest_from_one, raster_from
 from ..cameras.parts.pose import pose_from
-from ..cameras.parts.settings import Number
+from ..cameras.parts.settings import Number, Whole
 from ..maths.vector import inverse
 from ..records import BlenderCamera, InputError, Pose
 from .calibration_file import with_file
@@ -148,7 +148,9 @@ def _check_lengths(model: Model, direction: np.ndarray) -> None:
 
 def _cause(raw: BlenderCamera, model: Model, pose: Pose) -> str:
     """Return the words for the number of a camera that is farthest from 1; if it has none, for its rays."""
-    numbers = {setting.name: setting.given(raw) for setting in model.SETTINGS if isinstance(setting, Number)}
+    sizes = [setting for setting in model.SETTINGS if isinstance(setting, Number)
+             if setting.unit or not isinstance(setting, Whole)]  # fmt: skip
+    numbers = {setting.name: setting.given(raw) for setting in sizes}
     if not numbers:
         return "its rays are the same or cross each other, or it is too far from the world's origin"
     numbers["its distance from the world's origin"] = float(np.abs(pose.eye).max())

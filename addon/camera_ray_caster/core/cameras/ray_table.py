@@ -4,7 +4,8 @@ Assumption: rays change smoothly from entry to entry. The entries are the center
 that fill the frame; a frame of another size has the same rays, as a picture that is scaled. Between the entries unit
 directions, and origins if there are any, are interpolated component by component, by a cubic spline or by straight
 lines; half an entry beyond the outermost ones they are continued. Entries with NaN are squares without rays.
-Without interpolation each square has the ray of its entry, and neighbors may look anywhere, as behind microlenses; a
+If the table has blocks, rays are interpolated within each and not across their edges, as behind microlenses.
+Without interpolation each square has the ray of its entry, and neighbors may look anywhere; a
 point is seen by the entry whose ray passes nearest, if it is nearer than half the way to an entry beside it.
 A table may also have the control points of a cubic B-spline, as the generic cameras of T. Schöps et al.
 The inverse is numerical. ``facts`` has the errors of the interpolation, estimated from every second row and column.
@@ -32,7 +33,7 @@ from .model import Model, Step
 from .parts.calibration import FROM_FILE
 from .parts.ray_grid import AROUND, CUBIC, LINEAR, NONE, SPLINE, RayGrid, weights_of
 from .parts.ray_search import entries_of, places_of
-from .parts.settings import FROM_A_FILE, Choice, Flag, Item, Numbers
+from .parts.settings import FROM_A_FILE, Choice, Flag, Item, Numbers, Whole
 from .parts.silhouette import PIXEL_MARGIN
 from .parts.vectors import Vectors
 
@@ -68,6 +69,13 @@ INTERPOLATION = Choice(
         Item(NONE, "None", "The ray of the nearest entry: rays may jump from pixel to pixel, as behind microlenses", 3),
     ),
 )  # fmt: skip
+BLOCK_COLUMNS, BLOCK_ROWS = (
+    Whole(
+        f"ray_block_{side}", f"Block {side.title()}", f"{side.title()} of entries behind one microlens: rays are "
+        "interpolated within such blocks, not across their edges; 0: all", 0, 0, 1 << 20,
+    )
+    for side in ("columns", "rows")
+)  # fmt: skip
 SLIDE = Flag(
     "ray_slide",
     "Slide Origins",
@@ -100,8 +108,8 @@ class RayTable(Model):
     description = "Rays as a table gives them: measured, computed or exported, one for each pixel or fewer"
     group = "Calibrated"
     number = 26
-    SETTINGS = (*FROM_FILE, AXES, INTERPOLATION, SLIDE, DIRECTIONS, ORIGINS, AREA)
-    BESIDE_FILE = (*FROM_FILE, AXES, INTERPOLATION, SLIDE)
+    BESIDE_FILE = (*FROM_FILE, AXES, INTERPOLATION, BLOCK_COLUMNS, BLOCK_ROWS, SLIDE)
+    SETTINGS = (*BESIDE_FILE, DIRECTIONS, ORIGINS, AREA)
     FORMULA = (
         Step("Place in the table, from the center of its first entry", "u = a x + g, v = c y + h"),
         Step("The rest beyond column i and row j, the entry before it", "s = u - i, t = v - j"),
@@ -143,7 +151,8 @@ class RayTable(Model):
         if not (right > left and top > bottom):
             raise AREA.refusal(raw, f"{AREA.read(raw)}", "left, bottom, right, top, in ascending order")
         try:
-            grid = _grid(directions, origins, kind, AXES.read(raw), SLIDE.read(raw))
+            block = int(BLOCK_ROWS.read(raw)), int(BLOCK_COLUMNS.read(raw))
+            grid = _grid(directions, origins, kind, AXES.read(raw), SLIDE.read(raw), block)
         except InputError as error:
             raise InputError(f"table of rays of camera {raw.name!r}: {error}") from error
         rows, columns = grid.shape
@@ -158,8 +167,8 @@ class RayTable(Model):
 
     @property
     def smooth(self) -> bool:  # type: ignore[override]
-        """See Model: straight lines have kinks, and without interpolation rays jump."""
-        return self.grid.kind not in (LINEAR, NONE)
+        """See Model: straight lines have kinks, and between blocks, or without interpolation, rays jump."""
+        return self.grid.kind not in (LINEAR, NONE) and self.grid.blocks.many == 1
 
     @property
     def differentiable(self) -> bool:  # type: ignore[override]
@@ -193,11 +202,14 @@ class RayTable(Model):
             inside = inside & (look_up(grid.has_ray, _whole(near_v * columns + near_u)) > 0)
         if self.is_by_entry:
             u, v = u + 0.5, v + 0.5
-        column, row = np.clip(np.floor(u), -1, columns - 1), np.clip(np.floor(v), -1, rows - 1)
-        across, up = weights_of(u - column, grid.kind), weights_of(v - row, grid.kind)
+        (rows, columns), wide = grid.blocks.size, grid.blocks.size[1] + 2 * AROUND
+        between_blocks = wide * (rows + 2 * AROUND)
+        s, column = _cell(u, columns, grid.blocks.count[1], 1, between_blocks)
+        t, row = _cell(v, rows, grid.blocks.count[0], wide, between_blocks * grid.blocks.count[1])
+        across, up = weights_of(s, grid.kind), weights_of(t, grid.kind)
         column, spread = _shared(column, row)
-        first, wide = AROUND - (len(across) == 4), columns + 2 * AROUND
-        corner, taps = _whole((row + first) * wide + (column + first)), range(len(across))
+        first, taps = AROUND - (len(across) == 4), range(len(across))
+        corner = _whole(row + column + first * (wide + 1))
         index = corner + (AROUND - first) * (wide + 1)
         total = []
         for entries in grid.columns:
@@ -264,6 +276,16 @@ def _is_within(position, count: int, margin: float):
     return (position >= margin - BESIDE) & (position <= count - 1 - margin + BESIDE)
 
 
+def _cell(place, side: int, count: int, step: int, between_blocks: int):
+    """Return the place, 0 to 1, in the cell of places of entries, and the index of its entry in the flat table: of
+    ``count`` blocks of ``side`` entries, whose entries are ``step`` and which are ``between_blocks`` apart.
+    """
+    block = np.clip(np.floor((place + 0.5) / side), 0, count - 1) if count > 1 else 0
+    place = place - block * side
+    entry = np.clip(np.floor(place), -1, side - 1)
+    return place - entry, entry * step + block * between_blocks
+
+
 def _shared(column, row) -> tuple[Any, Callable]:
     """Return columns whose values at the rows are needed, and a function that gives those of ``column`` from theirs:
     the pixels of a picture that lie in one cell share what does not depend on their place in it.
@@ -286,12 +308,12 @@ def _sum(weights, values):
     return total
 
 
-def _grid(directions, origins, kind: str, axes: str, slide: bool) -> RayGrid:
+def _grid(directions, origins, kind: str, axes: str, slide: bool, block: tuple[int, int]) -> RayGrid:
     """Return the table of some arrays, which are kept with it: the same arrays give the same table."""
-    asked = (id(directions), id(origins), kind, axes, slide)
+    asked = (id(directions), id(origins), kind, axes, slide, block)
     if asked not in _latest:
         flip = FROM_BLENDER.diagonal()[:3] if axes == OPENCV else 1.0
-        grid = RayGrid(directions * flip, None if origins is None else origins * flip, kind)
+        grid = RayGrid(directions * flip, None if origins is None else origins * flip, kind, block)
         if len(_latest) >= KEPT:
             _latest.clear()
         _latest[asked] = directions, origins, grid.slid() if slide else grid

@@ -53,7 +53,7 @@ TABLES_OF = {
 """The tables of the page's own cameras: the rays of a lens that was measured at five times four places."""
 
 HELD = {
-    "RAY_TABLE": ("ray_axes", "ray_interpolation", "ray_slide"),
+    "RAY_TABLE": ("ray_axes", "ray_interpolation", "ray_block_columns", "ray_block_rows", "ray_slide"),
     "REAL_LENS": (
         "lens_focus", "focus_distance", "aperture_fstop", "lens_state", "lens_wavelength", "lens_vignetting",
         "lens_falloff", "lens_color", "tau_x", "tau_y",

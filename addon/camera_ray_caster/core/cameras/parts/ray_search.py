@@ -41,18 +41,27 @@ PRODUCTS = 1 << 20
 AT_ONCE = 2048
 """Number of points sought at once: their working arrays take some megabytes."""
 
+OF_BLOCKS, IN_BLOCK = 24, 4
+"""Number of blocks in which a point is sought, those whose rays pass nearest, and of entries on each axis of a block
+among which the search begins, at least.
+"""
+
+INSIDE = 0.5 - 1e-11
+"""Entries beyond its outermost ones that belong to a block; the margin is for the rounding of pixel coordinates."""
+
 
 def places_of(grid: RayGrid, points: np.ndarray) -> np.ndarray:
     """Return the places u, v (n, 2) in entries whose rays pass through points (n, 3); NaN where none was found. A place
     may be in a hole of the table or beyond it. If several rays pass through a point, it is one of them.
     """
     places, starts = np.full((len(points), 2), np.nan), _Starts(grid)
-    for first in range(0, len(points), AT_ONCE):
-        block = points[first : first + AT_ONCE]
-        block_places = places[first : first + AT_ONCE]
+    at_once = min(AT_ONCE, max(1, PRODUCTS // len(starts.places)))
+    for first in range(0, len(points), at_once):
+        block = points[first : first + at_once]
+        block_places = places[first : first + at_once]
         near = starts.nearest(block)
         block_places[:] = _search(grid, block, near[0])
-        for start in near[1:TRIES]:
+        for start in near[1 : TRIES if grid.blocks.many == 1 else OF_BLOCKS]:
             lost = np.flatnonzero(np.isnan(block_places[:, 0]))
             lost = lost[~np.isnan(grid.seen_parts.bounds(block[lost], np.zeros(len(lost)))[:, 0])]
             if not len(lost):
@@ -101,9 +110,11 @@ def _beside(grid: RayGrid, row: np.ndarray, column: np.ndarray, t: np.ndarray) -
 
 
 def _search(grid: RayGrid, points: np.ndarray, places: np.ndarray) -> np.ndarray:
-    active, ends = np.arange(len(points)), np.array(grid.shape[::-1], np.float64)
+    active, ends = np.arange(len(points)), np.array(grid.blocks.size[::-1], np.float64)
+    column, row = (places // ends).astype(np.intp).T
+    block, first, places = row * grid.blocks.count[1] + column, places // ends * ends, places % ends
     for count in range(NEWTON_STEPS):
-        beside, step, _ = _missed(grid, points[active], places[active])
+        beside, step, _ = _missed(grid, points[active], places[active], block[active])
         size = np.abs(step).max(axis=1)
         step *= np.minimum(1.0, np.maximum(ends.max() / STARTS, 1.0) / size)[:, None]
         step = np.where(np.isfinite(step), step, 0.0)
@@ -113,17 +124,25 @@ def _search(grid: RayGrid, points: np.ndarray, places: np.ndarray) -> np.ndarray
         active = active[~still]
         if not len(active):
             break
-    beside, _, missed = _missed(grid, points, places)
+    beside, _, missed = _missed(grid, points, places, block)
     reach = np.sqrt((points * points).sum(axis=1)) + grid.farthest
     distance = np.sqrt((beside * beside).sum(axis=1))
-    return np.where((missed <= SLACK * EPS * (distance + reach))[:, None], places, np.nan)
+    meets = missed <= SLACK * EPS * (distance + reach)
+    if grid.blocks.many > 1:
+        inside = np.clip(places, -INSIDE, ends - 1 + INSIDE)
+        column, row = np.floor(first + inside + 0.5).astype(np.intp).T
+        meets &= (abs(inside - places).max(axis=1) <= 2 * (0.5 - INSIDE)) & grid.known[row, column]
+        places = first + inside
+    return np.where(meets[:, None], places, np.nan)
 
 
-def _missed(grid: RayGrid, points: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _missed(
+    grid: RayGrid, points: np.ndarray, places: np.ndarray, block: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the way (n, 3) from the rays' origins to points, Newton's steps (n, 2), and the distance (n,) by which the
     rays miss the points; infinity for points behind the origins.
     """
-    value, by_u, by_v = _derivatives(grid, places)
+    value, by_u, by_v = _derivatives(grid, places, block)
     m, m_u, m_v = (values[:, :3] for values in (value, by_u, by_v))
     beside = points if grid.origins is None else points - value[:, 3:]
     t = (_dot(beside, m) / _dot(m, m))[:, None]
@@ -136,12 +155,14 @@ def _missed(grid: RayGrid, points: np.ndarray, places: np.ndarray) -> tuple[np.n
     return beside, step, np.where(t[:, 0] > 0, np.sqrt(_dot(r, r)), np.inf)
 
 
-def _derivatives(grid: RayGrid, places: np.ndarray) -> list[np.ndarray]:
-    """Return the interpolated vectors at places (n, 2), and their derivatives by u and by v, each (n, 3 or 6)."""
-    cell = np.clip(np.floor(places), -1, np.array(grid.shape[::-1]) - 1)
+def _derivatives(grid: RayGrid, places: np.ndarray, block: np.ndarray) -> list[np.ndarray]:
+    """Return the interpolated vectors at places (n, 2) of blocks (n,), and their derivatives by u and by v, each (n, 3
+    or 6).
+    """
+    cell = np.clip(np.floor(places), -1, np.array(grid.blocks.size[::-1]) - 1)
     (across, across_by), (up, up_by) = (_weights(places[:, k] - cell[:, k], grid.kind) for k in (0, 1))
     first, taps = cell.astype(np.intp) + AROUND - (grid.kind != LINEAR), np.arange(across.shape[1])
-    read = grid.nodes[first[:, 1, None, None] + taps[:, None], first[:, 0, None, None] + taps]
+    read = grid.nodes[first[:, 1, None, None] + taps[:, None], first[:, 0, None, None] + taps, block[:, None, None]]
     rows, rows_by = ((read * weights[:, :, None, None]).sum(axis=1) for weights in (up, up_by))
     pairs = (rows, across), (rows, across_by), (rows_by, across)
     return [(lines * weights[:, :, None]).sum(axis=1) for lines, weights in pairs]
@@ -157,15 +178,19 @@ def _weights(t: np.ndarray, kind: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 class _Starts:
-    """Entries of a table, some on each axis, in REGIONS x REGIONS regions."""
+    """Entries of a table, some on each axis, in REGIONS x REGIONS regions, or one for each block if these are more."""
 
     def __init__(self, grid: RayGrid):
-        entries = np.ix_(*(np.unique(np.linspace(0, side - 1, STARTS).round().astype(int)) for side in grid.shape))
+        sides, axes = [max(1, REGIONS // count) * count for count in grid.blocks.count], []
+        for axis, (side, count) in enumerate(zip(*grid.blocks, strict=True)):
+            entries = np.unique(np.linspace(0, side - 1, max(IN_BLOCK, STARTS // count)).round().astype(int))
+            axes.append((grid.blocks.starts(axis)[:, None] + entries).ravel())
+        entries = np.ix_(*axes)
         if not grid.known[entries].any():
             entries = np.ix_(*map(np.arange, grid.shape))
         known = grid.known[entries]
         row, column = (np.broadcast_to(axis, known.shape)[known] for axis in entries)
-        regions = row * REGIONS // grid.shape[0] * REGIONS + column * REGIONS // grid.shape[1]
+        regions = row * sides[0] // grid.shape[0] * sides[1] + column * sides[1] // grid.shape[1]
         order = np.argsort(regions, kind="stable")
         self.places = np.stack((column, row), axis=1)[order].astype(np.float64)
         self.ahead = grid.directions[row, column][order]
