@@ -33,9 +33,7 @@ SHOWN = {
         "ftheta_c", "ftheta_d", "ftheta_e", "ftheta_max_angle",
     ),
     "OCAM": (*POINT, "ocam_polynomial", "ocam_c", "ocam_d", "ocam_e"),
-    "RAY_TABLE": (
-        "calibration_file", "ray_axes", "ray_interpolation", "ray_block_columns", "ray_block_rows", "ray_slide",
-    ),
+    "RAY_TABLE": (FILE[0], "ray_axes", "ray_interpolation", "ray_block_columns", "ray_block_rows", "ray_slide"),
     "OMNIMAX": ("tilt",),
     "DOME_MASTER": ("fov", "tilt"),
     "CYLINDRICAL": ("pan_min", "pan_max", "latitude_bottom", "latitude_top"),

@@ -31,58 +31,10 @@ from ..maths.vector import is_grid, norm
 from ..records import BlenderCamera, InputError, Raster
 from .model import Model, Step
 from .parts.calibration import FROM_FILE
-from .parts.ray_grid import AROUND, CUBIC, LINEAR, NONE, SPLINE, RayGrid, weights_of
+from .parts.ray_grid import AROUND, LINEAR, NONE, SPLINE, RayGrid, weights_of
 from .parts.ray_search import entries_of, places_of
-from .parts.settings import FROM_A_FILE, Choice, Flag, Item, Numbers, Whole
+from .parts.ray_settings import AREA, AXES, BLOCK_COLUMNS, BLOCK_ROWS, DIRECTIONS, INTERPOLATION, OPENCV, ORIGINS, SLIDE
 from .parts.silhouette import PIXEL_MARGIN
-from .parts.vectors import Vectors
-
-DIRECTIONS = Vectors(
-    "ray_directions",
-    "Directions",
-    "Directions of the rays in the camera's frame, of any length; NaN where there is no ray",
-    None,
-    owner=FROM_A_FILE,
-)
-ORIGINS = Vectors(
-    "ray_origins", "Origins", "Origins of the rays in the camera's frame; without them all leave the eye", None,
-    owner=FROM_A_FILE,
-)  # fmt: skip
-AREA = Numbers(
-    "ray_area", "Area", "Part of the frame that the entries fill, 0 to 1 from the bottom left", (0.0, 0.0, 1.0, 1.0),
-    ("Left", "Bottom", "Right", "Top"), owner=FROM_A_FILE,
-)  # fmt: skip
-OPENCV = "OPENCV"
-AXES = Choice(
-    "ray_axes", "Axes", "Axes of the rays in a file that does not state them", "BLENDER",
-    (
-        Item("BLENDER", "Blender", "X right, Y up, the camera looks along -Z", 0),
-        Item(OPENCV, "OpenCV", "X right, Y down, the camera looks along Z", 1),
-    ),
-)  # fmt: skip
-INTERPOLATION = Choice(
-    "ray_interpolation", "Interpolation", "Rays between the entries of the table", CUBIC,
-    (
-        Item(CUBIC, "Cubic", "A cubic spline through the entries, smooth", 0),
-        Item(LINEAR, "Linear", "Straight lines between the entries", 1),
-        Item(SPLINE, "Control Points", "The entries are the control points of a cubic B-spline", 2),
-        Item(NONE, "None", "The ray of the nearest entry: rays may jump from pixel to pixel, as behind microlenses", 3),
-    ),
-)  # fmt: skip
-BLOCK_COLUMNS, BLOCK_ROWS = (
-    Whole(
-        f"ray_block_{side}", f"Block {side.title()}", f"{side.title()} of entries behind one microlens: rays are "
-        "interpolated within such blocks, not across their edges; 0: all", 0, 0, 1 << 20,
-    )
-    for side in ("columns", "rows")
-)  # fmt: skip
-SLIDE = Flag(
-    "ray_slide",
-    "Slide Origins",
-    "Move each origin along its ray, near the mean of all origins: for tables whose origins jump along the rays. "
-    "Distances are measured from there",
-    False,
-)
 
 BESIDE = 1e-9
 """Fraction of an entry by which a place may lie beyond the table: rounding must not lose the frame's edges."""
@@ -204,8 +156,8 @@ class RayTable(Model):
             u, v = u + 0.5, v + 0.5
         (rows, columns), wide = grid.blocks.size, grid.blocks.size[1] + 2 * AROUND
         between_blocks = wide * (rows + 2 * AROUND)
-        s, column = _cell(u, columns, grid.blocks.count[1], 1, between_blocks)
-        t, row = _cell(v, rows, grid.blocks.count[0], wide, between_blocks * grid.blocks.count[1])
+        s, column = _cell(u, columns, grid.blocks.per_axis[1], 1, between_blocks)
+        t, row = _cell(v, rows, grid.blocks.per_axis[0], wide, between_blocks * grid.blocks.per_axis[1])
         across, up = weights_of(s, grid.kind), weights_of(t, grid.kind)
         column, spread = _shared(column, row)
         first, taps = AROUND - (len(across) == 4), range(len(across))
@@ -276,14 +228,14 @@ def _is_within(position, count: int, margin: float):
     return (position >= margin - BESIDE) & (position <= count - 1 - margin + BESIDE)
 
 
-def _cell(place, side: int, count: int, step: int, between_blocks: int):
+def _cell(position, side: int, count: int, step: int, between_blocks: int):
     """Return the place, 0 to 1, in the cell of places of entries, and the index of its entry in the flat table: of
     ``count`` blocks of ``side`` entries, whose entries are ``step`` and which are ``between_blocks`` apart.
     """
-    block = np.clip(np.floor((place + 0.5) / side), 0, count - 1) if count > 1 else 0
-    place = place - block * side
-    entry = np.clip(np.floor(place), -1, side - 1)
-    return place - entry, entry * step + block * between_blocks
+    block = np.clip(np.floor((position + 0.5) / side), 0, count - 1) if count > 1 else 0
+    local = position - block * side
+    entry = np.clip(np.floor(local), -1, side - 1)
+    return local - entry, entry * step + block * between_blocks
 
 
 def _shared(column, row) -> tuple[Any, Callable]:

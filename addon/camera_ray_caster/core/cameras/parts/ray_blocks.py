@@ -16,16 +16,16 @@ FOLDED = 8 * EPS32
 """Size, over the sides of a cell of unit vectors, of a volume that float32's rounding may have turned around."""
 
 
-class Blocks(NamedTuple):
+class EntryBlocks(NamedTuple):
     """Blocks of equal size that fill a table; a table without blocks is a single one."""
 
     size: tuple[int, int]
     """Rows and columns of a block."""
-    count: tuple[int, int]
+    per_axis: tuple[int, int]
     """Rows and columns of blocks."""
 
     @classmethod
-    def of(cls, shape: tuple[int, int], size: tuple[int, int]) -> Blocks:
+    def of(cls, shape: tuple[int, int], size: tuple[int, int]) -> EntryBlocks:
         """Return the blocks of a table; a size of 0 is the table's. Raises InputError if they do not divide it."""
         rows, columns = (side or whole for side, whole in zip(size, shape, strict=True))
         if shape[0] % rows or shape[1] % columns:
@@ -36,26 +36,26 @@ class Blocks(NamedTuple):
     @property
     def many(self) -> int:
         """Number of blocks."""
-        return self.count[0] * self.count[1]
+        return self.per_axis[0] * self.per_axis[1]
 
     def split(self, entries: np.ndarray) -> np.ndarray:
         """Return entries (rows, columns, ...) in block form."""
-        (rows, columns), (down, across), more = self.size, self.count, entries.shape[2:]
-        blocks = entries.reshape(down, rows, across, columns, *more).swapaxes(1, 2)
-        return np.moveaxis(blocks.reshape(self.many, rows, columns, *more), 0, 2)
+        (rows, columns), (down, across), last = self.size, self.per_axis, entries.shape[2:]
+        blocks = entries.reshape(down, rows, across, columns, *last).swapaxes(1, 2)
+        return np.moveaxis(blocks.reshape(self.many, rows, columns, *last), 0, 2)
 
     def joined(self, parts: np.ndarray) -> np.ndarray:
         """Return an array in block form, with any number of rows and columns in each block, as one of the table's."""
-        (rows, columns), (down, across), more = parts.shape[:2], self.count, parts.shape[3:]
-        blocks = np.moveaxis(parts, 2, 0).reshape(down, across, rows, columns, *more).swapaxes(1, 2)
-        return blocks.reshape(down * rows, across * columns, *more)
+        (rows, columns), (down, across), last = parts.shape[:2], self.per_axis, parts.shape[3:]
+        blocks = np.moveaxis(parts, 2, 0).reshape(down, across, rows, columns, *last).swapaxes(1, 2)
+        return blocks.reshape(down * rows, across * columns, *last)
 
     def starts(self, axis: int) -> np.ndarray:
         """Return the first row (axis 0) or column of each row or column of blocks."""
-        return np.arange(self.count[axis]) * self.size[axis]
+        return np.arange(self.per_axis[axis]) * self.size[axis]
 
 
-def check_neighbors(blocks: Blocks, directions: np.ndarray, origins: np.ndarray | None) -> None:
+def check_neighbors(blocks: EntryBlocks, directions: np.ndarray, origins: np.ndarray | None) -> None:
     """Raise InputError for neighbors of a block more than 90 degrees apart, and if it folds: if the rays of some of its
     cells turn the other way round than those of most.
     """
@@ -68,8 +68,8 @@ def check_neighbors(blocks: Blocks, directions: np.ndarray, origins: np.ndarray 
     ways = _turns(ahead, ahead)
     if not any(way.any() for way in ways) and origins is not None:  # the rays are parallel
         ways = _turns(ahead, blocks.split(origins))
-    one, other = (np.count_nonzero(way, axis=(0, 1)) for way in ways)
-    _refuse_in_block(blocks, np.where(other < one, ways[1], ways[0]), "and its neighbors fold over: the table turns "
+    left, right = (np.count_nonzero(way, axis=(0, 1)) for way in ways)
+    _refuse_in_block(blocks, np.where(right < left, ways[1], ways[0]), "and its neighbors fold over: the table turns "
                      "back there, so that several pixels see one point")  # fmt: skip
 
 
@@ -94,7 +94,7 @@ def refuse(where: np.ndarray, reason: str) -> None:
         raise InputError(f"the ray in column {column}, row {row} (from the bottom left) {reason}")
 
 
-def _refuse_in_block(blocks: Blocks, where: np.ndarray, reason: str) -> None:
+def _refuse_in_block(blocks: EntryBlocks, where: np.ndarray, reason: str) -> None:
     """Do the same for cells (rows - 1 or rows, columns - 1 or columns, blocks)."""
     short = [(0, side - n) for side, n in zip(blocks.size, where.shape[:2], strict=True)]
     refuse(blocks.joined(np.pad(where, (*short, (0, 0)))), reason)

@@ -16,7 +16,7 @@ from ...maths.speed import lazy
 from ...memory import require
 from ...records import InputError
 from .extended import WIDE, control_points, extended
-from .ray_blocks import Blocks, check_neighbors, refuse
+from .ray_blocks import EntryBlocks, check_neighbors, refuse
 from .seen_parts import PARTS, SeenParts
 
 CUBIC, LINEAR, SPLINE, NONE = "CUBIC", "LINEAR", "SPLINE", "NONE"
@@ -47,7 +47,7 @@ class RayGrid:
         length 0 or infinite numbers, blocks that do not divide the table, and, within blocks, neighbors more than 90
         degrees apart and entries that fold over.
         """
-        self.kind, self.shape = kind, directions.shape[:2]
+        self.kind, self.shape = kind, (directions.shape[0], directions.shape[1])
         least = {SPLINE: 4, NONE: 1}.get(kind, 2)
         if directions.ndim != 3 or directions.shape[2] != 3 or min(self.shape) < least:
             raise InputError(f"directions are of shape {directions.shape}: they must be (rows, columns, 3), {least} or "
@@ -56,7 +56,7 @@ class RayGrid:
             raise InputError(f"origins are of shape {origins.shape}, and directions of {directions.shape}")
         count = 3 if origins is None else 6
         sides = "{1} x {0}".format(*self.shape)
-        self.blocks = Blocks.of(self.shape, (0, 0) if kind == NONE else block)
+        self.blocks = EntryBlocks.of(self.shape, (0, 0) if kind == NONE else block)
         if self.blocks.many > 1 and (kind == SPLINE or min(self.blocks.size) < least):
             raise InputError("control points have no blocks: give a table for each, or set the blocks to 0"
                              if kind == SPLINE else f"blocks have {least} or more rows and columns")  # fmt: skip
@@ -192,8 +192,8 @@ class RayGrid:
             for _ in range(finer):
                 nodes = _finer(nodes, self.kind)
             cells = (side + 1) << finer
-            most = min(cells, max(1, 2 * PARTS // count))
-            places.append(np.unique(np.linspace(0, cells, most + 1).astype(int)))
+            parts = min(cells, max(1, 2 * PARTS // count))
+            places.append(np.unique(np.linspace(0, cells, parts + 1).astype(int)))
             scales.append(0.5**finer)
             nodes, known = nodes.swapaxes(0, 1), (known[1:] | known[:-1]).repeat(1 << finer, axis=0).swapaxes(0, 1)
         low, high = (_parts(end, nodes, known, places) for end in (np.fmin, np.fmax))

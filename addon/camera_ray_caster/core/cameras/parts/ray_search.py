@@ -112,7 +112,7 @@ def _beside(grid: RayGrid, row: np.ndarray, column: np.ndarray, t: np.ndarray) -
 def _search(grid: RayGrid, points: np.ndarray, places: np.ndarray) -> np.ndarray:
     active, ends = np.arange(len(points)), np.array(grid.blocks.size[::-1], np.float64)
     column, row = (places // ends).astype(np.intp).T
-    block, first, places = row * grid.blocks.count[1] + column, places // ends * ends, places % ends
+    block, first, places = row * grid.blocks.per_axis[1] + column, places // ends * ends, places % ends
     for count in range(NEWTON_STEPS):
         beside, step, _ = _missed(grid, points[active], places[active], block[active])
         size = np.abs(step).max(axis=1)
@@ -181,7 +181,7 @@ class _Starts:
     """Entries of a table, some on each axis, in REGIONS x REGIONS regions, or one for each block if these are more."""
 
     def __init__(self, grid: RayGrid):
-        sides, axes = [max(1, REGIONS // count) * count for count in grid.blocks.count], []
+        sides, axes = [max(1, REGIONS // count) * count for count in grid.blocks.per_axis], []
         for axis, (side, count) in enumerate(zip(*grid.blocks, strict=True)):
             entries = np.unique(np.linspace(0, side - 1, max(IN_BLOCK, STARTS // count)).round().astype(int))
             axes.append((grid.blocks.starts(axis)[:, None] + entries).ravel())
