@@ -114,6 +114,8 @@ REFUSED = {
         ({"ray_directions": [[[0, 0, -1]] * 3, [[0, 0, -1]] * 2]}, "ray_directions.*rows of equal length"),
         ({"ray_directions": "rays"}, "ray_directions.*rows of equal length"),
         ({"ray_directions": np.ones((5, 4))}, r"of shape \(5, 4\).*\(rows, columns, 3\)"),
+        ({"ray_directions": np.ones(5), "ray_axes": "OPENCV"}, r"of shape \(5,\).*\(rows, columns, 3\)"),
+        ({"ray_origins": np.ones((4, 4, 3, 2))}, r"ray_origins.*of shape \(4, 4, 3, 2\).*\(rows, columns, 3\)"),
         ({"ray_directions": np.ones((5, 1, 3))}, r"of shape \(5, 1, 3\).*2 or more rows"),
         ({"ray_directions": np.ones((3, 9, 3)), "ray_interpolation": "SPLINE"}, "4 or more rows"),
         ({"ray_directions": pinhole() * NAN}, "no ray: each entry has NaN"),

@@ -47,9 +47,9 @@ class RayGrid:
         length 0 or infinite numbers, blocks that do not divide the table, and, within blocks, neighbors more than 90
         degrees apart and entries that fold over.
         """
-        self.kind, self.shape = kind, (directions.shape[0], directions.shape[1])
+        self.kind, self.shape = kind, (len(directions), directions.shape[1])
         least = {SPLINE: 4, NONE: 1}.get(kind, 2)
-        if directions.ndim != 3 or directions.shape[2] != 3 or min(self.shape) < least:
+        if min(self.shape) < least:
             raise InputError(f"directions are of shape {directions.shape}: they must be (rows, columns, 3), {least} or "
                              "more rows and columns")  # fmt: skip
         if origins is not None and origins.shape != directions.shape:

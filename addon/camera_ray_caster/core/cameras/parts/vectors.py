@@ -19,12 +19,17 @@ class Vectors(Setting):
     kind = "VECTORS"
 
     def read(self, raw: BlenderCamera) -> np.ndarray | None:
-        """Return the table as float64. Raises InputError, which names the setting, for rows of unequal length."""
+        """Return the table as float64. Raises InputError, which names the setting, for what is no such table."""
         table = self.given(raw)
+        if table is None:
+            return None
         try:
-            return None if table is None else np.asarray(table, np.float64)
+            vectors = np.asarray(table, np.float64)
         except (TypeError, ValueError) as error:
             raise self.refusal(raw, shown(table), "rows of equal length, of three numbers each entry") from error
+        if vectors.ndim != 3 or vectors.shape[2] != 3:
+            raise self.refusal(raw, f"of shape {vectors.shape}", "(rows, columns, 3)")
+        return vectors
 
     def reported(self, raw: BlenderCamera) -> Any:
         """Return the shape of the table for a report, which would be too long with all numbers; None without one."""
