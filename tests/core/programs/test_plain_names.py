@@ -30,6 +30,8 @@ def lens(tmp_path, entries):
         {"distortion": {"type": "radtan", "params": [-0.3, 0.05, 0, 0]}},
         {"type": "pinhole", "distortion": {"type": "radtan", "values": [-0.3, 0.05, 0, 0]}},
         {"distortion": [0, 0, 0, 0, 0], "k1": -0.3, "k2": 0.05},
+        {"distortion": {"type": "radtan", "parameters": {"k1": -0.3, "k2": 0.05, "p1": 0, "p2": 0}}},
+        {"distortion": None, "kc": [-0.3, 0.05, 0, 0, 0]},
     ],
     ids=repr,
 )
@@ -53,7 +55,9 @@ def test_photon_vision_called_its_distortion_extrinsics(tmp_path):
     [
         {"kappa": [-0.3, 0.05]}, {"dc": [-0.3, 0.05, 0, 0]}, {"lens": {"k1": -0.3, "k2": 0.05}}, {"kappa1": -0.3},
         {"lens_coeffs": [-0.3, 0.05, 0, 0]}, {"params": [-0.3, 0.05, 0, 0]}, {"poly": {"a": 1, "k1": -0.3}},
-        {"radial_distortion_map": {"a": [-0.3]}}, {"k7": 0.5},
+        {"radial_distortion_map": {"a": [-0.3]}}, {"k7": 0.5}, {"lens": {"distortion": [-0.3, 0.05]}},
+        {"lens_model": {"coefficients": [-0.3, 0.05]}}, {"type_params": [-0.3, 0.05]}, {"values": [-0.3, 0.05]},
+        {"fov_distortion": 0.5}, {"radial_distortion_1": -0.3}, {"alpha": 0.5, "beta": 1}, {"polynomial": [0.5]},
     ],
     ids=repr,
 )  # fmt: skip
@@ -84,10 +88,17 @@ def test_a_distortion_beside_the_mapping_of_a_matrix_is_refused(tmp_path):
         crc.load_calibration(file, size=(640, 480))
 
 
-@pytest.mark.parametrize("sides", [{"width": 640, "height": 480}, {"rows": 480, "cols": 640}, [640, 480]], ids=repr)
-def test_a_size_is_a_mapping_or_two_numbers(sides, tmp_path):
+@pytest.mark.parametrize(
+    "size",
+    [
+        {"resolution": {"width": 640, "height": 480}}, {"resolution": {"rows": 480, "cols": 640}}, {"DIM": [640, 480]},
+        {"size": [640, 480]}, {"resolution": "640x480"}, {"image_shape": [480, 640, 3]}, {"frame_size": "640, 480"},
+    ],
+    ids=repr,
+)  # fmt: skip
+def test_a_size_is_a_mapping_or_two_numbers(size, tmp_path):
     file = tmp_path / "lens.json"
-    file.write_text(json.dumps({"camera_matrix": K, "dist_coeffs": [0.01, 0, 0, 0, 0], "resolution": sides}))
+    file.write_text(json.dumps({"camera_matrix": K, "dist_coeffs": [0.01, 0, 0, 0, 0], **size}))
     assert lenses_of(str(file))[0].size == (640, 480)
 
 
@@ -100,10 +111,32 @@ def test_rows_before_columns_are_refused(entries, tmp_path):
         crc.load_calibration(file)
 
 
-def test_equal_cameras_keep_their_names(tmp_path):
-    file = tmp_path / "rig.json"
-    file.write_text(json.dumps({name: {"K": K, "distortion": [0] * 5, **SIZE} for name in ("left", "right")}))
-    assert [one.name for one in lenses_of(str(file))] == ["left", "right"]
-    assert crc.load_calibration(file, camera="right").settings["fx"] == 400
-    with pytest.raises(InputError, match=r"has 2 cameras: set .* to one of left, right"):
-        crc.load_calibration(file)
+@pytest.mark.parametrize("names", [("left", "right"), ("22031701", "0002")])
+def test_equal_cameras_keep_their_names(names, tmp_path):
+    camera, file = {"K": K, "distortion": [0] * 5, **SIZE}, tmp_path / "rig.json"
+    rigs = [dict.fromkeys(names, camera), [{"name": name, **camera} for name in names]]
+    for entries in rigs if names[0] == "left" else rigs[:1]:
+        file.write_text(json.dumps(entries))
+        assert [one.name for one in lenses_of(str(file))] == [*names]
+        assert crc.load_calibration(file, camera=names[1]).settings["fx"] == 400
+        with pytest.raises(InputError, match=rf"has 2 cameras: set .* to one of {', '.join(names)}"):
+            crc.load_calibration(file)
+
+
+def test_equal_frames_are_one_camera(tmp_path):
+    file = tmp_path / "frames.json"
+    file.write_text(json.dumps({str(frame): {"K": K, "distortion": [0] * 5, **SIZE} for frame in range(3)}))
+    assert [lens.name for lens in lenses_of(str(file))] == [""]
+
+
+@pytest.mark.parametrize(("entries", "skew"), [({"skew": 2.5}, 2.5), ({"alpha_c": 0.01}, 4.0)])
+def test_a_skew_beside_the_matrix_is_read(entries, skew, tmp_path):
+    assert lens(tmp_path, entries).settings["skew"] == skew
+
+
+@pytest.mark.parametrize("entries", [{"k": 0.5, "p": 1.0, "d": 0.1}, {"rig": {"sensors": {"a": {"gain": 1}}}}])
+def test_a_letter_is_no_camera_matrix(entries, tmp_path):
+    file = tmp_path / "other.json"
+    file.write_text(json.dumps(entries))
+    with pytest.raises(InputError, match="it is of no format that is read"):
+        lenses_of(str(file))

@@ -157,6 +157,16 @@ def test_opencv_stereo_and_its_patterns(tmp_path):
     assert (turned[1], upright[1]) == (1, 2)
 
 
+def test_a_stereo_pair_may_have_a_mapping_for_each_camera(tmp_path):
+    matrix = {"camera_matrix": [[9, 0, 4], [0, 9, 4], [0, 0, 1]], "dist_coeffs": [0, 0, 0, 0, 0]}
+    file = tmp_path / "stereo.json"
+    file.write_text(json.dumps({"one": matrix, "two": matrix, "R": [0, 0, np.pi / 2], "T": [[1], [2], [3]]}))
+    first, second = cameras(file)
+    check(first, [9, 9, 4, 4, 0, 0], UPRIGHT, (0, 0, 0))
+    check(second, [9, 9, 4, 4, 0, 0], np.transpose(BY_Z), (-2, 1, -3))
+    assert (first[0], second[0]) == ("one", "two")
+
+
 def test_surround360_and_fspy():
     fisheye, pinhole = cameras(SAMPLES / "surround360.json")
     check(fisheye, [240, 240, 321.5, 238.5, -0.125, 0.0625], [[0, 0, 1], [-1, 0, 0], [0, -1, 0]], (4, 5, 6))

@@ -59,8 +59,6 @@ MODELS = {
 """The models that are written."""
 
 COUNT, CAMERA, IMAGE = struct.Struct("<Q"), struct.Struct("<iiQQ"), struct.Struct("<I7dI")
-ROWS = 12
-"""Numbers of a line of other programs' poses, which are the rows of a matrix."""
 POINT = 24
 """Bytes of a point in an image: x, y and the point's id."""
 
@@ -150,7 +148,7 @@ def _images(document: Document) -> list[tuple] | None:
     heads = [line.split(maxsplit=9) for line in lines[::2]]
     if not heads or any(len(words) != 10 or not (words[0] + words[8]).isdecimal() for words in heads):
         return None
-    if len(numbers_of(lines[0].split())) == ROWS:
+    if len(numbers_of(lines[0].split())) > 10:  # the rows of a matrix, of another program
         return None
     return [(int(words[0]), words[1:8], int(words[8]), words[9].strip()) for words in heads]
 

@@ -45,11 +45,6 @@ def read(document: Document) -> list[Lens]:
     })]  # fmt: skip
 
 
-def hint(document: Document) -> str:
-    """See ProgramFiles."""
-    return "its first line must name channel, elevation, azimuth, of Hesai's angle corrections"
-
-
 def _lines(document: Document) -> list[list[str]]:
     return [[cell.strip() for cell in line.split(",")] for line in document.text.splitlines() if line.strip(" ,")]
 
@@ -60,5 +55,5 @@ def _head(lines: list[list[str]]) -> int | None:
 
 PROGRAM = ProgramFiles(
     "Hesai", "angle corrections .csv", looks, marks="channel elevation azimuth", reads="channels, as scanners",
-    lost="columns and times", read=read, endings=(".csv",), hint=hint,
+    lost="columns and times", read=read,
 )  # fmt: skip

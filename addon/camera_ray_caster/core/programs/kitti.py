@@ -5,7 +5,8 @@ A line of a calibration is a name, a colon and numbers. Camera 02 of the raw dat
 the distortion D_02 as OpenCV's, and R_02 and T_02, from the frame of camera 00 to its own; rectified it has S_rect_02
 and the matrix P_rect_02, from the frame of camera 00 after its turn by R_rect_00. The benchmarks have P0 to P3 alone,
 which are those matrices, without sizes. A lens is named after its matrix. The center of the first pixel is (0, 0).
-A line of poses.txt has the rows of a matrix (3, 4), from the camera to the world; the first is frame 1.
+A line of poses.txt has 3 or 4 rows of 4 numbers, from the camera to the world, and before them its frame or its time,
+if it has any; without, the first line is frame 1. So are those of KITTI-360 and of Replica.
 References: A. Geiger, P. Lenz, C. Stiller and R. Urtasun, Vision meets Robotics: The KITTI Dataset (2013); the
 development kits of KITTI's raw data and odometry; KITTI-360 documentation.
 """
@@ -17,12 +18,14 @@ from functools import partial
 
 import numpy as np
 
+from ..conventions import LAST_FRAME
 from ..units import METERS
 from .parts.document import Document
 from .parts.lens import Lens, numbers_of, one_of_several
 from .parts.placed import Placed, checked, inverted, pose_of
 from .parts.plain import plain_lens
 from .parts.program import CameraRecord, FileWriter, ProgramFiles, line_by_line
+from .parts.trajectory import seconds
 
 LINE = re.compile(r"^(P\d|[SKDRT]_\d\d|[SRP]_rect_\d\d):[ \t]+(\S+[ \t]+[^\s#].*)$", re.MULTILINE)
 """A line of a name and two words or more: one number named P1 is a coefficient of other formats."""
@@ -30,8 +33,8 @@ LENS = re.compile(r"P\d|K_\d\d|P_rect_\d\d")
 """Names of the matrices that are lenses."""
 ENDING = "_kitti.txt"
 REFERENCE = "R_rect_00"
-POSE = 12
-"""Numbers of a line of poses."""
+POSES = 12, 13, 16, 17
+"""How many numbers a line of poses has."""
 LONGEST = 1000
 """Characters in which such a line ends."""
 
@@ -60,7 +63,7 @@ def poses(document: Document) -> list[Placed]:
 
 def _has_rows(document: Document) -> bool:
     first = document.text[:LONGEST].strip().partition("\n")[0].split()
-    return len(first) == len(numbers_of(first)) == POSE
+    return len(first) in POSES and len(numbers_of(first)) == len(first)
 
 
 def _lines(document: Document) -> dict[str, list[str]]:
@@ -102,7 +105,13 @@ def _pose(document: Document, lines: dict[str, list[str]], lens: Lens) -> np.nda
 
 def _moved(document: Document, number: int, row: list[str]) -> Placed:
     document.check()
-    return Placed("", "", float(number), pose_of(document, row, f"pose {number}"), moves=True)
+    pose = pose_of(document, row[len(row) % 4 :], f"pose {number}")
+    if len(row) % 4 == 0:
+        return Placed("", "", float(number), pose, moves=True)
+    (moment,) = document.numbers(row[:1], f"the time of pose {number}", 1)
+    if row[0].isdecimal() and moment <= LAST_FRAME:
+        return Placed("", "", moment, pose, moves=True)
+    return Placed("", "", None, pose, seconds(moment))
 
 
 def _numbers(document: Document, lines: dict[str, list[str]], name: str, count: int) -> list[float]:
@@ -117,7 +126,7 @@ PROGRAM = ProgramFiles(
     "KITTI", "calib_cam_to_cam.txt, also perspective.txt of KITTI-360; calib.txt; poses .txt", looks,
     marks="P0 P1 P2 P3 Tr", reads="pinholes as calibrated (K_02) and rectified (P_rect_02, P2), and their places",
     lost="of calib.txt the size of the pictures; of poses lenses and times", read=read, poses=poses, unit=METERS,
-    columns="12",
+    columns="12 or 16, also after a frame",
     export=FileWriter(
         "kitti", "KITTI Poses", "<camera>_kitti.txt: a matrix for each frame, of any camera",
         line_by_line(ENDING, _line), ending=ENDING,

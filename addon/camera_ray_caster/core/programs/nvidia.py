@@ -39,7 +39,7 @@ def looks(document: Document) -> bool:
     entries = document.entries
     if entries.has("cameraModel", "renderProductResolution") or entries.has("camera_calibrations"):
         return True
-    if entries.has("rig") and entries.part("rig").has("sensors"):
+    if entries.has("rig") and entries.part("rig").parts("sensors"):
         return True
     return any(camera.has("reference_poly") for camera in (entries, entries.part("camera_model_parameters")))
 

@@ -16,9 +16,9 @@ import numpy as np
 
 from ..maths.rotations import half_turn_vector
 from .parts.document import Document
-from .parts.lens import Lens, matrix_of, word_of
+from .parts.lens import Lens, matrix_of, one_of_several, word_of
 from .parts.placed import Placed, inverted, of_rotation
-from .parts.plain import TERMS, has_plain, plain_lenses
+from .parts.plain import TERMS, has_plain, plain_lens, plain_lenses
 from .parts.program import CameraRecord, FileWriter, ProgramFiles, by_lens
 from .parts.spelled import Spelled
 
@@ -35,15 +35,41 @@ PLAIN = "fisheye_model: 0\n"
 EXTRA = {"fisheye": "fisheye_model: 1\n", "omnidir": "xi: {unified_xi!r}\n"}
 
 
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    return has_plain(document) or bool(_pair(document))
+
+
+def read(document: Document) -> list[Lens] | None:
+    """See ProgramFiles."""
+    pair = _pair(document)
+    if not pair:
+        return plain_lenses(document)
+    return [one_of_several(name, plain_lens, camera)._replace(name=name) for name, camera in pair.items()]
+
+
+def _is_pair(document: Document) -> bool:
+    entries = Spelled(document.entries)
+    return entries.has(ROTATION) and entries.has(TRANSLATION)
+
+
+def _pair(document: Document) -> dict[str, Document]:
+    """Return the cameras of a pair that has a mapping for each; {} of any other file."""
+    if not _is_pair(document):
+        return {}
+    inside = {name: document.part(entries.values) for name, entries in document.entries.named().items()}
+    cameras = {name: camera for name, camera in inside.items() if has_plain(camera)}
+    return cameras if len(cameras) == 2 else {}
+
+
 def poses(document: Document) -> list[Placed]:
     """See ProgramFiles: of a pair's cameras in the frame of the first one, or of a camera beside the patterns of its
     pictures; none of other files.
     """
-    entries = Spelled(document.entries)
-    is_pair = entries.has(ROTATION) and entries.has(TRANSLATION)
+    entries, is_pair = Spelled(document.entries), _is_pair(document)
     if not is_pair and not document.entries.has(EXTRINSICS):
         return []
-    cameras = [lens.name for lens in plain_lenses(document) or []]
+    cameras = [lens.name for lens in read(document) or []]
     if len(cameras) == 2 and is_pair:
         turn, translation = entries.numbers(ROTATION), entries.numbers(TRANSLATION)
         if len(turn) not in (3, 9) or len(translation) != 3:
@@ -94,10 +120,10 @@ def _matrix(name: str, rows) -> str:
 
 
 PROGRAM = ProgramFiles(
-    "OpenCV", ".yml, .xml, .json of FileStorage, also .gz", has_plain, general=True,
+    "OpenCV", ".yml, .xml, .json of FileStorage, also .gz", looks, general=True,
     marks="camera_matrix distortion_coefficients image_width image_height opencv_storage",
     reads="pinhole with 4, 5, 8, 12 or 14 coefficients, fisheye, omnidir; stereo pairs",
-    lost="of four coefficients without a model's name: which model they are of", read=plain_lenses, poses=poses,
+    lost="of four coefficients without a model's name: which model they are of", read=read, poses=poses,
     export=FileWriter(
         "opencv", "OpenCV", "<camera>.yml for FileStorage: pinhole, fisheye and omnidir, and poses", write, MODELS,
         ending=".yml",

@@ -36,8 +36,6 @@ def hint(document: Document) -> str | None:
     if ending == ".obj":
         lost = [line.strip().decode() for line in ray_mesh.LINES if line not in b"\n" + document.data]
         return f"it is no mesh of rays: it has no lines {', '.join(lost)}" if lost else None
-    if ending == ".csv":
-        return f"its first line must name x, y, {', '.join(ray_mesh.DIRECTION)}, of a mesh of rays"
     kind, magic = BINARY[ending]
     if document.data.startswith(magic):
         return None
@@ -48,6 +46,6 @@ PROGRAM = ProgramFiles(
     "ray tables",
     "ray maps as .npz; .npy or float32 .exr of directions, also with origins; .csv and .obj of a mesh of rays", looks,
     reads="a ray for each pixel, or fewer", lost="pixel times", read=read,
-    endings=(".obj", ".csv", *BINARY), hint=hint,
+    marks="x y dx dy dz", endings=(".obj", *BINARY), hint=hint,
     export=FileWriter("npz", "Ray Maps (NPZ)", "", ending=".npz"),
 )  # fmt: skip

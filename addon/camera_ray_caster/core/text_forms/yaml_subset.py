@@ -28,6 +28,10 @@ Value = str | list | dict
 """What is read: scalars stay text, as they stand in the file."""
 
 
+NO_ENTRY = "is not an entry of the form name: value"
+"""What is wrong with text of any other kind."""
+
+
 class YamlError(ValueError):
     """The text is not of this subset. The message names the line."""
 
@@ -126,7 +130,7 @@ def _entry(node: dict, content: str, column: int, number: int):
     """Return where the value of a line's entry goes, and the text behind its colon."""
     entry = _key(content)
     if entry is None:
-        raise YamlError(f"line {number} is not an entry of the form name: value")
+        raise YamlError(f"line {number} {NO_ENTRY}")
     key, remainder = entry
     if key in node:
         raise YamlError(f"line {number} repeats {key!r}")

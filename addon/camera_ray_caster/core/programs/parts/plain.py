@@ -72,7 +72,8 @@ def has_plain(document: Document) -> bool:
     if not len(document.entries):
         return False
     try:
-        return all(camera.has(spelled.MATRIX, spelled.DISTORTION, spelled.FX) for _, camera in _cameras(document))
+        return all(camera.has(spelled.FX) or camera.has_list(spelled.MATRIX, spelled.DISTORTION)
+                   for _, camera in _cameras(document))  # fmt: skip
     except InputError:
         return True
 
@@ -126,6 +127,7 @@ def _lens(document: Document, name: str, camera: Spelled, key: str) -> Lens:
                 raise document.refusal(f"{problem}: leave one out")
     else:
         (fx, fy), (cx, cy), skew = _focal(camera), _center(camera), 0.0
+    skew = skew or camera.number(("skew",), 0.0) or fx * camera.number(("alphac",), 0.0)
     listed = camera.numbers(spelled.DISTORTION, empty=NO_DISTORTION, default=())
     named = {} if any(listed) else _named(document, camera)
     listed = [] if any(named.values()) else listed

@@ -33,10 +33,12 @@ LISTED = "params", "parameters", "values", "coefficients", "coeffs", "data"
 FX, FY = ("fx", "flx", "focalx", "focallengthx", "fu"), ("fy", "fly", "focaly", "focallengthy", "fv")
 CX = "cx", "ppx", "principalpointx", "centerx", "cu"
 CY = "cy", "ppy", "principalpointy", "centery", "cv"
-FOCAL, CENTER = ("focallength", "f", "focal"), ("principalpoint", "center", "imagecenter")
+FOCAL, CENTER = ("focallength", "f", "focal", "fc"), ("principalpoint", "center", "imagecenter", "cc")
 WIDTH = "imagewidth", "width", "w", "cols", "imgwidth", "imwidth"
 HEIGHT = "imageheight", "height", "h", "rows", "imgheight", "imheight"
-SIZE = "imagesize", "resolution", "imagedimension", "size", "imsize", "imgsize"
+SIZE = "imagesize", "resolution", "imagedimension", "size", "imsize", "imgsize", "framesize", "cameraresolution", "dim"
+SHAPE = "imageshape", "imgshape", "shape"
+"""Names of a size that begins with the rows, as arrays of numpy have it."""
 CONTAINERS = {
     *MATRIX, *DISTORTION, "radial", "tangential", "camera", "cameraparameters", "calibration", "projectionparameters",
     "cameramodelparameters",
@@ -49,16 +51,21 @@ SIDES = ("1", "2"), ("left", "right"), ("l", "r")
 PREFIX = re.compile(r"(.+?)[._\s-](?:fx|flx)", re.IGNORECASE)
 
 
-BEND = re.compile(r"dist(?!anc)|coef|radial|tangent|kappa|^k?[dk]c\d?$|^(lens)?param(eter)?s$|^d\d?$")
+BEND = re.compile(r"dist(?!anc|rib)|coef|radial|tangent|kappa|aberration|barrel|^warp|polynom")
 """What names of distortions have."""
+BEND_BESIDE = re.compile(BEND.pattern + r"|^k?[dk]c\d?$|^((lens|type)?param(eter)?|value)s$|^d\d?$")
+"""What they have beside a camera matrix."""
 TERM = re.compile(r"[kpsd]\d|tau[xy]|radial|tangential")
 """Names of what a mapping of a distortion has."""
 INSIDE = "distortion."
 """What stands before other names in it, as no plain name begins."""
 COEFFICIENT = re.compile(
-    r"(.*(dist(ortion)?|lens|radial|tangential|coef\w*?|cam))?(k|p|s|d|kappa|radial|tangential|coeff?)_?[0-9]"
+    r"(.*(dist(ortion)?|lens|radial|tangential|coef\w*?|cam))?"
+    r"(k|p|s|d|kappa|dist(ortion)?|radial|tangential|coeff?)[0-9]|.*distortion|omega"
 )
 """Names of a distortion's coefficients."""
+SHAPES = {"alpha", "beta"}, {"alpha", "xi"}
+"""Names that are coefficients if both are there: of an extended unified model, and of a double sphere."""
 
 
 def plain_name(name: str) -> str:
@@ -75,18 +82,19 @@ def _in_distortion(name: str) -> str:
     return name if TERM.fullmatch(name) or name in DISTORTION else f"{INSIDE}{name}"
 
 
-def _may_bend(name: str, value: Any) -> bool:
+def _may_bend(name: str, value: Any, bend: re.Pattern = BEND_BESIDE) -> bool:
     """Whether an entry may be a distortion that is not 0, by its name, or by the names of its entries."""
     if isinstance(value, dict) and "data" not in value:
-        if BEND.search(name):
-            return any(_may_bend("coefficient", coefficient) for coefficient in value.values())
-        return any(COEFFICIENT.fullmatch(plain_name(inner)) and _may_bend("coefficient", coefficient)
-                   for inner, coefficient in value.items())  # fmt: skip
+        if bend.search(name):
+            return any(_may_bend(INSIDE, coefficient) for coefficient in value.values())
+        return not _is_camera(value) and any(
+            _may_bend(plain_name(inner), coefficient, BEND) for inner, coefficient in value.items()
+        )
     numbers = numbers_of(flat(value, name, ""))
-    if name.startswith(INSIDE):
-        return any(numbers)
     is_one = len(numbers) == 1 and not isinstance(value, list)
-    return any(numbers) and (COEFFICIENT if is_one and name != "coefficient" else BEND).search(name) is not None
+    return any(numbers) and (
+        name.startswith(INSIDE) or (COEFFICIENT.fullmatch(name) if is_one else bend.search(name)) is not None
+    )
 
 
 class Spelled:
@@ -99,12 +107,17 @@ class Spelled:
         if isinstance(value, dict) and 1 in [*numbers_of(value.get("rows")), *numbers_of(value.get("cols"))]:
             self.by_name[DISTORTION[0]] = name, self.by_name.pop(PHOTON_VISION)[1]
 
-    def _merged(self, entries: Mapping[str, Any], depth: int = 3) -> dict[str, tuple[str, Any]]:
+    def _merged(
+        self, entries: Mapping[str, Any], depth: int = 3, containers: Collection[str] = CONTAINERS
+    ) -> dict[str, tuple[str, Any]]:
         merged: dict[str, tuple[str, Any]] = {}
         for name, value in entries.items():
             plain = plain_name(name)
-            holds = depth and isinstance(value, dict) and "data" not in value and plain in CONTAINERS
-            inner_entries = self._merged(value, depth - 1) if holds else {plain: (name, value)}
+            if value is None:  # it is missing
+                continue
+            holds = depth and isinstance(value, dict) and "data" not in value and plain in containers
+            inside = CONTAINERS.union(LISTED) if plain in DISTORTION else CONTAINERS
+            inner_entries = self._merged(value, depth - 1, inside) if holds else {plain: (name, value)}
             if plain in DISTORTION:
                 inner_entries = {_in_distortion(inner): inner_value for inner, inner_value in inner_entries.items()}
             for inner, (theirs, inner_value) in inner_entries.items():
@@ -118,6 +131,11 @@ class Spelled:
     def has(self, *quantities: Sequence[str]) -> bool:
         """Whether there is an entry under one of the names of these quantities."""
         return any(name in self.by_name for names in quantities for name in names)
+
+    def has_list(self, *quantities: Sequence[str]) -> bool:
+        """Whether there is an entry under one of these names; under a letter, which may be anything, only a list."""
+        names = (name for names in quantities for name in names if name in self.by_name)
+        return any(len(name) > 1 or self._is_list(name) for name in names)
 
     def sides(self) -> list[str]:
         """Return the ends of the names of a pair's cameras; [] for one camera."""
@@ -172,20 +190,24 @@ class Spelled:
 
     def unread(self, known: Collection[str]) -> list[str]:
         """Return the names of entries that may be a distortion, are not known, and are not 0."""
-        return [
-            spelling for name, (spelling, value) in self.by_name.items() if name not in known and _may_bend(name, value)
-        ]
+        shapes = {name for names in SHAPES if self.by_name.keys() >= names for name in names}
+        return [spelling for name, (spelling, value) in self.by_name.items() if name not in known and (
+            _may_bend(INSIDE, value) if name in shapes else _may_bend(name, value))]  # fmt: skip
 
     def size(self) -> tuple[float, float] | tuple[None, None]:
         """Return width and height of the picture; None and None if no entry tells them."""
         if self.has(WIDTH, HEIGHT):
             return self.number(WIDTH), self.number(HEIGHT)
+        if self.has(SHAPE) and not self.has(SIZE):
+            height, width, *_ = (*self.numbers(SHAPE), 0.0)
+            return width, height
         if not self.has(SIZE):
             return None, None
         sides = next(self.by_name[name][1] for name in SIZE if name in self.by_name)
         if isinstance(sides, dict) and "data" not in sides:
             return Spelled(Fields(self.document, sides)).size()
-        sides_given = self.numbers(SIZE)
+        between = re.fullmatch(r"(\d+)[ x,*]+(\d+)", sides) if isinstance(sides, str) else None
+        sides_given = list(map(float, between.groups())) if between else self.numbers(SIZE)
         if len(sides_given) != 2:
             raise self.document.refusal(f"its image size has {len(sides_given)} numbers: it must be width and height")
         return sides_given[0], sides_given[1]
@@ -201,7 +223,7 @@ def unread_beside(entries: Fields, inner: str) -> str | None:
 
 
 def _is_camera(value) -> bool:
-    return isinstance(value, dict) and not {*map(plain_name, value)}.isdisjoint((*MATRIX, *FX))
+    return isinstance(value, dict) and not {*map(plain_name, value)}.isdisjoint((*MATRIX, *FX, *FOCAL))
 
 
 def cameras_of(entries: Fields) -> Iterator[tuple[str, Fields]]:

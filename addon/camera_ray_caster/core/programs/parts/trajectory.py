@@ -1,9 +1,9 @@
 """Lines of numbers: a pose each, with a time or without.
 
-Names of the columns in a comment, or in the first line, tell what they are: the time and its unit, the place, and the
-quaternion or axis times angle; other columns are not read. Without names, lines of spaces have seconds, x, y, z and the
-quaternion x, y, z, w, or all of that without a time; with commas nanoseconds, x, y, z, the quaternion w, x, y, z, and
-more that is not read.
+Names of the columns in a comment, or in the first line, tell what they are: the time and its unit, or the frame, the
+place, and the quaternion or axis times angle; other columns are not read. Without names, lines of spaces have seconds,
+x, y, z and the quaternion x, y, z, w; with commas nanoseconds, x, y, z, the quaternion w, x, y, z, and more that is not
+read; both x, y, z and the quaternion x, y, z, w if they have no time. Semicolons count as commas.
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ UNIT_LENGTH = 2e-3
 """Departure of a quaternion's squared length from 1: files have from 3 digits on."""
 
 COLUMN = re.compile(
-    r"(?P<time>%?(?:time|timestamp|stamp|t|sec|secs|seconds|nsec|nsecs|nanoseconds)(?:_?(?:ns|nsec|us|ms|s|sec))?)|"
+    r"(?P<frame>frame(?:_?(?:id|idx|index|nr|no|number))?)|(?P<time>%?u?(?:time|timestamp|stamp|t|sec|secs|seconds|nsec|nsecs|nanoseconds)(?:_?(?:ns|nsec|us|ms|s|sec))?)|"
     r"(?P<turn>(?:.*(?:quat|orient|rot)\w*[._]|q[a-z_]*|rot[a-z_]*|r|rvec_?))(?P<turned>[wxyz])|"
     r"(?P<place>(?:.*(?:pos|transl)\w*[._]|p[a-z_]*|t(?:ransl[a-z_]*)?_?|))(?P<placed>[xyz])"
 )  # fmt: skip
 """Names of columns: times, parts of rotations, and parts of places."""
 UNITS = {"ns": 1e-9, "nsec": 1e-9, "nsecs": 1e-9, "nanoseconds": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0, "sec": 1.0,
-         "secs": 1.0, "seconds": 1.0}  # fmt: skip
+         "secs": 1.0, "seconds": 1.0, "utime": 1e-6}  # fmt: skip
 """Seconds of the units in names of times."""
 ANGLES = "roll", "pitch", "yaw"
 LONGEST_NAME = 100
@@ -51,6 +51,8 @@ class Columns(NamedTuple):
     position: tuple[int, ...]
     turn: tuple[int, ...]
     """w, x, y, z of the quaternion, or the three numbers of axis times angle."""
+    frame: tuple[int, ...] = ()
+    """The column of the frame, which counts if there is no time."""
     head: str = ""
     """The line that names them."""
 
@@ -85,17 +87,17 @@ def columns_of(document: Document) -> Columns | None:
     named = _head(document, len(first))
     if named is not None:
         return named
-    count, has_commas = len(first), "," in lines[0]
-    if count == 7 and not has_commas and _is_unit(map(_words, lines), slice(3, 7)):
+    count, has_commas = len(first), _has_commas(lines[0])
+    if count == 7 and _is_unit(map(_words, lines), slice(3, 7)):
         return TIMELESS
-    if count >= 8 and has_commas and len(numbers_of(first[:8])) == 8:
-        return IN_NANOSECONDS
-    return SPACED if count == 8 and not has_commas and len(numbers_of(first)) == 8 else None
+    if count < 8 or not all(numbers_of(word) or word.strip("-").lower() == "nan" for word in first[:8]):
+        return None
+    return IN_NANOSECONDS if has_commas else SPACED if count == 8 else None
 
 
 def has_commas_in(document: Document) -> bool:
     """Whether the first line of numbers has commas."""
-    return "," in next(iter(lines_of(document)), "")
+    return _has_commas(next(iter(lines_of(document)), ""))
 
 
 def placed_in_lines(document: Document) -> list[Placed]:
@@ -108,7 +110,7 @@ def placed_in_lines(document: Document) -> list[Placed]:
     for number, row in enumerate(rows, 1):
         document.check()
         name = f"pose {number}"
-        used = [index for index, _ in columns.time] + [*columns.position, *columns.turn]
+        used = [*(index for index, _ in columns.time), *columns.position, *columns.turn, *columns.frame]
         if len(row) <= max(used) or (columns is not IN_NANOSECONDS and len(row) != len(rows[0])):
             document.numbers(row, name, len(rows[0]) if columns is not IN_NANOSECONDS else 8)  # raises
         values = dict(zip(used, document.numbers([row[index] for index in used], name, len(used)), strict=True))
@@ -119,17 +121,19 @@ def placed_in_lines(document: Document) -> list[Placed]:
             pose = np.eye(4)
             pose[:3, :3], pose[:3, 3] = rotation(np.array([turn]))[0], position
         if columns.time:
-            time = sum(_seconds(values[i], unit) for i, unit in columns.time)
+            time = sum(seconds(values[i], unit) for i, unit in columns.time)
             placed.append(Placed("", "", None, pose, time))
         else:
-            placed.append(Placed("", "", float(number), pose, moves=True))
+            frame = values[columns.frame[0]] if columns.frame else float(number)
+            placed.append(Placed("", "", frame, pose, moves=True))
     return placed
 
 
 def _check(document: Document, columns: Columns, rows: list[list[str]]) -> None:
     """Raise InputError if lines differ, or if the columns are not what they would be taken for."""
     lines = lines_of(document)
-    odd = next((number for number, line in enumerate(lines, 1) if ("," in line) != ("," in lines[0])), None)
+    apart = _has_commas(lines[0])
+    odd = next((number for number, line in enumerate(lines, 1) if _has_commas(line) != apart), None)
     if odd is not None:
         raise document.refusal(f"pose {odd} is {shown(lines[odd - 1])}: all lines must have commas, or none")
     if columns.head and not (len(columns.position) == 3 and len(columns.turn) in (3, 4)):
@@ -146,8 +150,8 @@ def _check(document: Document, columns: Columns, rows: list[list[str]]) -> None:
             "in the first line, such as #timestamp [s],x,y,z,qx,qy,qz,qw"
         )
     whole = columns.time and columns.time[0][1] is None and all(time.isdigit() for time in times)
-    if "," in lines[0] and whole and len(times) > 1:
-        step = (_seconds(float(times[-1]), None) - _seconds(float(times[0]), None)) / (len(times) - 1)
+    if apart and whole and len(times) > 1:
+        step = (seconds(float(times[-1])) - seconds(float(times[0]))) / (len(times) - 1)
         if step > LONGEST_STEP:
             raise document.refusal(
                 f"its times are {times[0]}, {times[1]} ...: tell their unit in the first line, such as timestamp [ns]"
@@ -159,12 +163,19 @@ def _is_unit(rows: Iterable[list[str]], four: slice) -> bool:
     return all(abs(sum(number * number for number in numbers_of(row[four])) - 1) < UNIT_LENGTH for row in rows)
 
 
-def _seconds(value: float, unit: float | None) -> float:
+def seconds(value: float, unit: float | None = None) -> float:
+    """Return a time in seconds; of a unit that is not told in seconds, or nanoseconds if it would be too long."""
     return value * (unit or 1.0) if unit or value <= NANOSECONDS else value / 1e9
 
 
 def _words(line: str) -> list[str]:
-    return [word.strip() for word in line.strip(" ,\t").split(",")] if "," in line else line.split()
+    if not _has_commas(line):
+        return line.split()
+    return [word.strip(" \t\"'") for word in line.replace(";", ",").strip(" ,\t").split(",")]
+
+
+def _has_commas(line: str) -> bool:
+    return "," in line or ";" in line
 
 
 def _is_number(line: str) -> bool:
@@ -173,7 +184,7 @@ def _is_number(line: str) -> bool:
 
 def _named(head: str, line: str) -> list[tuple[str, str]] | None:
     """Return name and unit of each column, if a line names those of another one."""
-    words = re.split(r"\s*,\s*", head.strip(" ,")) if "," in head else re.sub(r"\s+(?=[\[(])", "", head).split()
+    words = _words(head) if _has_commas(head) else re.sub(r"\s+(?=[\[(])", "", head).split()
     count = len(_words(line))
     if len(max(words, key=len, default="")) > LONGEST_NAME:
         return None
@@ -183,7 +194,7 @@ def _named(head: str, line: str) -> list[tuple[str, str]] | None:
     for word in words:
         name, _, unit = re.sub(r"[\])\s]", "", word.lower()).replace("(", "[").partition("[")
         names.append((name.split("field.")[-1].removeprefix("%").removeprefix("#"), unit))
-    known = sum(COLUMN.fullmatch(name) is not None for name, _ in names)
+    known = sum(COLUMN.fullmatch(name) is not None or name in ANGLES for name, _ in names)
     return names if known >= LEAST else None
 
 
@@ -203,13 +214,16 @@ def _head(document: Document, count: int) -> Columns | None:
 
 def _by_names(names: list[tuple[str, str]], head: str) -> Columns:
     time: list[tuple[int, float | None]] = []
+    frame: tuple[int, ...] = ()
     turns: dict[str, int] = {}
     places: dict[str, int] = {}
     for index, (name, unit) in enumerate(names):
         match = COLUMN.fullmatch(name)
         if match is None:
             continue
-        if match["turned"] is not None:
+        if match["frame"] is not None:
+            frame = (index,)
+        elif match["turned"] is not None:
             turns.setdefault(match["turned"], index)
         elif match["placed"] is not None:
             places.setdefault(match["placed"], index)
@@ -218,4 +232,5 @@ def _by_names(names: list[tuple[str, str]], head: str) -> Columns:
     turn = tuple(turns[axis] for axis in ("wxyz" if "w" in turns else "xyz") if axis in turns)
     if any(name in ANGLES for name, _ in names):
         turn = ()
-    return Columns(tuple(time), tuple(places[axis] for axis in "xyz" if axis in places), turn, head)
+    position = tuple(places[axis] for axis in "xyz" if axis in places)
+    return Columns(tuple(time), position, turn, () if time else frame, head)

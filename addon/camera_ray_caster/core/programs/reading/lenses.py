@@ -6,15 +6,19 @@ A file that no program recognizes may have calibrations inside: a mapping of cam
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
+from ...conventions import LAST_FRAME
 from ...records import InputError
 from .. import program_of
 from ..parts.document import Document
-from ..parts.lens import Lens
+from ..parts.lens import Lens, mapping
 from ..parts.spelled import unread_beside
 from .unknown_file import unknown
 
-DEEPEST = 3
+NAMES = "name", "camera_name", "id", "camera_id", "label", "serial"
+"""Entries by which cameras in a list are named."""
+DEEPEST = 4
 """Levels of mappings in which calibrations are looked for."""
 
 KEPT = 8
@@ -60,11 +64,14 @@ def _known(document: Document) -> list[Lens] | None:
 
 def _inside(document: Document, depth: int, path: str) -> Iterator[tuple[str, Lens]]:
     """Yield the lenses of the mappings in a document with the names of their entries, the nearest ones only."""
+    names = _names_in(document.entries.values)
     for name, value in document.entries.values.items():
         document.check()
-        items = [(name, value)] if isinstance(value, dict) else []
+        items = [(names.get(name, name), value)] if isinstance(value, dict) else []
         if isinstance(value, list):
-            items = [(f"{name}.{i}", item) for i, item in enumerate(value) if isinstance(item, dict)]
+            by_number = {str(i): item for i, item in enumerate(value) if isinstance(item, dict)}
+            names_in_list = _names_in(by_number)
+            items = [(names_in_list.get(i, f"{name}.{i}"), item) for i, item in by_number.items()]
         for name_of_item, entries in items:
             inner = document.part(entries)
             try:
@@ -81,11 +88,26 @@ def _inside(document: Document, depth: int, path: str) -> Iterator[tuple[str, Le
                 yield from _inside(inner, depth - 1, f"{path}{name_of_item}.")
 
 
+def _names_in(entries: dict[str, Any]) -> dict[str, str]:
+    """Return the names that the entries of a list have inside, by number; {} unless each has its own."""
+    is_list = [*entries] == [*map(str, range(len(entries)))]
+    named = {number: mapping(entry) for number, entry in entries.items() if is_list}
+    names = {number: entry.get(next(filter(entry.get, NAMES), "")) for number, entry in named.items()}
+    texts = {number: name for number, name in names.items() if isinstance(name, str) and not name.isdecimal()}
+    return texts if len({*texts.values()}) == len(entries) else {}
+
+
+def _is_frame(name: str) -> bool:
+    """Whether the last part of an entry's name is a number of a frame: serial numbers are longer, or begin with 0."""
+    last = name.rpartition(".")[2]
+    return last.isdecimal() and str(int(last)) == last and int(last) <= LAST_FRAME
+
+
 def _named(inside: list[tuple[str, Lens]]) -> list[Lens]:
     """Return each lens once. Those of one name that differ are named by their entries, too, and so are equal ones that
     have only the names of their entries, which are no numbers as those of frames.
     """
-    if len(inside) > 1 and not any(lens.name or entry.rpartition(".")[2].isdecimal() for entry, lens in inside):
+    if len(inside) > 1 and not any(lens.name or _is_frame(entry) for entry, lens in inside):
         return [lens._replace(name=entry) for entry, lens in inside]
     different: dict[str, dict[str, tuple[str, Lens]]] = {}
     for entry, lens in inside:

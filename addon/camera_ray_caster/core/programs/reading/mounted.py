@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePath
 
 import numpy as np
 
@@ -182,14 +182,17 @@ def _lens(document: Document, lenses: dict[str, Lens], pose: Placed, number: flo
 
 def _named(placed: list[Placed], models: dict[str, str]) -> list[tuple[Placed, str, float | None]]:
     """Return each pose with its camera's name and its frame: by the names of pictures if all tell a frame, or if each
-    has a lens of its own, of several models; one camera if these are of one model; else one for each lens. Frames that
-    are not told are in the order of the file. ``models``: key of each lens's model.
+    has a lens of its own, of several models; one camera if these are of one model; else one for each lens. Pictures of
+    one name in several folders are of several cameras, named after these. Frames that are not told are in the order of
+    the file. ``models``: key of each lens's model.
     """
     by_names = [(pose, *object_and_frame(pose.image)) for pose in placed]
     if any(pose.frame is not None for pose in placed):
         return [(pose, pose.image or "Camera", pose.frame) for pose in placed]
     if all(number is not None for _, _, number in by_names):
-        return by_names
+        return _in_folders(by_names) or [
+            (pose, name or _camera_name(pose, models), number) for pose, name, number in by_names
+        ]
     if not any(pose.image for pose in placed):
         return [(pose, pose.camera or "Camera", None) for pose in placed]
     names = {name for _, name, _ in by_names}
@@ -202,9 +205,22 @@ def _named(placed: list[Placed], models: dict[str, str]) -> list[tuple[Placed, s
     in_order: list[tuple[Placed, str, float | None]] = []
     for pose in placed:
         counts[pose.camera] = counts.get(pose.camera, 0) + 1
-        name = f"Camera {pose.camera}" if pose.camera.isdecimal() else "Camera"
-        in_order.append((pose, name, float(counts[pose.camera])))
+        in_order.append((pose, _camera_name(pose, models), float(counts[pose.camera])))
     if len(counts) > 1 and len({name for _, name, _ in in_order}) < len(counts):  # lenses named by their first pictures
         numbers = {camera: i for i, camera in enumerate(counts, 1)}
         return [(pose, f"Camera {numbers[pose.camera]}", number) for pose, _, number in in_order]
     return in_order
+
+
+def _camera_name(pose: Placed, models: dict[str, str]) -> str:
+    """Return the name of a camera whose pictures have none, by the number of its lens."""
+    return f"Camera {pose.camera}" if pose.camera.isdecimal() and pose.camera in models else "Camera"
+
+
+def _in_folders(by_names: list[tuple[Placed, str, float | None]]) -> list[tuple[Placed, str, float | None]]:
+    """Return poses with the names of the pictures' folders, if several have pictures of one name and lens; else []."""
+    folders = [PurePath(pose.image.replace("\\", "/")).parent.name for pose, _, _ in by_names]
+    named = [(pose, folder, number) for (pose, _, number), folder in zip(by_names, folders, strict=True)]
+    lenses = {(pose.camera, name, number) for pose, name, number in by_names}
+    is_once = len({(folder, number) for _, folder, number in named}) == len(named)
+    return named if is_once and len(lenses) < len(named) else []

@@ -19,8 +19,8 @@ DATE = re.compile(
     r"([-_T ]?([01]\d|2[0-3])([-_.:]?)[0-5]\d(\8[0-5]\d\d*)?)?"
 )
 """A name that ends in a date, with a time of the day or without."""
-ENDING = re.compile(r"(.*?)_(-?\d{4,}(?:\.\d+)?)")
-"""The name of a picture of this add-on: CAMERA_FRAME."""
+ENDING = re.compile(r"(?:(.*?)_(?=.))?(-?\d{4,}(?:\.\d+)?)")
+"""The name of a picture of this add-on, CAMERA_FRAME, or of others, FRAME."""
 
 
 def placed_in(document: Document, meters: float) -> list[Placed]:
@@ -42,10 +42,11 @@ def placed_in(document: Document, meters: float) -> list[Placed]:
 
 
 def object_and_frame(image: str) -> tuple[str, float | None]:
-    """Return the camera's name and the frame in the name of a picture, which may have folders and an ending. A number
-    beyond Blender's frames, such as a time in nanoseconds, is none, and so is a date.
+    """Return the camera's name and the frame in the name of a picture, which may have folders and an ending; "" is the
+    camera of a number alone. A number beyond Blender's frames, such as a time in nanoseconds, is none, and so is a
+    date.
     """
     stem = PurePath(image.replace("\\", "/")).name
     stem = stem.rsplit(".", 1)[0] if re.search(r"\.[A-Za-z]+\d?$", stem) else stem
     match = None if DATE.fullmatch(stem) else ENDING.fullmatch(stem)
-    return (match[1], float(match[2])) if match and abs(float(match[2])) <= LAST_FRAME else (stem, None)
+    return (match[1] or "", float(match[2])) if match and abs(float(match[2])) <= LAST_FRAME else (stem, None)

@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 from ...records import InputError
+from ...text_forms.yaml_subset import NO_ENTRY
 from .. import PROGRAMS, READ
 from ..parts.document import Document
 from ..parts.lens import numbers_of
@@ -18,8 +19,8 @@ READ_UP_TO = 1 << 16
 
 
 def unknown(document: Document) -> InputError:
-    """Return the refusal of a file that no program recognizes. What is wrong with YAML, JSON or XML is told if the file
-    is called so, or has half of the words of a program; any other text is of no format.
+    """Return the refusal of a file that no program recognizes, with the nearest program if half of its words are there.
+    What is wrong with YAML, JSON or XML is told if the file is called so, or looks like it.
     """
     if not document.is_text:
         return document.refusal(_by_name(document) or "it is not a text file, and of no binary format that is read")
@@ -27,15 +28,18 @@ def unknown(document: Document) -> InputError:
     marks = {program.name: program.marks.lower().split() for program in PROGRAMS if program.marks}
     lost = {name: [word for word in words if word not in there] for name, words in marks.items()}
     nearest = min(lost, key=lambda name: (len(lost[name]) / len(marks[name]), -len(marks[name])))
-    is_near = 2 * len(lost[nearest]) <= len(marks[nearest])
+    near = ""
+    if 2 * len(lost[nearest]) <= len(marks[nearest]):
+        missing = f"it has no {', '.join(lost[nearest][:2])}" if lost[nearest] else "its entries cannot be read"
+        near = f"; the nearest is {nearest}, but {missing}"
     if not document.has_entries:
         reason = document.data.strip() and (_by_name(document) or _by_numbers(document))
         if reason:
             return document.refusal(reason)
-        if is_near or not document.data.strip() or Path(document.path).suffix.lower() in ENTRIES:
-            return _of_text(document)
-    near = f"; the nearest is {nearest}, but it has no {', '.join(lost[nearest][:2])}" if lost[nearest] else ""
-    return document.refusal(f"it is of no format that is read: these are {READ}{near if is_near else ''}")
+        refusal, endings = _of_text(document), {*map(str.lower, Path(document.path).suffixes)}
+        if not document.data.strip() or endings.intersection(ENTRIES) or (near and NO_ENTRY not in str(refusal)):
+            return refusal
+    return document.refusal(f"it is of no format that is read: these are {READ}{near}")
 
 
 def _by_name(document: Document) -> str:
