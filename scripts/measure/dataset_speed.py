@@ -98,7 +98,7 @@ def _writing(files: list[Path]) -> float:
     import bpy
 
     from camera_ray_caster.blender.output import arrays
-    from camera_ray_caster.blender.terminal.files import PICTURE
+    from camera_ray_caster.blender.terminal.frame_files import PICTURE
 
     spent = []
     for file in files:

@@ -13,7 +13,7 @@ from time import perf_counter
 
 import numpy as np
 
-from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.blender.read.scene_reader import read_camera, read_shapes
 from camera_ray_caster.core.records import MESH, Shapes
 
 from . import contenders as c

@@ -10,7 +10,7 @@ import numpy as np
 
 import camera_ray_caster as crc
 from camera_ray_caster.blender.engine.engine import BAND_PIXELS
-from camera_ray_caster.blender.properties.passes import tick, ticked
+from camera_ray_caster.blender.properties.pass_properties import tick, ticked
 
 from .against import ROOT
 from .dataset_speed import PASSES_CAST

@@ -39,10 +39,10 @@ WIDTH, HEIGHT = 40, 30
 
 def tick(scene, names):
     """Tick these passes in every view layer."""
-    from camera_ray_caster.blender.properties import passes
+    from camera_ray_caster.blender.properties import pass_properties
 
     for layer in scene.view_layers:
-        passes.tick(scene, layer, names)
+        pass_properties.tick(scene, layer, names)
 
 
 def picture(channels, name, layer="ViewLayer"):
@@ -56,7 +56,7 @@ def picture(channels, name, layer="ViewLayer"):
 
 def expected(scene, name, **keywords):
     """A pass as the caster returns it, in the form in which Blender stores it."""
-    from camera_ray_caster.blender.read.scene import read_scene
+    from camera_ray_caster.blender.read.scene_reader import read_scene
 
     found = read_scene(scene, **keywords, passes=[name])
     camera = found.camera

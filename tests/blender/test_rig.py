@@ -8,7 +8,7 @@ import pytest
 
 from camera_ray_caster.blender.output import exports
 from camera_ray_caster.blender.read.frames import go_to
-from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.blender.read.scene_reader import read_camera
 from camera_ray_caster.blender.rig import add_rig, contents, frames_of
 from camera_ray_caster.blender.terminal import commands
 from camera_ray_caster.blender.ui import chosen_frames, in_process

@@ -71,7 +71,7 @@ MAY_IMPORT = {
     },
     "core.web": RAYS | {"core.library", "core.shaders", "core.web"},
     "core": {"core"},
-    "blender.verification.witness": LOW,
+    "blender.verification.blender_witness": LOW,
     # Blender's data are read at the bottom, rendered and written in the middle; the doors stand on top
     "blender.properties": {"core", "blender.properties"},
     "blender.process": {"core", "blender.process"},

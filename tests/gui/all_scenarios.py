@@ -69,7 +69,7 @@ def cast_all_by_cycles(user, scenes):
     scene, run = bpy.context.scene, addon("ui.in_process")
     beside(scene)
     scene.cycles.samples = 4
-    addon("properties.passes").tick(scene, bpy.context.view_layer, ["combined", "depth"])
+    addon("properties.pass_properties").tick(scene, bpy.context.view_layer, ["combined", "depth"])
     before = kept(scene)
     yield from user.wait(0.7)
     yield from open_list(user)

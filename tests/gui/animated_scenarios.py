@@ -48,7 +48,7 @@ def by_hand(user, scenes):
     driver.driver.expression = "frame / 4"
     yield from user.wait(0.5)
     assert is_colored(user, plain, user.picture("animated_driven"), "tilt", region)
-    lesson, numbers = addon("view3d.lesson"), []
+    lesson, numbers = addon("view3d.pixel_lessons"), []
     lesson.clicked.choose([(9, 9)])
     for frame in FRAMES:
         yield from to_frame(user, frame)

@@ -15,7 +15,7 @@ def begin(user, scenes, size, name="depth"):
     yield from load(user, scenes, "spheres_and_planes")
     scene = bpy.context.scene
     scene.render.resolution_x = scene.render.resolution_y = size
-    addon("properties.passes").tick(scene, bpy.context.view_layer, [name])
+    addon("properties.pass_properties").tick(scene, bpy.context.view_layer, [name])
     yield from user.press(f"{BUTTON}cast(")
     yield from user.until(lambda: (addon("ui.cast_operator").fraction() or 0) > 0, "it has begun")
 
@@ -42,7 +42,7 @@ def stop_samples(user, scenes):
     scene, cast = bpy.context.scene, addon("ui.cast_operator")
     scene.render.resolution_x = scene.render.resolution_y = 256
     scene.camera_ray_caster.samples = 4096
-    addon("properties.passes").tick(scene, bpy.context.view_layer, ["combined"])
+    addon("properties.pass_properties").tick(scene, bpy.context.view_layer, ["combined"])
     yield from user.press(f"{BUTTON}cast(")
     yield from user.until(lambda: (cast.fraction() or 0) > 0, "it has begun")
     worker = cast._running[0].worker
@@ -76,7 +76,7 @@ def show_result(user, scenes):
     yield from load(user, scenes, "spheres_and_planes")
     view = user.area()
     bpy.context.scene.render.resolution_percentage = 25
-    addon("properties.passes").tick(bpy.context.scene, bpy.context.view_layer, ["combined", "depth"])
+    addon("properties.pass_properties").tick(bpy.context.scene, bpy.context.view_layer, ["combined", "depth"])
     yield from user.press(f"{BUTTON}cast(")
     yield from user.until(addon("output.reports").latest, "the cast has ended")
     yield from user.wait(0.5)
@@ -86,7 +86,7 @@ def show_result(user, scenes):
     yield from user.wait(1)
     user.picture("show_result")
     editor = next(area for area in user.window.screen.areas if area.type == "IMAGE_EDITOR")
-    assert editor.spaces.active.image.name == addon("output.images").VIEW
+    assert editor.spaces.active.image.name == addon("output.image_datablocks").VIEW
     yield from user.point(editor.x + editor.width // 2, editor.y + editor.height // 2)
     yield from user.key("Escape")
     yield from user.until(lambda: any(area.type == "VIEW_3D" for area in user.window.screen.areas), "the view is back")

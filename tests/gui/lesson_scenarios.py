@@ -18,7 +18,7 @@ def place_of(user, column, row):
 def step_through(user, scenes):
     """Two pixels are clicked: their steps stand in the sidebar, their rays in every 3D View, and can be copied."""
     yield from load(user, scenes, "toys")
-    space, lesson = user.area().spaces.active, addon("view3d.lesson")
+    space, lesson = user.area().spaces.active, addon("view3d.pixel_lessons")
     yield from user.press(f"{BUTTON}step_through(")
     yield from user.wait(0.5)
     assert space.region_3d.view_perspective == "CAMERA"
@@ -53,7 +53,7 @@ def step_through(user, scenes):
 def lens_in_view(user, scenes):
     """A pixel of a real lens is clicked: its glass, its rays and its section are drawn, until it is cleared."""
     yield from load(user, scenes, "real_lens")
-    space, lesson = user.area().spaces.active, addon("view3d.lesson")
+    space, lesson = user.area().spaces.active, addon("view3d.pixel_lessons")
     yield from user.press(f"{BUTTON}step_through(")
     yield from user.wait(0.5)
     yield from user.click(*place_of(user, 200, 110))
@@ -92,11 +92,11 @@ def beside(user):
 def step_through_image(user, scenes):
     """Pixels are clicked in the picture that a cast has made: each has a frame around it, and its steps beside it."""
     yield from load(user, scenes, "toys")
-    lesson, editor, space = addon("view3d.lesson"), beside(user), user.area().spaces.active
+    lesson, editor, space = addon("view3d.pixel_lessons"), beside(user), user.area().spaces.active
     yield from user.wait(1)
     view, sidebar = parts_of(editor)
     in_view = {"window": user.window, "area": editor, "region": view}
-    addon("properties.passes").tick(bpy.context.scene, bpy.context.view_layer, ["combined"])
+    addon("properties.pass_properties").tick(bpy.context.scene, bpy.context.view_layer, ["combined"])
     bpy.ops.camera_ray_caster.cast()
     image = editor.spaces.active.image
     assert image == bpy.data.images["Ray Caster combined"]
@@ -133,7 +133,7 @@ def step_through_image(user, scenes):
 
 def lesson_frames(user, editor):
     """The README's animated picture: pixels are clicked in the whole picture, and the view turns around their rays."""
-    area, lesson = user.area(), addon("view3d.lesson")
+    area, lesson = user.area(), addon("view3d.pixel_lessons")
     view, sidebar = parts_of(editor)
     region, image = area.spaces.active.region_3d, editor.spaces.active.image
     in_view = {"window": user.window, "area": editor, "region": view}
@@ -171,7 +171,7 @@ def sides_marked(picture, view, image, column, row):
     """On how many sides of a pixel there is a mark's color."""
     sides = [place_in(view, image, column + x, row + y) for x, y in ((0, 0.5), (1, 0.5), (0.5, 0), (0.5, 1))]
     around = [picture[y - 2 : y + 3, x - 2 : x + 3, :3] for x, y in sides]
-    return sum(np.abs(part - addon("view3d.lesson").RAY[:3]).max(axis=2).min() < 0.1 for part in around)
+    return sum(np.abs(part - addon("view3d.pixel_lessons").RAY[:3]).max(axis=2).min() < 0.1 for part in around)
 
 
 def examples(user, scenes):
@@ -210,7 +210,7 @@ def look_from(user, side):
 def lecture(user, scenes):
     """A lecture shows the formula large on the picture, its steps by Page Down and Page Up, its ray from all sides."""
     yield from load(user, scenes, "toys")
-    lesson, place = addon("view3d.lesson"), bpy.context.window_manager.camera_ray_caster_place
+    lesson, place = addon("view3d.pixel_lessons"), bpy.context.window_manager.camera_ray_caster_place
     view, panel = user.area().spaces.active.region_3d, user.region()
     view.view_perspective = "CAMERA"
     lesson.clicked.choose([(150, 120)])

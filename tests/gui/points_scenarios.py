@@ -16,7 +16,7 @@ def scanned_points(user, scenes):
     yield from user.wait(1)
     off = user.cut(user.picture("points_off"), view)
     overlay.show = overlay.show_points = True
-    points = addon("view3d.points")
+    points = addon("view3d.hit_points")
     yield from user.until(lambda: points._drawn, "the points are measured")
 
     def shown(name):

@@ -36,7 +36,7 @@ def saved(user, scenes, *states):
         assert every_handler() == handlers
         assert addon("ui.cast_operator").fraction() is None
         assert not addon("ui.lesson_operators")._waiting
-        assert not addon("view3d.lesson").clicked.pixels
+        assert not addon("view3d.pixel_lessons").clicked.pixels
         user.area().spaces.active.shading.type = "SOLID"
         yield from user.press(f"{BUTTON}verify(")
         yield from user.until(addon("output.reports").verified, "the camera is verified")
@@ -79,7 +79,7 @@ def a_pixel(user, scenes):
     yield from load(user, scenes, "toys")
     yield from user.press(f"{BUTTON}step_through(")
     yield from user.click(*place_of(user, 400, 200))
-    assert addon("view3d.lesson").clicked.pixels
+    assert addon("view3d.pixel_lessons").clicked.pixels
     return lambda: None
 
 
@@ -97,7 +97,7 @@ def a_cast(user, scenes):
 def a_sweep(user, scenes):
     """Draw the points that a scanner has swept: they are drawn again."""
     yield from load(user, scenes, "street_scanner")
-    overlay, points = bpy.context.scene.camera_ray_caster_overlay, addon("view3d.points")
+    overlay, points = bpy.context.scene.camera_ray_caster_overlay, addon("view3d.hit_points")
     overlay.show = overlay.show_points = overlay.show_sweep = True
     user.area().tag_redraw()
     yield from user.until(lambda: points._drawn, "the points are measured")

@@ -61,7 +61,7 @@ def panel(user, scenes):
     assert area.spaces.active.image == bpy.data.images["Ray Caster combined"]
     depth = pixels_of(bpy.data.images["Ray Caster depth"])[..., 0]
     assert depth.min() > scene.camera.data.clip_start
-    assert depth.max() == addon("properties.passes").FAR
+    assert depth.max() == addon("properties.pass_properties").FAR
     print({name: f"{1e3 * np.median(seconds or [0]):.2f} ms" for name, seconds in timings.items()})
     assert all(timings[name] for name in ("SidebarCamera", "SidebarVerify", "SidebarCast", "SidebarFacts"))
     slow = {name: np.median(seconds) for name, seconds in timings.items() if np.median(seconds or [0]) > DRAWN}

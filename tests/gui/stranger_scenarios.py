@@ -123,7 +123,7 @@ def see_through(user, scenes):
 def ray_of_a_pixel(user, scenes):
     """A pixel is clicked and its ray read off; the point that it hits gets an empty, and its pixel is found again."""
     yield from default_scene(user)
-    lesson, scene = addon("view3d.lesson"), bpy.context.scene
+    lesson, scene = addon("view3d.pixel_lessons"), bpy.context.scene
     yield from user.press(f"{BUTTON}step_through(")
     yield from user.wait(1)
     yield from user.click(*place_of(user, 960, 500))

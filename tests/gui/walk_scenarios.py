@@ -71,7 +71,7 @@ def drag_x_before_a_class(user, scenes):
     bpy.ops.wm.open_mainfile(filepath=str(scenes / "spheres_and_planes.blend"), load_ui=False)
     user.area().spaces.active.shading.type = "SOLID"
     yield from user.wait(0.7)
-    lesson, context = addon("view3d.lesson"), bpy.context
+    lesson, context = addon("view3d.pixel_lessons"), bpy.context
     yield from user.press(f"{BUTTON}see_through(")
     yield from user.wait(1.5)
     yield from user.press(f"{BUTTON}step_through(")

@@ -99,7 +99,7 @@ def other_engine(user, scenes):
 def marks(user, scenes):
     """In a view through a dome's camera the marks of a clicked pixel and of the overlay lie in the picture."""
     yield from load(user, scenes, "living_room_omnimax")
-    scene, lesson = bpy.context.scene, addon("view3d.lesson")
+    scene, lesson = bpy.context.scene, addon("view3d.pixel_lessons")
     yield from user.press(f"{BUTTON}see_through(")
     yield from user.wait(1)
     raster = addon("read.scene_cache").cached_scene(bpy.context).camera.raster
@@ -216,7 +216,7 @@ def tool(user, name):
 def drag_a_ray(user, scenes):
     """The mark follows the mouse while it is dragged, and the sliders while they are set: ray and numbers with it."""
     yield from load(user, scenes, "living_room")
-    scene, lesson, drawn = bpy.context.scene, addon("view3d.lesson"), []
+    scene, lesson, drawn = bpy.context.scene, addon("view3d.pixel_lessons"), []
     scene.render.resolution_x, scene.render.resolution_y = 960, 540
     yield from user.press(f"{BUTTON}step_through(")
     yield from user.wait(1)

@@ -121,7 +121,7 @@ def camera_in_memory() -> bytes:
     """Return all that the add-on reads of the camera that is about to be saved, or b"" if it is refused."""
     import bpy
 
-    from camera_ray_caster.blender.read.camera import camera_record
+    from camera_ray_caster.blender.read.camera_fields import camera_record
     from camera_ray_caster.core.records import InputError
 
     try:

@@ -19,7 +19,7 @@ def opened(bpy, name):
 
 def look(scene, frame=None):
     """Return what the caster reads, and its passes in double precision."""
-    from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+    from camera_ray_caster.blender.read.scene_reader import read_camera, read_shapes
 
     camera, shapes = read_camera(scene, frame=frame), read_shapes(scene, frame=frame)
     return camera, shapes, cast(camera, shapes, passes=PASSES, dtype=np.float64)

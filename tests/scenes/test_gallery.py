@@ -95,7 +95,7 @@ def test_six_models_are_shown_by_cycles_too():
 
 
 def test_every_model_on_the_page_and_every_time_has_a_scene_of_its_own(blender):
-    from camera_ray_caster.blender.read.scene import read_camera
+    from camera_ray_caster.blender.read.scene_reader import read_camera
 
     models, times, lenses = set(), set(), 0
     for path in FOLDER.glob("*.blend"):

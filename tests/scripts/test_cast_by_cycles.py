@@ -112,9 +112,9 @@ def test_a_blender_that_cannot_is_refused(command, scene, tmp_path, monkeypatch,
 
 
 def test_a_device_without_shaders_is_warned_of(command, scene, tmp_path, monkeypatch):
-    from camera_ray_caster.blender.terminal import pictures
+    from camera_ray_caster.blender.terminal import picture_jobs
 
-    monkeypatch.setattr(pictures, "device_notes", lambda scene: ["Cycles renders on CUDA"])
+    monkeypatch.setattr(picture_jobs, "device_notes", lambda scene: ["Cycles renders on CUDA"])
     done = command("cast", scene, *WORDS, "--output", tmp_path / "out")
     assert done.returncode == 0
     assert "cast.py: warning: Cycles renders on CUDA" in done.stderr.splitlines()

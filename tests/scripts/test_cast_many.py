@@ -200,7 +200,7 @@ def test_what_was_made_of_something_else_is_made_again(command, blender, scene, 
 def test_an_option_that_is_not_named_is_a_setting_of_the_pictures(registered, scene, monkeypatch):
     """``--skip-existing`` keeps no picture that was made with another value of an option which nobody thought of."""
     from camera_ray_caster.blender.terminal import cast
-    from camera_ray_caster.blender.terminal.pictures import Pictures
+    from camera_ray_caster.blender.terminal.picture_jobs import Pictures
     from camera_ray_caster.blender.terminal.words import unstamped
 
     def add_others(parser):

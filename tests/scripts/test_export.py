@@ -17,7 +17,7 @@ assert "bpy" not in sys.modules
 
 
 def test_export_writes_cameras_that_are_read_without_blender(blender, scene, tmp_path):
-    from camera_ray_caster.blender.read.scene import read_camera
+    from camera_ray_caster.blender.read.scene_reader import read_camera
 
     out = tmp_path / "out"
     done = script("export", scene, "--format", "json", "--cameras", "ALL", "--frames", "1:2", "--output", out)

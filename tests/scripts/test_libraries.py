@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.blender.output import exports
-from camera_ray_caster.blender.read.scene import read_scene
+from camera_ray_caster.blender.read.scene_reader import read_scene
 
 from .running import left, refused
 

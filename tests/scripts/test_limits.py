@@ -35,7 +35,7 @@ ERRORS = {
 
 
 @pytest.mark.parametrize("what", ERRORS)
-@pytest.mark.parametrize("place", ["engine.engine.run", "terminal.pictures.files.render"])
+@pytest.mark.parametrize("place", ["engine.engine.run", "terminal.picture_jobs.frame_files.render"])
 def test_what_a_cast_has_run_out_of_is_said_in_one_line(command, scene, tmp_path, monkeypatch, what, place):
     def fail(*words, **more):
         raise ERRORS[what]
@@ -50,7 +50,7 @@ def test_an_error_of_another_kind_is_none_of_these(command, scene, tmp_path, mon
     def fail(*words, **more):
         raise RuntimeError("another")
 
-    monkeypatch.setattr("camera_ray_caster.blender.terminal.pictures.files.render", fail)
+    monkeypatch.setattr("camera_ray_caster.blender.terminal.picture_jobs.frame_files.render", fail)
     with pytest.raises(RuntimeError, match="another"):
         command("cast", scene, "--output", tmp_path / "out")
 

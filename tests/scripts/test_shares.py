@@ -74,7 +74,7 @@ def failing(blender, scene):
 
 
 def test_a_picture_that_fails_is_one_line_and_the_others_are_made(command, blender, scene, tmp_path, monkeypatch):
-    from camera_ray_caster.blender.terminal.pictures import Pictures
+    from camera_ray_caster.blender.terminal.picture_jobs import Pictures
 
     failing(blender, scene)
     tried = []
@@ -91,7 +91,7 @@ def test_a_picture_that_fails_is_one_line_and_the_others_are_made(command, blend
 
 
 def test_a_run_ends_if_all_pictures_fail(command, scene, tmp_path, monkeypatch):
-    from camera_ray_caster.blender.terminal.pictures import Pictures
+    from camera_ray_caster.blender.terminal.picture_jobs import Pictures
     from camera_ray_caster.core.records import InputError
 
     def fail(self, job, *what):

@@ -84,18 +84,18 @@ def test_a_signal_ends_the_reading_of_a_camera_that_moves(blender, tmp_path, cap
 
 def test_a_signal_after_the_render_ends_the_run_before_files_are_written(blender, tmp_path, monkeypatch):
     from camera_ray_caster.blender.process import signals
-    from camera_ray_caster.blender.terminal import commands, files
+    from camera_ray_caster.blender.terminal import commands, frame_files
 
     path = small(blender, tmp_path / "small.blend")
-    rendered, save, saved = files._rendered, files._save, []
+    rendered, save, saved = frame_files._rendered, frame_files._save, []
 
     def interrupted(*given):
         report = rendered(*given)
         signals.stop()
         return report
 
-    monkeypatch.setattr(files, "_rendered", interrupted)
-    monkeypatch.setattr(files, "_save", lambda *given: save(*given) or saved.append(given))
+    monkeypatch.setattr(frame_files, "_rendered", interrupted)
+    monkeypatch.setattr(frame_files, "_save", lambda *given: save(*given) or saved.append(given))
     assert commands.main("cast", [str(path), "--output", str(tmp_path / "out")], "cast.py") == 130
     assert saved == []
     assert not (tmp_path / "out").exists()
@@ -117,25 +117,25 @@ def test_a_second_signal_is_not_waited_for():
 def test_a_stop_is_heard_while_many_objects_are_read(blender, moment, monkeypatch):
     """At once, not when all have been read: of the instances of each block only some are looked at."""
     from camera_ray_caster.blender.process import signals
-    from camera_ray_caster.blender.read import groups, shapes
+    from camera_ray_caster.blender.read import depsgraph_shapes, instance_groups
     from camera_ray_caster.core.records import Cancelled
 
     blender.ops.mesh.primitive_plane_add()
     plane = blender.context.object
     for _ in range(999):
         blender.context.collection.objects.link(plane.copy())
-    seen, add = [], shapes._Scene.add
+    seen, add = [], depsgraph_shapes._Scene.add
 
     def counting(*given):
         seen.append(True)
         return add(*given)
 
-    monkeypatch.setattr(shapes._Scene, "add", counting)
+    monkeypatch.setattr(depsgraph_shapes._Scene, "add", counting)
     depsgraph = blender.context.evaluated_depsgraph_get()
     with pytest.raises(Cancelled), signals.heard(lambda: len(seen) >= moment):
-        shapes.shapes_record(depsgraph)
-    assert moment <= len(seen) < moment + groups.LISTEN
-    assert len(shapes.shapes_record(depsgraph)) == 1000  # it was asked for that one reading only
+        depsgraph_shapes.shapes_record(depsgraph)
+    assert moment <= len(seen) < moment + instance_groups.LISTEN
+    assert len(depsgraph_shapes.shapes_record(depsgraph)) == 1000  # it was asked for that one reading only
 
 
 def test_what_a_thread_asks_is_not_asked_in_another():

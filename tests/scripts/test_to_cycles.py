@@ -21,7 +21,7 @@ np.save(sys.argv[3], cycles_directions(bpy.context.scene))
 
 
 def test_the_copy_renders_our_rays_without_the_add_on(blender, tmp_path):
-    from camera_ray_caster.blender.read.scene import read_camera
+    from camera_ray_caster.blender.read.scene_reader import read_camera
 
     path = small(blender, tmp_path / "small.blend")
     blender.data.objects["Side"].data.camera_ray_caster.model = "OMNIMAX"

@@ -7,12 +7,12 @@ import bpy
 
 from ..core.records import InputError
 from . import gallery
-from .cycles import follow
+from .cycles import shader_updates
 from .engine import engine, viewport
-from .output import images, reports
-from .properties import calibration, groups, paths
+from .output import image_datablocks, reports
+from .properties import calibration_choice, groups, paths
 from .properties.declared import ENGINE
-from .read import kept, other_times, scene_cache
+from .read import other_times, scene_cache, shape_cache
 from .terminal import commands
 from .ui import (
     add_line,
@@ -54,7 +54,7 @@ from .ui import (
     through_model,
     verify_panels,
 )
-from .view3d import lens_icon, lesson, live, mouse_gizmo, notice, overlay, points
+from .view3d import hit_points, lens_icon, live, mouse_gizmo, notice, overlay, pixel_lessons
 
 CLASSES = (
     *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,
@@ -72,10 +72,10 @@ CLASSES = (
 """Blender types in registration order: a panel comes after its parent panel."""
 
 MODULES = (
-    groups, paths, kept, follow, reports, images, gallery, lens_icon, scene_cache, other_times, engine, viewport,
-    cast_operator, overlay, points, lesson, live, notice, render_panels, menus, gallery_panels, gallery_operators,
-    lesson_operators, lecture_operators, presets, export_operators, rig_operators, commands, other_engine, see_through,
-    hide_overlays, select_seen, in_process,
+    groups, paths, shape_cache, shader_updates, reports, image_datablocks, gallery, lens_icon, scene_cache,
+    other_times, engine, viewport, cast_operator, overlay, hit_points, pixel_lessons, live, notice, render_panels,
+    menus, gallery_panels, gallery_operators, lesson_operators, lecture_operators, presets, export_operators,
+    rig_operators, commands, other_engine, see_through, hide_overlays, select_seen, in_process,
 )  # fmt: skip
 """Modules that register more than classes. Their ``register(undo)`` gives ``undo`` the callbacks that undo it."""
 
@@ -145,6 +145,6 @@ def renew() -> None:
     was_registered = bool(_registered)
     unregister()
     groups.renew()
-    calibration.renew()
+    calibration_choice.renew()
     if was_registered:
         register()

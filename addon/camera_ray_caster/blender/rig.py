@@ -24,10 +24,10 @@ from ..core.programs.parts.placed import FROM_BLENDER
 from ..core.programs.reading.folders import beside
 from ..core.programs.reading.mounted import Mounted, mounted
 from ..core.records import InputError
-from .properties.calibration import READING, set_lens, settings_in
+from .properties.calibration_choice import READING, set_lens, settings_in
 from .properties.declared import GROUP, MODEL
-from .properties.labels import label_of
 from .properties.owners import owner_of
+from .properties.setting_labels import label_of
 from .read.frames import frame_rate
 from .read.lengths import meters_of
 from .read.size import SIZE, size_of

@@ -57,9 +57,9 @@ def _read(path):
 
     import camera_ray_caster
     from camera_ray_caster.blender.process.opening import open_file
-    from camera_ray_caster.blender.read.camera import camera_record
-    from camera_ray_caster.blender.read.scene import evaluated
-    from camera_ray_caster.blender.read.shapes import shapes_record
+    from camera_ray_caster.blender.read.camera_fields import camera_record
+    from camera_ray_caster.blender.read.depsgraph_shapes import shapes_record
+    from camera_ray_caster.blender.read.scene_reader import evaluated
 
     camera_ray_caster.register()
     try:

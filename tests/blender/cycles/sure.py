@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.blender.read.scene_reader import read_camera, read_shapes
 from camera_ray_caster.core.cast import cast
 
 from .cycles import cycles_truth

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.blender.read.scene_reader import read_camera, read_shapes
 from camera_ray_caster.core.cast import cast
 
 from .material_examples import LIT, PARTLY, RED, colored, painted, shader

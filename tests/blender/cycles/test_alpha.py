@@ -6,7 +6,7 @@ import bpy as bpy_module
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.blender.read.scene_reader import read_camera, read_shapes
 from camera_ray_caster.core.cast import cast
 
 from ...exr import read_exr

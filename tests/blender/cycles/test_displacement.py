@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.read.scene import read_shapes
+from camera_ray_caster.blender.read.scene_reader import read_shapes
 from camera_ray_caster.core.records import MESH
 
 from .sure import assert_as_cycles, seen

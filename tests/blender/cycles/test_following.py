@@ -4,7 +4,7 @@ import addon_utils
 import bpy
 import pytest
 
-from camera_ray_caster.blender.cycles import follow, from_cycles, to_cycles
+from camera_ray_caster.blender.cycles import from_cycles, shader_updates, to_cycles
 from camera_ray_caster.core.records import InputError
 
 from ..read.scene_parts import new_object
@@ -30,7 +30,7 @@ def test_a_copy_gets_a_text_of_its_own_when_its_formula_changes(scene, monkeypat
     own(other).model = "OMNIMAX"
     update()
     assert other.data.custom_shader != camera.data.custom_shader
-    monkeypatch.setattr(follow, "rewrite", None)  # it would be called again and again
+    monkeypatch.setattr(shader_updates, "rewrite", None)  # it would be called again and again
     for active in (camera, other):
         scene.camera = active
         check(scene)

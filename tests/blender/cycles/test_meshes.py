@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.read.scene import read_shapes
+from camera_ray_caster.blender.read.scene_reader import read_shapes
 from camera_ray_caster.core.conventions import EPS32
 
 from .cycles import cycles_surface

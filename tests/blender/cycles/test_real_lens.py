@@ -6,7 +6,7 @@ import pytest
 
 import camera_ray_caster as crc
 from camera_ray_caster.blender.cycles import to_cycles
-from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.blender.read.scene_reader import read_camera, read_shapes
 
 from ...core.lenses.test_aperture import noise, passing
 from .cycles import _colors, _nodes, _prepare

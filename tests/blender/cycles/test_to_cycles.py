@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.blender.cycles import from_cycles, to_cycles
-from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.blender.read.scene_reader import read_camera
 from camera_ray_caster.core.records import InputError
 
 from ..read.scene_parts import curves, new_object
@@ -85,13 +85,13 @@ def test_what_is_changed_afterwards_is_followed(scene):
 
 
 def test_a_shader_is_left_alone_while_nothing_changes(scene, monkeypatch):
-    from camera_ray_caster.blender.cycles import follow
+    from camera_ray_caster.blender.cycles import shader_updates
 
     set_up(scene, {"lens": 30.0})
     to_cycles(scene)
     new_object("Other").location.x = 1.0
     bpy.context.view_layer.update()
-    monkeypatch.setattr(follow, "shader_of", None)  # it would be called
+    monkeypatch.setattr(shader_updates, "shader_of", None)  # it would be called
     scene.objects["Other"].location.x = 2.0
     bpy.context.view_layer.update()
 
@@ -119,7 +119,7 @@ def test_of_cameras_with_the_same_data_the_active_one_counts(scene):
 
 @pytest.mark.parametrize("stretch", [2, pytest.param(1, marks=pytest.mark.full)])
 def test_animation_is_keyframes_that_need_no_add_on(scene, monkeypatch, stretch):
-    from camera_ray_caster.blender.cycles import follow
+    from camera_ray_caster.blender.cycles import shader_updates
 
     camera = set_up(scene, {"lens": 30.0})
     for frame, lens in ((1, 30.0), (5, 60.0)):
@@ -129,7 +129,7 @@ def test_animation_is_keyframes_that_need_no_add_on(scene, monkeypatch, stretch)
     scene.frame_set(1)
     (said,) = to_cycles(scene)
     assert "keyframes at frames 1 to 5" in said
-    monkeypatch.setattr(follow, "update", lambda *given: None)
+    monkeypatch.setattr(shader_updates, "update", lambda *given: None)
     scene.frame_set(4)
     assert 40 < camera.data.lens < 60
     check(scene)

@@ -5,8 +5,8 @@ frame is rendered.
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.read.scene import read_camera, read_shapes
-from camera_ray_caster.blender.terminal import files
+from camera_ray_caster.blender.read.scene_reader import read_camera, read_shapes
+from camera_ray_caster.blender.terminal import frame_files
 from camera_ray_caster.core import memory
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.records import InputError
@@ -36,7 +36,7 @@ def test_a_frame_that_does_not_fit_is_refused_before_it_is_begun(blender, huge, 
     if border:
         bordered(huge, crop=False)  # Blender puts the border into a whole frame
     with pytest.raises(InputError, match=SAID.format(1 << 16)):
-        files.render(huge, tmp_path / "out", "frame")
+        frame_files.render(huge, tmp_path / "out", "frame")
     huge.render.resolution_x = huge.render.resolution_y = 1 << 13  # Blender itself makes a frame before it asks
     with pytest.raises(RuntimeError, match=SAID.format(1 << 13)) as refused:
         blender.ops.render.render()
@@ -66,7 +66,7 @@ def test_more_triangles_than_the_memory_holds_are_refused_in_one_line(blender, s
     monkeypatch.setattr(memory, "available", lambda: 4 << 30)
     said = r"100,\d\d\d,\d\d\d triangles in view take [\d.]+ GiB of memory and 4 GiB are available: show "
     with pytest.raises(InputError, match=said):
-        files.render(scene, tmp_path / "out", "frame")
+        frame_files.render(scene, tmp_path / "out", "frame")
     with pytest.raises(RuntimeError, match=said) as refused:
         blender.ops.render.render()
     assert str(refused.value).strip().count("\n") == 0

@@ -8,10 +8,10 @@ import pytest
 from numpy.lib.stride_tricks import sliding_window_view
 
 from camera_ray_caster import InputError, cast_rays, read_camera, read_shapes
-from camera_ray_caster.blender.cycles.picture import picture_of as cycles_picture
+from camera_ray_caster.blender.cycles.cycles_picture import picture_of as cycles_picture
 from camera_ray_caster.blender.faces.driver import check_driver
-from camera_ray_caster.blender.faces.picture import EEVEE, WORKBENCH
-from camera_ray_caster.blender.faces.picture import picture_of as faces_picture
+from camera_ray_caster.blender.faces.engine_picture import EEVEE, WORKBENCH
+from camera_ray_caster.blender.faces.engine_picture import picture_of as faces_picture
 from camera_ray_caster.core.faces.faces import SIDES, faces_of, turn_of
 from camera_ray_caster.core.faces.resample import FINER, resampled
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.blender.output import exports
-from camera_ray_caster.blender.read.camera import find_cameras
-from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.blender.read.camera_fields import find_cameras
+from camera_ray_caster.blender.read.scene_reader import read_camera
 from camera_ray_caster.core.exports import EXPORT_FORMATS
 from camera_ray_caster.core.exports.camera_json import camera_from_json
 from camera_ray_caster.core.exports.stmap import perspective_of, places

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.properties.calibration import set_calibration
+from camera_ray_caster.blender.properties.calibration_choice import set_calibration
 from camera_ray_caster.blender.properties.groups import CameraProperties
-from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.blender.read.scene_reader import read_camera
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.records import InputError
 

@@ -4,7 +4,7 @@ from collections import Counter
 
 import bpy
 
-from camera_ray_caster.blender.read.shapes import shapes_record
+from camera_ray_caster.blender.read.depsgraph_shapes import shapes_record
 
 ADD = bpy.ops.mesh
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.blender.read import evaluated, read_scene
-from camera_ray_caster.blender.read.scene import evaluated_camera
+from camera_ray_caster.blender.read.scene_reader import evaluated_camera
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.records import InputError
 from camera_ray_caster.core.scene import Scene

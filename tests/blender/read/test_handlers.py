@@ -4,7 +4,7 @@ import bpy
 import pytest
 
 from camera_ray_caster.blender.read import read_camera, read_scene, read_shapes
-from camera_ray_caster.blender.read.camera import is_removed
+from camera_ray_caster.blender.read.camera_fields import is_removed
 from camera_ray_caster.core.records import InputError
 
 from .scene_parts import ball, new_object

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.read import kept, read_shapes, scene_cache
+from camera_ray_caster.blender.read import read_shapes, scene_cache, shape_cache
 from camera_ray_caster.core.motion.means import same
 
 from .scene_parts import ADD, new_collection, new_object
@@ -142,13 +142,13 @@ WAYS = (add, move, move_a_vertex, move_a_map, smooth, materials, modifiers, dupl
 
 def fresh(depsgraph):
     """The shapes as if nothing were kept; what is kept stays."""
-    before = dict(kept._entries)
-    kept._entries.clear()
+    before = dict(shape_cache._entries)
+    shape_cache._entries.clear()
     try:
         return scene_cache.shapes_record(depsgraph)
     finally:
-        kept._entries.clear()
-        kept._entries.update(before)
+        shape_cache._entries.clear()
+        shape_cache._entries.update(before)
 
 
 def differing(one, other):

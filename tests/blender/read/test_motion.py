@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.blender.output import reports
-from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.blender.read.scene_reader import read_camera, read_shapes
 from camera_ray_caster.core.records import InputError
 
 from ..pictures import picture

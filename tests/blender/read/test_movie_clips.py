@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.engine.reading import read_as_rendered
-from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.blender.engine.render_evaluation import read_as_rendered
+from camera_ray_caster.blender.read.scene_reader import read_camera
 from camera_ray_caster.core.sets.png import png
 
 

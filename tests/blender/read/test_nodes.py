@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from camera_ray_caster.blender.read import materials
-from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.blender.read.scene_reader import read_camera, read_shapes
 from camera_ray_caster.blender.read.shader_nodes import SHADERS
 from camera_ray_caster.blender.read.value_nodes import READ
 from camera_ray_caster.core.cast import cast

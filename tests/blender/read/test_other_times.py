@@ -8,8 +8,8 @@ import pytest
 from mathutils import Matrix
 
 from camera_ray_caster.blender.engine import viewport
-from camera_ray_caster.blender.read import kept, other_times, scene_cache
-from camera_ray_caster.blender.read.scene import read_scene
+from camera_ray_caster.blender.read import other_times, scene_cache, shape_cache
+from camera_ray_caster.blender.read.scene_reader import read_scene
 from camera_ray_caster.core.cast import cast
 
 
@@ -73,7 +73,7 @@ def test_a_reading_leaves_no_trace(slit_scan):
     evaluated = cube.evaluated_get(bpy.context.view_layer.depsgraph).matrix_world.translation
     assert round(evaluated.y, 6) == 0.5
     assert scene_cache.cached_scene(bpy.context) is shown
-    assert kept.COPY not in kept._entries
+    assert shape_cache.COPY not in shape_cache._entries
     other_times.read_on()  # no view shows the picture
     assert not other_times._known.states
 

@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.blender.read.scene_reader import read_camera, read_shapes
 from camera_ray_caster.blender.verification.check import verify_camera
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.conventions import EPS32
@@ -124,7 +124,7 @@ def test_a_model_with_eyes_of_its_own_is_rendered_with_each(blender, scene, tmp_
 
 def render_position(blender, scene, folder):
     """Render the position pass of both eyes into folder/picture_L.exr and _R."""
-    from camera_ray_caster.blender.properties import passes
+    from camera_ray_caster.blender.properties import pass_properties
 
     scene.render.engine = "CAMERA_RAY_CASTER"
     settings = scene.render.image_settings
@@ -133,7 +133,7 @@ def render_position(blender, scene, folder):
     settings.file_format, settings.color_depth, settings.views_format = "OPEN_EXR_MULTILAYER", "32", "INDIVIDUAL"
     if hasattr(settings, "use_exr_interleave"):
         settings.use_exr_interleave = True
-    passes.tick(scene, blender.context.view_layer, ["combined", "position"])
+    pass_properties.tick(scene, blender.context.view_layer, ["combined", "position"])
     scene.render.filepath = str(folder / "picture.exr")
     blender.ops.render.render(write_still=True)
 

@@ -7,7 +7,7 @@ import pytest
 import camera_ray_caster as crc
 
 from .scene_parts import ball, new_object
-from .test_camera import key
+from .test_camera_fields import key
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ import pytest
 
 from camera_ray_caster.blender.engine.job import Job
 from camera_ray_caster.blender.read import texels
-from camera_ray_caster.blender.read.scene import read_shapes
+from camera_ray_caster.blender.read.scene_reader import read_shapes
 from camera_ray_caster.core.records import MESH, PLANE, SPHERE
 
 from .scene_parts import ball

@@ -4,8 +4,8 @@ import bpy
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.read import meshes
-from camera_ray_caster.blender.read.scene import read_shapes
+from camera_ray_caster.blender.read import mesh_reading
+from camera_ray_caster.blender.read.scene_reader import read_shapes
 
 from .scene_parts import ADD, geometry_nodes, new_object, plain
 
@@ -61,7 +61,7 @@ def test_what_is_copied_in_one_piece_is_what_blender_says_of_each(scene, name):
     """Also of a property that does not lie where its member does, which the last one's value tells."""
     truth = evaluated(monkey(1))
     expected = [getattr(polygon, name) for polygon in truth.polygons]
-    np.testing.assert_array_equal(meshes.copied(truth.polygons, name, np.int32), expected)
+    np.testing.assert_array_equal(mesh_reading.copied(truth.polygons, name, np.int32), expected)
 
 
 def smooth(item):

@@ -4,7 +4,7 @@ import bpy
 import pytest
 
 from camera_ray_caster.blender.output.annotations import category_of
-from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.blender.read.scene_reader import read_camera, read_shapes
 from camera_ray_caster.blender.read.unique import find_unique, unique_name
 from camera_ray_caster.core.annotations.coco import Sheet, document
 from camera_ray_caster.core.report.indices import indices_of

@@ -2,8 +2,8 @@
 
 from types import SimpleNamespace
 
-from camera_ray_caster.blender.properties.calibration import cameras_in
-from camera_ray_caster.blender.properties.labels import in_labels
+from camera_ray_caster.blender.properties.calibration_choice import cameras_in
+from camera_ray_caster.blender.properties.setting_labels import in_labels
 from camera_ray_caster.blender.ui.operators import draw_cameras
 
 

@@ -5,7 +5,7 @@ from time import sleep
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.terminal import files
+from camera_ray_caster.blender.terminal import frame_files
 from camera_ray_caster.blender.ui import chosen_frames, in_process
 from camera_ray_caster.core.records import InputError
 
@@ -57,7 +57,7 @@ def test_all_cameras_and_frames_are_the_terminal_s_and_the_window_s_work_goes_on
     scene.objects["Plain"].location.x -= 100
     scene.render.engine = "CAMERA_RAY_CASTER"
     scene.frame_set(3)
-    files.render(scene, tmp_path / "one", "Plain", layers=files.NPZ)
+    frame_files.render(scene, tmp_path / "one", "Plain", layers=frame_files.NPZ)
     alone, among = np.load(tmp_path / "one" / "Plain.npz"), np.load(tmp_path / "all" / "Plain_0003.npz")
     for key in ("depth", "normal"):
         np.testing.assert_array_equal(alone[key], among[key])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.view3d.points import points_by_now, swept
+from camera_ray_caster.blender.view3d.hit_points import points_by_now, swept
 from camera_ray_caster.core.clouds.cloud import scan
 from camera_ray_caster.core.clouds.colors import LABEL, RANGE, RING, colors_of
 
@@ -58,7 +58,7 @@ def test_points_have_the_steps_of_their_device(blender, scanned):
 
 
 def test_the_timeline_shows_how_far_a_sweep_is(blender, scanned):
-    from camera_ray_caster.blender.read.scene import read_scene
+    from camera_ray_caster.blender.read.scene_reader import read_scene
 
     found = read_scene(scanned)
     cloud = scan(found)
@@ -73,7 +73,7 @@ def test_the_timeline_shows_how_far_a_sweep_is(blender, scanned):
 
 @pytest.mark.parametrize("by", [RING, RANGE, LABEL])
 def test_points_have_the_colors_of_what_they_are_shown_by(blender, scanned, by):
-    from camera_ray_caster.blender.read.scene import read_scene
+    from camera_ray_caster.blender.read.scene_reader import read_scene
 
     scanned.camera.data.camera_ray_caster.scanner_device = "OS1_64"  # which counts its rings from the highest beam
     cloud = scan(read_scene(scanned))

@@ -5,7 +5,7 @@ import pytest
 from camera_ray_caster.blender.properties.declared import CAMERA, OBJECT, SCENE
 from camera_ray_caster.blender.ui import camera_panels, facts_panels, lesson_panels
 from camera_ray_caster.blender.ui.other_engine import ignored
-from camera_ray_caster.blender.view3d import lesson
+from camera_ray_caster.blender.view3d import pixel_lessons
 
 from .test_panels import drawn
 
@@ -102,12 +102,12 @@ def test_a_driver_that_gives_no_item_is_told_and_one_that_is_muted_drives_nothin
     curve.mute = False
     scene.frame_set(3)
     assert getattr(own, name) != before
-    lesson.clicked.choose([(3, 3)])
+    pixel_lessons.clicked.choose([(3, 3)])
     try:
         for panel in PANELS:
             drawn(blender, panel)
     finally:
-        lesson.forget()
+        pixel_lessons.forget()
     assert "know :" not in ignored(scene, scene.camera)
     if name in ("model", "time_mode", "shading"):
         with pytest.raises(RuntimeError, match="must be one of"):

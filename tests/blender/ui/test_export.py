@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.blender.read.scene_reader import read_camera
 from camera_ray_caster.blender.ui import export_operators, in_process
 from camera_ray_caster.core.exports import EXPORT_FORMATS
 from camera_ray_caster.core.exports.camera_json import camera_from_json

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.blender.read.scene_reader import read_camera
 
 
 def test_the_nearest_lens_of_blender_takes_the_place_of_the_model(blender, camera_scene):

@@ -5,9 +5,9 @@ import pytest
 from mathutils import Vector
 
 from camera_ray_caster.blender import gallery
-from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.blender.read.scene_reader import read_camera
 from camera_ray_caster.blender.ui.gallery_panels import GALLERY, TIMES, by_group, pictured
-from camera_ray_caster.blender.view3d import lesson
+from camera_ray_caster.blender.view3d import pixel_lessons
 from camera_ray_caster.core.cameras import MODELS
 
 
@@ -133,7 +133,7 @@ def test_the_3d_cursor_has_a_pixel_and_its_ray_hits_what_hides_it(blender, scene
     place = read_camera(scene).project(np.array(scene.cursor.location))
     assert blender.ops.camera_ray_caster.pixel_of_point() == {"FINISHED"}
     assert f"x = {place[0]:.3f}, y = {place[1]:.3f}, from the bottom left; hidden by 'Sphere'" in capfd.readouterr().out
-    assert lesson.clicked.pixels == [tuple(place.astype(int))]
+    assert pixel_lessons.clicked.pixels == [tuple(place.astype(int))]
     assert blender.ops.camera_ray_caster.empty_at_hit() == {"FINISHED"}
     empty = next(item for item in blender.data.objects if item.type == "EMPTY")
     blender.context.view_layer.update()
@@ -143,7 +143,7 @@ def test_the_3d_cursor_has_a_pixel_and_its_ray_hits_what_hides_it(blender, scene
     assert np.array(empty.matrix_world)[:3, 2] == pytest.approx(on_the_ball, abs=1e-6)
     scene.cursor.location = (0, 0, 10)  # behind the camera
     assert blender.ops.camera_ray_caster.pixel_of_point() == {"CANCELLED"}
-    assert lesson.clicked.pixels == [], "the pixel of the point before would pass for this one's"
+    assert pixel_lessons.clicked.pixels == [], "the pixel of the point before would pass for this one's"
 
 
 def test_a_selected_vertex_has_a_pixel(blender, scene):
@@ -160,4 +160,4 @@ def test_a_selected_vertex_has_a_pixel(blender, scene):
     vertex = ball.data.vertices[chosen]  # those of before are gone
     place = read_camera(scene).project(np.array(ball.matrix_world @ vertex.co))
     assert abs(place % 1 - 0.5).max() < 0.45
-    assert lesson.clicked.pixels == [tuple(place.astype(int))]
+    assert pixel_lessons.clicked.pixels == [tuple(place.astype(int))]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.blender.ui import lecture_operators
-from camera_ray_caster.blender.view3d import lecture, lesson
+from camera_ray_caster.blender.view3d import lecture, pixel_lessons
 
 
 @pytest.fixture
@@ -14,16 +14,16 @@ def place(blender):
     place = blender.context.window_manager.camera_ray_caster_place
     yield place
     place.lecture, place.step, place.all_digits = False, 0, False
-    lesson.forget()
+    pixel_lessons.forget()
 
 
 def test_a_lecture_writes_one_step_large_and_keys_stay_within_the_steps(blender, scene, place, monkeypatch):
     written = []
     step = blender.ops.camera_ray_caster.lecture_step
-    lesson.clicked.choose([(12, 8)])
+    pixel_lessons.clicked.choose([(12, 8)])
     assert not step.poll()
     place.lecture = True
-    (explained,) = lesson.lessons(blender.context).values()
+    (explained,) = pixel_lessons.lessons(blender.context).values()
     seen = [step(by=by) and place.step for by in (-1, 1, 1, 100, -1)]
     assert seen == [0, 1, 2, len(explained.screens) - 1, len(explained.screens) - 2]
     blender.ops.camera_ray_caster.choose_type(key="PERSP")
@@ -50,12 +50,12 @@ def test_a_lecture_without_a_pixel_begins_in_the_middle_with_four_digits_until_m
 ):
     place.lecture = True
     width, height = scene.render.resolution_x, scene.render.resolution_y
-    assert lesson.clicked.pixels == [(width // 2, height // 2)]
-    (few,) = lesson.lessons(blender.context).values()
+    assert pixel_lessons.clicked.pixels == [(width // 2, height // 2)]
+    (few,) = pixel_lessons.lessons(blender.context).values()
     place.all_digits = True
-    (all_digits,) = lesson.lessons(blender.context).values()
+    (all_digits,) = pixel_lessons.lessons(blender.context).values()
     place.lecture = False
-    (usual,) = lesson.lessons(blender.context).values()
+    (usual,) = pixel_lessons.lessons(blender.context).values()
     assert len(str(few)) < len(str(all_digits))
     assert str(all_digits) == str(usual)
 
@@ -64,13 +64,13 @@ def test_a_lecture_without_a_pixel_begins_in_the_middle_with_four_digits_until_m
 def test_a_view_of_the_ray_shows_eye_and_hit_below_the_text_and_beside_the_sidebar(
     blender, scene, place, monkeypatch, side
 ):
-    lesson.clicked.choose([(12, 8)])
-    (explained,) = lesson.lessons(blender.context).values()
+    pixel_lessons.clicked.choose([(12, 8)])
+    (explained,) = pixel_lessons.lessons(blender.context).values()
     view, region = SimpleNamespace(view_perspective="CAMERA"), SimpleNamespace(width=900, height=600)
     space = SimpleNamespace(overlay=SimpleNamespace(show_overlays=False), lens=40.0)
     context = SimpleNamespace(region_data=view, region=region, space_data=space, scene=scene)
     monkeypatch.setattr(lecture_operators.text, "uncovered", lambda context: (60, 640))
-    monkeypatch.setattr(lecture_operators, "cached_scene", lambda _: lesson.cached_scene(blender.context))
+    monkeypatch.setattr(lecture_operators, "cached_scene", lambda _: pixel_lessons.cached_scene(blender.context))
     lecture_operators.look_at(context, explained, side)
     assert (view.view_perspective, space.overlay.show_overlays) == ("ORTHO", True)
     right, up, _ = np.array(view.view_rotation.to_matrix()).T

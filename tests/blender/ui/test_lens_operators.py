@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import camera_ray_caster as crc
-from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.blender.read.scene_reader import read_camera
 
 
 def test_a_chosen_lens_has_its_own_focal_length_and_the_rays_of_python(blender, camera_scene):

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import camera_ray_caster as crc
-from camera_ray_caster.blender.view3d import lesson
+from camera_ray_caster.blender.view3d import pixel_lessons
 
 PIXEL = 21, 5
 ROUNDING = 5e-7
@@ -23,9 +23,9 @@ def asked(blender, monkeypatch):
     """The addresses that a browser is asked for; two pixels are clicked."""
     opened = []
     monkeypatch.setattr(webbrowser, "open", lambda address, *more: opened.append(address) or True)
-    lesson.clicked.choose([(1, 1), PIXEL])
+    pixel_lessons.clicked.choose([(1, 1), PIXEL])
     yield opened
-    lesson.forget()
+    pixel_lessons.forget()
 
 
 @pytest.fixture
@@ -63,7 +63,7 @@ def test_the_page_is_written_beside_the_file_and_opened(blender, asked, fisheye,
 
 def test_without_a_file_it_is_in_the_home_folder(asked, fisheye, blender, tmp_path, monkeypatch):
     monkeypatch.setattr(Path, "home", lambda: tmp_path)
-    lesson.forget()
+    pixel_lessons.forget()
     assert blender.ops.camera_ray_caster.open_lesson() == {"FINISHED"}
     page = page_of(asked)
     assert page == tmp_path / "untitled_Left_ eye_lesson.html"

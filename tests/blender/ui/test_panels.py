@@ -125,28 +125,28 @@ def test_the_render_panel_leads_to_cycles_and_the_passes_have_the_alpha_threshol
 
 def test_sentences_of_a_lesson_begin_with_a_capital_and_formulas_as_they_are(blender, scene):
     from camera_ray_caster.blender.ui.lesson_panels import SidebarLesson
-    from camera_ray_caster.blender.view3d import lesson
+    from camera_ray_caster.blender.view3d import pixel_lessons
 
-    lesson.clicked.choose([(12, 8)])
+    pixel_lessons.clicked.choose([(12, 8)])
     said = drawn(blender, SidebarLesson)
     assert "Unit normal" in said
     assert "u = (1, 0, 0)" in said
     assert "U = " not in said
-    lesson.forget()
+    pixel_lessons.forget()
 
 
 def test_step_through_names_the_objects_that_a_render_shows_otherwise(blender, scene):
     from camera_ray_caster.blender.ui.lesson_panels import SidebarLesson
-    from camera_ray_caster.blender.view3d import lesson
+    from camera_ray_caster.blender.view3d import pixel_lessons
 
-    lesson.clicked.choose([(12, 8)])
+    pixel_lessons.clicked.choose([(12, 8)])
     assert "as in the viewport" not in drawn(blender, SidebarLesson)
     for name in "ABCD":
         blender.ops.mesh.primitive_cube_add(location=(50, 0, 0))
         blender.context.object.name = name
         blender.context.object.modifiers.new("Subdivision", "SUBSURF")  # 1 level, 2 in a render
     assert "a render shows these otherwise: A, B, C and 1 more" in drawn(blender, SidebarLesson)
-    lesson.forget()
+    pixel_lessons.forget()
 
 
 @pytest.mark.parametrize("views_format", ["STEREO_3D", "MULTIVIEW"])
@@ -270,14 +270,14 @@ def test_rays_in_the_status_bar_have_a_separator(blender, scene, capfd):
 
 
 def test_results_are_named_as_passes_are(blender, scene):
-    from camera_ray_caster.blender.properties import passes
+    from camera_ray_caster.blender.properties import pass_properties
     from camera_ray_caster.blender.ui.show_result import ResultsMenu
 
     keys = ["combined", "uv", "object_index", "distance", "distance_bound"]
-    passes.tick(scene, blender.context.view_layer, keys)
+    pass_properties.tick(scene, blender.context.view_layer, keys)
     blender.ops.camera_ray_caster.cast()
     said = drawn(blender, ResultsMenu)
-    for label in (entry.label for entry in passes.PASSES if entry.key in keys):
+    for label in (entry.label for entry in pass_properties.PASSES if entry.key in keys):
         assert f"{label} camera_ray_caster.show_result" in said
     scene.render.use_multiview = True
     blender.ops.camera_ray_caster.cast()

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.blender.read.scene_reader import read_camera
 from camera_ray_caster.blender.ui import presets
 
 OURS = sorted((presets.FOLDER / "presets" / "camera_ray_caster").glob("*.py"))

@@ -9,11 +9,11 @@ def test_blenders_panels_know_the_engine(blender):
 
 
 def test_the_compositor_is_offered_the_ticked_passes(blender):
-    from camera_ray_caster.blender.properties import passes
+    from camera_ray_caster.blender.properties import pass_properties
 
     scene = blender.context.scene
     scene.render.engine = "CAMERA_RAY_CASTER"
-    passes.tick(scene, scene.view_layers[0], ["combined", "depth", "ray_direction"])
+    pass_properties.tick(scene, scene.view_layers[0], ["combined", "depth", "ray_direction"])
     if hasattr(scene, "compositing_node_group"):
         tree = scene.compositing_node_group = blender.data.node_groups.new("Compositing", "CompositorNodeTree")
     else:

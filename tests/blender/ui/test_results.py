@@ -6,11 +6,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.output import images
-from camera_ray_caster.blender.properties import passes
-from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.blender.output import image_datablocks as images
+from camera_ray_caster.blender.properties import pass_properties
+from camera_ray_caster.blender.read.scene_reader import read_camera, read_shapes
 from camera_ray_caster.blender.registration import Undo
-from camera_ray_caster.blender.view3d import lesson
+from camera_ray_caster.blender.view3d import pixel_lessons
 from camera_ray_caster.core.cast import cast
 
 from .conftest import HEIGHT, WIDTH
@@ -19,7 +19,7 @@ from .test_sidebar import pixels_of
 
 def test_images_are_saved_with_the_file_exactly_and_cast_anew_after_it_is_loaded(blender, scene, tmp_path):
     scene.camera_ray_caster.samples = 5
-    passes.tick(scene, blender.context.view_layer, ["combined", "depth", "normal"])
+    pass_properties.tick(scene, blender.context.view_layer, ["combined", "depth", "normal"])
     blender.ops.camera_ray_caster.cast()
     names = list(images.results())
     before = {name: pixels_of(blender.data.images[name]) for name in names}
@@ -40,7 +40,7 @@ def test_images_are_saved_with_the_file_exactly_and_cast_anew_after_it_is_loaded
 
 
 def test_images_stay_as_they_are_when_something_else_is_undone_and_redone(blender, scene):
-    passes.tick(scene, blender.context.view_layer, ["combined", "depth"])
+    pass_properties.tick(scene, blender.context.view_layer, ["combined", "depth"])
     push = blender.ops.ed.undo_push
     push(message="before")
     blender.ops.camera_ray_caster.cast()
@@ -61,15 +61,15 @@ def test_images_stay_as_they_are_when_something_else_is_undone_and_redone(blende
 
 def test_passes_of_all_widths_are_stored_beside_each_other(blender, scene):
     keys = ["combined", "normal", "flow_forward", "depth", "ray_direction"]
-    passes.tick(scene, blender.context.view_layer, keys)
+    pass_properties.tick(scene, blender.context.view_layer, keys)
     for _ in range(2):  # into new images, and into these again
         assert blender.ops.camera_ray_caster.cast() == {"FINISHED"}
         found = {key: pixels_of(blender.data.images[images.image_name(key)]) for key in keys}
         for key in keys:
-            passes.tick(scene, blender.context.view_layer, [key])
+            pass_properties.tick(scene, blender.context.view_layer, [key])
             blender.ops.camera_ray_caster.cast()
             assert np.array_equal(pixels_of(blender.data.images[images.image_name(key)]), found[key], equal_nan=True)
-        passes.tick(scene, blender.context.view_layer, keys)
+        pass_properties.tick(scene, blender.context.view_layer, keys)
     assert not found["flow_forward"][..., 2].any()
     assert (found["normal"][..., 3] == 1).all()
 
@@ -82,7 +82,7 @@ def test_an_image_of_the_same_name_that_is_somebody_elses_is_left_alone(blender,
 
 
 def test_a_result_is_shown_in_colors(blender, scene):
-    passes.tick(scene, blender.context.view_layer, ["combined", "depth", "distance", "distance_bound"])
+    pass_properties.tick(scene, blender.context.view_layer, ["combined", "depth", "distance", "distance_bound"])
     blender.ops.camera_ray_caster.cast()
     assert list(images.results().values()) == ["combined", "depth", "distance", "distance_bound"]
     image, said = images.show_in_colors(images.image_name("depth"))
@@ -105,43 +105,43 @@ def test_a_result_is_shown_in_colors(blender, scene):
 
 def test_the_steps_of_pixels_are_copied_and_forgotten(blender, scene):
     from camera_ray_caster.blender.ui.lesson_panels import SidebarLesson
-    from camera_ray_caster.blender.view3d import lesson
+    from camera_ray_caster.blender.view3d import pixel_lessons
 
     assert not blender.ops.camera_ray_caster.copy_steps.poll()
-    lesson.clicked.choose([(12, 8), (0, 0), (24, 0)])  # the last one is outside of the frame
-    found = lesson.lessons(blender.context)
+    pixel_lessons.clicked.choose([(12, 8), (0, 0), (24, 0)])  # the last one is outside of the frame
+    found = pixel_lessons.lessons(blender.context)
     assert list(found) == [(12, 8), (0, 0)]
     assert found[12, 8].seen.name == "Sphere"
     assert blender.ops.camera_ray_caster.copy_steps() == {"FINISHED"}
     blender.data.objects["Sphere"].location.z = -3
     blender.context.view_layer.update()
-    assert lesson.lessons(blender.context)[12, 8].seen.distance > found[12, 8].seen.distance + 2.9
+    assert pixel_lessons.lessons(blender.context)[12, 8].seen.distance > found[12, 8].seen.distance + 2.9
     assert SidebarLesson.is_registered
     assert blender.ops.camera_ray_caster.clear_steps() == {"FINISHED"}
-    assert lesson.lessons(blender.context) == {}
+    assert pixel_lessons.lessons(blender.context) == {}
 
 
 def test_the_color_of_a_clicked_pixel_follows_the_settings_of_the_picture(blender, scene):
-    lesson.clicked.choose([(12, 8)])
+    pixel_lessons.clicked.choose([(12, 8)])
     settings = scene.camera_ray_caster
     for settings.shading, settings.samples in (("MATERIAL", 1), ("GRID", 1), ("GRID", 4)):
         blender.ops.camera_ray_caster.cast()
         picture = pixels_of(blender.data.images[images.image_name("combined")])
-        told = lesson.lessons(blender.context)[12, 8].color
+        told = pixel_lessons.lessons(blender.context)[12, 8].color
         assert told == pytest.approx(picture.reshape(HEIGHT, WIDTH, 4)[8, 12], rel=1e-6)  # float32
-    settings.samples = lesson.MOST_SAMPLES + 1
-    assert lesson.lessons(blender.context)[12, 8].color is None
-    lesson.forget()
+    settings.samples = pixel_lessons.MOST_SAMPLES + 1
+    assert pixel_lessons.lessons(blender.context)[12, 8].color is None
+    pixel_lessons.forget()
 
 
 def test_a_pixel_that_shows_nothing_has_a_mark_on_its_ray(blender, scene):
     camera, shapes = read_camera(scene), read_shapes(scene)
-    hit, missed = (lesson.lesson(camera, shapes, *pixel) for pixel in ((WIDTH // 2, HEIGHT // 2), (0, 0)))
+    hit, missed = (pixel_lessons.lesson(camera, shapes, *pixel) for pixel in ((WIDTH // 2, HEIGHT // 2), (0, 0)))
     assert hit.point is not None
     assert missed.point is None
     for one in hit, missed:
-        parts = lesson._parts(camera, one, 1.0)
-        (mark,) = (points for kind, points, _, width in parts if kind == "POINT" and width == lesson.POINT)
+        parts = pixel_lessons._parts(camera, one, 1.0)
+        (mark,) = (points for kind, points, _, width in parts if kind == "POINT" and width == pixel_lessons.POINT)
         assert camera.project(np.array(mark))[0] == pytest.approx(np.array(one.seen.pixel) + 0.5, abs=1e-3)
 
 
@@ -178,10 +178,10 @@ def test_the_images_of_the_latest_cast_come_first(blender, scene):
     def listed():
         return [word for word in drawn(blender, ResultsMenu).split() if word not in {"camera_ray_caster.show_result"}]
 
-    passes.tick(scene, blender.context.view_layer, ["combined", "depth"])
+    pass_properties.tick(scene, blender.context.view_layer, ["combined", "depth"])
     blender.ops.camera_ray_caster.cast()
     assert listed() == ["Combined", "Depth"]
-    passes.tick(scene, blender.context.view_layer, ["depth"])
+    pass_properties.tick(scene, blender.context.view_layer, ["depth"])
     blender.ops.camera_ray_caster.cast()
     assert listed() == ["Depth", "Earlier", "Casts", "Combined"]
 
@@ -216,17 +216,17 @@ def test_step_through_gives_every_window_its_cursor_back(blender, scene, monkeyp
 
 def test_the_sliders_move_the_latest_pixel_and_its_ray(blender, scene):
     place = blender.context.window_manager.camera_ray_caster_place
-    lesson.clicked.choose([(1, 1), (12, 8)])
+    pixel_lessons.clicked.choose([(1, 1), (12, 8)])
     assert (place.column, place.row) == (12, 8)
     assert (place.x, place.y) == pytest.approx((2 * 12.5 / WIDTH - 1, 2 * 8.5 / HEIGHT - 1))
-    before = lesson.lessons(blender.context)[12, 8].seen
+    before = pixel_lessons.lessons(blender.context)[12, 8].seen
     place.x = -0.99
-    assert lesson.clicked.pixels == [(1, 1), (0, 8)]
+    assert pixel_lessons.clicked.pixels == [(1, 1), (0, 8)]
     place.column = 900
     place.y = 1.0
-    assert lesson.clicked.pixels == [(1, 1), (WIDTH - 1, HEIGHT - 1)]
-    after = lesson.lessons(blender.context)[WIDTH - 1, HEIGHT - 1].seen
+    assert pixel_lessons.clicked.pixels == [(1, 1), (WIDTH - 1, HEIGHT - 1)]
+    after = pixel_lessons.lessons(blender.context)[WIDTH - 1, HEIGHT - 1].seen
     assert after.view == pytest.approx((place.x, place.y))
     assert after.direction[0] > before.direction[0]
-    lesson.forget()
+    pixel_lessons.forget()
     assert (place.column, place.row) == (0, 0)

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.output import images, reports
-from camera_ray_caster.blender.properties import passes
-from camera_ray_caster.blender.read.scene import read_camera, read_scene, read_shapes
+from camera_ray_caster.blender.output import image_datablocks, reports
+from camera_ray_caster.blender.properties import pass_properties
+from camera_ray_caster.blender.read.scene_reader import read_camera, read_scene, read_shapes
 from camera_ray_caster.blender.ui import cast_operator
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.passes import PASSES
@@ -21,13 +21,13 @@ def pixels_of(image):
 
 @pytest.mark.parametrize("key", PASSES)
 def test_cast_stores_every_pass_as_it_is(blender, scene, key):
-    passes.tick(scene, blender.context.view_layer, [key])
+    pass_properties.tick(scene, blender.context.view_layer, [key])
     assert blender.ops.camera_ray_caster.cast() == {"FINISHED"}
-    found = pixels_of(blender.data.images[images.image_name(key)])
+    found = pixels_of(blender.data.images[image_datablocks.image_name(key)])
     read = read_scene(scene, passes=[key])
     expected = cast(read.camera, read.shapes, passes=[key])[key].reshape(HEIGHT, WIDTH, -1).astype(np.float32)
     if key == "depth":
-        expected[np.isinf(expected)] = passes.FAR
+        expected[np.isinf(expected)] = pass_properties.FAR
     channels = expected.shape[2]
     assert np.array_equal(found[..., :channels], expected, equal_nan=True)
     if channels == 1:
@@ -50,10 +50,10 @@ def test_cast_casts_every_view_of_a_stereo_scene(blender, scene, kind):
         other.location = (0.5, 0.2, 7)
         scene.collection.objects.link(other)
         before = scene.camera
-    passes.tick(scene, blender.context.view_layer, ["depth", "position"])
+    pass_properties.tick(scene, blender.context.view_layer, ["depth", "position"])
     assert blender.ops.camera_ray_caster.cast() == {"FINISHED"}
     for view in ("left", "right"):
-        found = pixels_of(blender.data.images[images.image_name("position", view)])[..., :3]
+        found = pixels_of(blender.data.images[image_datablocks.image_name("position", view)])[..., :3]
         expected = cast(read_camera(scene, view=view), read_shapes(scene), passes=["position"])["position"]
         assert np.array_equal(found, expected)
         assert expected.any()
@@ -75,7 +75,7 @@ def test_the_progress_of_two_views_is_one(blender, scene):
 
 
 def test_cast_again_writes_into_the_same_images(blender, scene):
-    passes.tick(scene, blender.context.view_layer, ["combined", "depth"])
+    pass_properties.tick(scene, blender.context.view_layer, ["combined", "depth"])
     blender.ops.camera_ray_caster.cast()
     before = {image.name: image for image in blender.data.images}
     scene.render.resolution_x, scene.render.resolution_y = 5, 40
@@ -115,7 +115,7 @@ def test_select_what_was_left_out_for_one_reason(blender, scene):
 
 
 def test_what_is_only_simplified_is_not_left_out_and_its_users_are_selected(blender, scene):
-    passes.tick(scene, blender.context.view_layer, ["combined"])
+    pass_properties.tick(scene, blender.context.view_layer, ["combined"])
     blender.data.objects["Suzanne"].camera_ray_caster.primitive = "AUTOMATIC"
     paint, world = blender.data.materials.new("Suzanne"), blender.data.worlds.new("Sky")  # the name of an object, too
     blender.ops.mesh.primitive_cube_add(location=(0.1, 0, -5))
@@ -186,7 +186,7 @@ def test_without_a_shape_the_images_show_the_background(blender, scene, capfd):
 def test_one_pixel(blender, scene):
     scene.render.resolution_x = scene.render.resolution_y = 4
     scene.render.resolution_percentage = 25
-    passes.tick(scene, blender.context.view_layer, ["depth"])
+    pass_properties.tick(scene, blender.context.view_layer, ["depth"])
     blender.ops.camera_ray_caster.cast()
     image = blender.data.images["Ray Caster depth"]
     assert tuple(image.size) == (1, 1)
@@ -195,7 +195,7 @@ def test_one_pixel(blender, scene):
 
 def test_a_strip_of_16384_by_16_pixels(blender, scene):
     scene.render.resolution_x, scene.render.resolution_y = 16384, 16
-    passes.tick(scene, blender.context.view_layer, ["depth"])
+    pass_properties.tick(scene, blender.context.view_layer, ["depth"])
     blender.ops.camera_ray_caster.cast()
     image = blender.data.images["Ray Caster depth"]
     assert tuple(image.size) == (16384, 16)
@@ -208,7 +208,7 @@ def test_a_corner_of_16384_pixels(blender, scene):
     render.resolution_x = render.resolution_y = 16384
     render.use_border = True
     render.border_min_x, render.border_max_x, render.border_min_y, render.border_max_y = 0.495, 0.505, 0.495, 0.505
-    passes.tick(scene, blender.context.view_layer, ["depth"])
+    pass_properties.tick(scene, blender.context.view_layer, ["depth"])
     blender.ops.camera_ray_caster.cast()
     image = blender.data.images["Ray Caster depth"]
     assert image.size[0] in (163, 164)
@@ -217,7 +217,7 @@ def test_a_corner_of_16384_pixels(blender, scene):
 
 def test_inside_a_sphere(blender, scene):
     scene.camera.location = (0, 0, 0.5)
-    passes.tick(scene, blender.context.view_layer, ["distance"])
+    pass_properties.tick(scene, blender.context.view_layer, ["distance"])
     blender.ops.camera_ray_caster.cast()
     distance = pixels_of(blender.data.images["Ray Caster distance"])[..., 0]
     assert (distance > 0.5).all()  # its rays go down, past the middle

@@ -8,7 +8,7 @@ from camera_ray_caster.blender.output import reports
 from camera_ray_caster.blender.properties.declared import CAMERA
 from camera_ray_caster.blender.registration import CLASSES
 from camera_ray_caster.blender.ui.presets import FOLDER
-from camera_ray_caster.blender.view3d import lesson
+from camera_ray_caster.blender.view3d import pixel_lessons
 from camera_ray_caster.core.sets.png import png
 
 OURS = bpy.ops.camera_ray_caster
@@ -85,7 +85,7 @@ def workbench(folder):
 
 
 def a_pixel(folder):
-    lesson.clicked.choose([(12, 8)])
+    pixel_lessons.clicked.choose([(12, 8)])
     return {}
 
 
@@ -157,7 +157,7 @@ def test_what_an_operator_changed_is_undone_and_redone(blender, scene, tmp_path,
     blender.context.view_layer.update()
     after = state()
     assert after != before
-    lesson.forget()
+    pixel_lessons.forget()
     for step, expected in ((blender.ops.ed.undo, before), (blender.ops.ed.redo, after), (blender.ops.ed.undo, before)):
         step()
         blender.context.view_layer.update()

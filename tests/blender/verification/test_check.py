@@ -6,10 +6,10 @@ import bpy
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.read.camera import camera_record
-from camera_ray_caster.blender.read.scene import evaluated, read_camera
+from camera_ray_caster.blender.read.camera_fields import camera_record
+from camera_ray_caster.blender.read.scene_reader import evaluated, read_camera
+from camera_ray_caster.blender.verification.blender_witness import ask
 from camera_ray_caster.blender.verification.check import verify_camera
-from camera_ray_caster.blender.verification.witness import ask
 from camera_ray_caster.core.report.verification import verify
 
 from ...core.report import seeded_faults

@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.blender.read.scene_reader import read_camera
 from camera_ray_caster.blender.verification.check import verified, verify_camera
 from camera_ray_caster.core.records import InputError
 from camera_ray_caster.core.report.report import as_data, as_lines

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.output import images
+from camera_ray_caster.blender.output import image_datablocks
 from camera_ray_caster.blender.view3d.camera_frame import image_frame
 from camera_ray_caster.core.records import Raster
 
@@ -41,7 +41,7 @@ WINDOW = LEFT - 15, BOTTOM - 21, LEFT + 105, BOTTOM + 69
     ],
 )
 def test_the_frame_is_where_the_image_has_it(blender, size, expected):
-    image = blender.data.images.new(images.image_name("depth"), *size, float_buffer=True)
+    image = blender.data.images.new(image_datablocks.image_name("depth"), *size, float_buffer=True)
     np.testing.assert_allclose(image_frame(editor(image), RASTER), expected, rtol=0, atol=1e-9)
 
 
@@ -57,5 +57,5 @@ def test_the_frame_of_a_render_is_where_the_scene_has_it(blender, camera_scene, 
 def test_other_images_have_no_frame(blender):
     assert image_frame(editor(None), RASTER) is None
     assert image_frame(editor(blender.data.images.new("Wood", 8, 8)), RASTER) is None
-    shown = blender.data.images.new(images.VIEW, 8, 8)
+    shown = blender.data.images.new(image_datablocks.VIEW, 8, 8)
     assert image_frame(editor(shown), RASTER) is not None

@@ -10,10 +10,10 @@ from ...core.conventions import EPS32
 from ...core.records import BlenderCamera, InputError
 from ...core.shaders.camera_shader import CameraShader, camera_shader
 from ..properties.declared import ENGINE
-from ..read.camera import shader_mark
+from ..read.camera_fields import shader_mark
 from ..read.evaluated import camera_at
 from ..read.frames import action_time, frame_of, go_to
-from ..read.scene import evaluated_camera
+from ..read.scene_reader import evaluated_camera
 from .animation import insert_keyframes, is_animated
 from .device import device_notes
 from .rolling import check_time, set_up_time

@@ -13,7 +13,7 @@ import numpy as np
 from ...core.openexr.writing import exr
 from ...core.records import InputError
 from ...core.shaders.camera_shader import CameraShader
-from ..read.camera import shader_mark
+from ..read.camera_fields import shader_mark
 from .animation import remove_keyframes
 from .openimageio import openimageio
 

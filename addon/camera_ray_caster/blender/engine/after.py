@@ -4,7 +4,7 @@ from collections.abc import Collection, Iterator
 
 from ...core.cameras.orthographic import Orthographic
 from ...core.cameras.perspective import Perspective
-from ..properties.passes import PASSES, RenderPass
+from ..properties.pass_properties import PASSES, RenderPass
 from ..read.compositor import compositor_nodes
 
 ALWAYS = {"Image", "Alpha", "Noisy Image"}

@@ -20,15 +20,15 @@ from ...core.memory import exhausted
 from ...core.motion.evaluations import UNRESOLVED
 from ...core.records import BlenderCamera, Cancelled, InputError
 from ...core.report.report import Report
-from ..cycles.picture import CyclesPicture
-from ..faces.picture import FacesPicture
+from ..cycles.cycles_picture import CyclesPicture
+from ..faces.engine_picture import FacesPicture
 from ..output import reports
 from ..process import signals
 from ..properties.declared import ENGINE
-from ..properties.labels import in_labels
-from ..properties.passes import PASSES, stored, ticked
+from ..properties.pass_properties import PASSES, stored, ticked
+from ..properties.setting_labels import in_labels
 from ..read import physics
-from ..read.camera import camera_record
+from ..read.camera_fields import camera_record
 from ..read.frames import frame_of
 from .after import warnings
 from .job import run

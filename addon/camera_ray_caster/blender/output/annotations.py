@@ -16,7 +16,7 @@ from ...core.cast import Images
 from ...core.sets.shared_facts import ANNOTATIONS, dataset_of, with_objects, without_objects
 from ...core.sets.shared_facts import COCO as ENDING
 from ..read.frames import frame_of
-from ..read.keypoints import key_points
+from ..read.scene_keypoints import key_points
 from ..read.unique import find_unique
 
 CATEGORY = "category"

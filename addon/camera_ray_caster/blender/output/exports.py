@@ -12,10 +12,10 @@ from ...core.exports.format import Shot
 from ...core.names import file_name, file_names
 from ...core.records import InputError
 from ..process import signals
-from ..read.camera import eye_object, views_of
+from ..read.camera_fields import eye_object, views_of
 from ..read.frames import frame_rate, go_to
 from ..read.lengths import meters_of
-from ..read.scene import evaluated, read_camera
+from ..read.scene_reader import evaluated, read_camera
 from ..read.size import own_size, sized
 from ..read.unique import unique_name
 from .saving import blender_writes

@@ -17,7 +17,7 @@ import bpy
 
 from ...core.records import InputError
 from ...core.version import VERSION
-from ..read.camera import named_files
+from ..read.camera_fields import named_files
 
 
 def stamp_of(settings: Mapping[str, Any]) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from ...core.cameras import MODELS
 from ...core.cameras.model import GROUPS
 from ...core.cameras.parts import port_settings
 from ...core.cameras.parts.settings import OWN, Choice, Flag, Item, Setting, Whole
-from . import passes
+from . import pass_properties
 
 GROUP = "camera_ray_caster"
 """Name of the property groups ``camera.camera_ray_caster``, ``object.camera_ray_caster`` and
@@ -103,7 +103,7 @@ EXACT_SHAPES = Flag(
     "whose Cast As setting names a shape",
     True,
 )  # fmt: skip
-PASSES = tuple(Flag(entry.tick, entry.label, entry.text, False) for entry in passes.PASSES if entry.on_scene)
+PASSES = tuple(Flag(entry.tick, entry.label, entry.text, False) for entry in pass_properties.PASSES if entry.on_scene)
 """Check boxes of the passes that Blender does not have."""
 
 SCENE = (SHADING, SAMPLES, EXACT_SHAPES, *PASSES)

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 
 import bpy
 
-from . import kept
+from . import shape_cache
 
 EVENTS = "depsgraph_update_pre", "depsgraph_update_post", "frame_change_pre", "frame_change_post"
 
@@ -23,12 +23,12 @@ def copied(window) -> Iterator[bpy.types.Scene]:
     """
     with bpy.context.temp_override(window=window), _without_handlers():
         copy = window.scene.copy()
-        kept.copies.add(copy.session_uid)
+        shape_cache.copies.add(copy.session_uid)
         try:
             yield copy
         finally:
-            kept.copies.clear()
-            kept.forget_copy()
+            shape_cache.copies.clear()
+            shape_cache.forget_copy()
             bpy.data.scenes.remove(copy)
             for other in bpy.context.window_manager.windows:
                 other.view_layer.update()  # reports all objects once, as a copy is removed
@@ -36,11 +36,12 @@ def copied(window) -> Iterator[bpy.types.Scene]:
 
 @contextmanager
 def _without_handlers() -> Iterator[None]:
-    """Take out the handlers that are not of ``kept``."""
+    """Take out the handlers that are not of the cache of shapes."""
     before = {name: list(getattr(bpy.app.handlers, name)) for name in EVENTS}
     try:
         for name, handlers in before.items():
-            getattr(bpy.app.handlers, name)[:] = [handler for handler in handlers if (name, handler) in kept.HANDLERS]
+            handlers_kept = [handler for handler in handlers if (name, handler) in shape_cache.HANDLERS]
+            getattr(bpy.app.handlers, name)[:] = handlers_kept
         yield
     finally:
         for name, handlers in before.items():

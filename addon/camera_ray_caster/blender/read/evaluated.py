@@ -6,8 +6,8 @@ from ...core.camera.build import camera_from
 from ...core.camera.camera import Camera
 from ...core.records import BlenderCamera
 from ...core.scene import Scene
-from .camera import camera_record
-from .shapes import shapes_record
+from .camera_fields import camera_record
+from .depsgraph_shapes import shapes_record
 
 Eye = Callable[[BlenderCamera], BlenderCamera]
 """Function from the record of a camera object to the record of the eye that is read."""

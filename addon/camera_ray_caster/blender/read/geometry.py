@@ -12,10 +12,10 @@ from ...core.shapes.instances import NO_MAP, Primitive, enclosing_primitive, mes
 from ...core.shapes.mesh.displaced import Displacement, displaced
 from ...core.shapes.recognize import NOT_FINITE, MeshArrays, defect, exclude, recognize
 from ...core.shapes.uv_maps import with_map
-from .kept import Found
 from .layers import with_layers
 from .materials import slot_count
-from .meshes import fetched, is_smooth, mesh_arrays, mesh_record, normals_before, uv_map, vertices
+from .mesh_reading import fetched, is_smooth, mesh_arrays, mesh_record, normals_before, uv_map, vertices
+from .shape_cache import Found
 
 FORCED = {"SPHERE": SPHERE, "PLANE": PLANE, "INFINITE_PLANE": INFINITE_PLANE}
 """Kinds of shapes that an object's own setting can force, whatever its geometry is."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core.shapes.instances import Primitive
 from ...core.shapes.recognize import MeshArrays
-from .meshes import mesh_arrays, triangle_loops
+from .mesh_reading import mesh_arrays, triangle_loops
 from .value_nodes import GENERATED
 
 

@@ -18,8 +18,8 @@ from ...core.motion.interpolation import State
 from ...core.motion.unfinished import linear
 from ...core.records import InputError
 from ..properties.declared import ENGINE
-from ..properties.labels import in_labels
-from .camera import has_pixel_times
+from ..properties.setting_labels import in_labels
+from .camera_fields import has_pixel_times
 from .copied import copied
 from .evaluated import camera_at, scene_at
 from .frames import frame_of

@@ -10,11 +10,11 @@ from bpy.app.handlers import persistent
 
 from ...core.camera.camera import Camera
 from ...core.records import BlenderCamera, InputError, Shapes
-from ..properties.labels import in_labels
-from .differences import evaluated_otherwise
+from ..properties.setting_labels import in_labels
+from .depsgraph_shapes import shapes_record
 from .evaluated import camera_at
 from .frames import frame_of
-from .shapes import shapes_record
+from .render_differences import evaluated_otherwise
 
 
 @dataclass(frozen=True, eq=False)

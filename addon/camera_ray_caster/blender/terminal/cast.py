@@ -12,10 +12,10 @@ import bpy
 
 from ...core.file_set import clear_up
 from ...core.report.pass_notes import sentences
-from . import dataset, farm, files
+from . import dataset, farm, frame_files
 from .jobs import PictureJob, first_jobs
 from .options import add_frame, add_json, command_parser, show, warn
-from .pictures import Pictures, add_words, parsed, suffixes_of, summary
+from .picture_jobs import Pictures, add_words, parsed, suffixes_of, summary
 from .progress import EVERY, follow
 from .words import add_frames, add_progress, count, scheduler_address, share, unstamped
 
@@ -42,7 +42,7 @@ def run(arguments: Sequence[str], prog: str) -> int:
         for job in first_jobs(jobs if options.cameras is None else pictures.jobs(of_all=True)):
             first[job.camera] = job
             pictures.camera_at(job)  # refuse bad input before anything is made
-            files.check(pictures.scene)
+            frame_files.check(pictures.scene)
     several = len(jobs) != 1 or options.dataset or shared
     passed, made, failed = True, 0, 0
     notes: dict[tuple[str, str], None] = {}

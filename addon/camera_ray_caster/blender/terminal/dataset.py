@@ -29,13 +29,13 @@ from ...core.sets.run import Run
 from ...core.sets.shared_facts import DATASET
 from ...core.text_forms.json_text import as_text
 from ..output.annotations import merged_files
-from ..output.points import collect_sequences
+from ..output.point_files import collect_sequences
 from ..output.stamps import differing, finished
-from ..read.camera import check_camera, check_markers
+from ..read.camera_fields import check_camera, check_markers
 from ..read.unique import unique_name
-from .common import common_of
+from .dataset_facts import common_of
 from .jobs import Jobs, PictureJob, RayMap, first_jobs
-from .pictures import Pictures, of_job
+from .picture_jobs import Pictures, of_job
 from .ray_maps import made_map
 
 ABOUT = "run", "common", "objects"

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...core.lesson.lesson import lesson, pixel_at
-from ..engine.reading import read_as_rendered
+from ..engine.render_evaluation import read_as_rendered
 from ..process import signals
 from .options import add_frame, add_json, command_parser, go_to, open_scene, warn
 

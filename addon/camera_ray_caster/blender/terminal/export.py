@@ -17,9 +17,9 @@ from ...core.sets import SET_FORMATS, chosen, read_set, sparse, with_splits
 from ...core.sets.recast import MeshView, with_meshes
 from ..output import exports
 from ..process.opening import not_run, open_file
-from ..read.camera import ALL, check_camera, check_markers, find_camera, find_cameras
+from ..read.camera_fields import ALL, check_camera, check_markers, find_camera, find_cameras
 from ..read.frames import frame_of
-from ..read.scene import read_shapes
+from ..read.scene_reader import read_shapes
 from .options import command_parser, go_to, open_scene, scene_of, shown_at, warn
 from .words import add_cameras, add_frames, add_progress, check_cameras, count, degrees
 

@@ -180,7 +180,7 @@ def work(options, stamp: Mapping[str, Any], maps: Mapping[str, Any], jobs: Seque
                 atexit.register(_leave)  # before bpy's import: exit handlers run in reverse order
             keep_output()
             from ..output.stamps import differing
-            from .pictures import Pictures
+            from .picture_jobs import Pictures
 
             import_module(__name__.partition(".blender.")[0]).register()  # not at the top: circular import
             _opened.clear()

@@ -17,9 +17,9 @@ from ...core.report.report import WIDTH, Report, as_json, as_lines
 from ..engine.engine import CameraRayCaster
 from ..process import signals
 from ..process.opening import open_file, withhold_style_modules
-from ..properties.calibration import READING, set_calibration
+from ..properties.calibration_choice import READING, set_calibration
 from ..read import frames
-from ..read.camera import ALL, check_camera, eye_object, find_camera, find_cameras, has_pixel_times, view_names
+from ..read.camera_fields import ALL, check_camera, eye_object, find_camera, find_cameras, has_pixel_times, view_names
 from ..read.evaluated import camera_at
 from ..read.frames import frame_of, layer_of
 from ..read.physics import simulate

@@ -12,7 +12,7 @@ from ...core.camera.pixel_time import LAST_FRAME
 from ...core.cast import MOST_SAMPLES
 from ...core.casting.passes import PASSES
 from ...core.records import InputError
-from ..read.camera import ALL
+from ..read.camera_fields import ALL
 
 LEAST_SIDE, LARGEST_SIDE = 4, 65536
 """Blender's limits of a picture's width and height, in pixels."""

@@ -8,8 +8,8 @@ import bpy
 from bpy.props import BoolProperty, StringProperty
 
 from ...core.records import InputError
-from ..properties.labels import label_of
-from ..read.camera import ALL, find_camera, find_cameras
+from ..properties.setting_labels import label_of
+from ..read.camera_fields import ALL, find_camera, find_cameras
 from . import in_process
 from .cast_all import LatestRun, draw_all
 from .chosen_frames import usual

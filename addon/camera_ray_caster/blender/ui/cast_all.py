@@ -8,13 +8,13 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ...core.records import InputError
-from ..faces.picture import EEVEE, WORKBENCH
+from ..faces.engine_picture import EEVEE, WORKBENCH
 from ..output import reports
 from ..properties.declared import ENGINE
-from ..properties.labels import in_labels
-from ..read.camera import ALL, find_cameras
+from ..properties.setting_labels import in_labels
+from ..read.camera_fields import ALL, find_cameras
 from ..read.size import SIZE
-from ..terminal import files
+from ..terminal import frame_files
 from . import chosen_frames, in_process
 from .drawing import draw_message
 from .needs import can_use, reporting
@@ -35,8 +35,8 @@ class CastAll(bpy.types.Operator):
     format: EnumProperty(
         name="Passes",
         items=[
-            (files.EXR, "EXR", "A multilayer EXR file for each camera and frame"),
-            (files.NPZ, "NPZ", "NumPy arrays for each camera and frame"),
+            (frame_files.EXR, "EXR", "A multilayer EXR file for each camera and frame"),
+            (frame_files.NPZ, "NPZ", "NumPy arrays for each camera and frame"),
         ],
     )
     engine: EnumProperty(

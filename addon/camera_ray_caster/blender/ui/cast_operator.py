@@ -16,11 +16,11 @@ from ...core.casting.worker import Worker
 from ...core.records import InputError
 from ...core.report.report import Report
 from ..engine.job import Job
-from ..output import images, reports
-from ..properties.labels import in_labels
-from ..properties.passes import ticked
-from ..read.camera import view_names
-from ..read.scene import evaluated_camera
+from ..output import image_datablocks, reports
+from ..properties.pass_properties import ticked
+from ..properties.setting_labels import in_labels
+from ..read.camera_fields import view_names
+from ..read.scene_reader import evaluated_camera
 from .needs import OfScene, reporting
 
 INTERVAL = 0.1
@@ -56,7 +56,7 @@ class RunningCast:
     @cached_property
     def _storing(self) -> Iterator[str]:
         passes, _ = self.worker.result()
-        return images.store(passes)
+        return image_datablocks.store(passes)
 
 
 def fraction() -> float | None:
@@ -82,7 +82,7 @@ class Cast(OfScene, bpy.types.Operator):
         """Cast and wait for the result."""
         source, jobs = self.read(context)
         passes, report = cast_views(jobs)
-        return self.finish(context, list(images.store(passes)), report, source)
+        return self.finish(context, list(image_datablocks.store(passes)), report, source)
 
     def invoke(self, context, event):
         """Read the scene, then cast on a thread; Blender calls ``modal`` until the cast has ended."""
@@ -138,7 +138,7 @@ class Cast(OfScene, bpy.types.Operator):
 
     def finish(self, context, made: list[str], report: Report, source: reports.Source):
         """Show the named images and keep the report."""
-        images.show(made)
+        image_datablocks.show(made)
         reports.keep(report, source)
         if report.shapes == 0:
             self.report({"WARNING"}, "The scene has no surface to cast: the images show the background")

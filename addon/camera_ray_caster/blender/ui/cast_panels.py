@@ -5,8 +5,8 @@ from __future__ import annotations
 import bpy
 
 from ...core.report.pass_notes import sentences
-from ..output import images, reports
-from ..properties.passes import PASSES, ticked
+from ..output import image_datablocks, reports
+from ..properties.pass_properties import PASSES, ticked
 from . import cast_operator
 from .drawing import Sidebar, draw_message, draw_row
 from .left_out_panels import LeftOut
@@ -33,7 +33,7 @@ class SidebarCast(Sidebar, bpy.types.Panel):
         else:
             row.progress(factor=fraction, text=f"{fraction:.0%}, Esc: stop")
         row = layout.row()
-        row.enabled = bool(images.results())
+        row.enabled = bool(image_datablocks.results())
         row.menu(ResultsMenu.bl_idname, icon="IMAGE_DATA")
         report = reports.latest(context.scene)
         text, left_out = ("", ()) if report is None else (summary(report), report.left_out)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ...core.records import InputError
-from ..read.camera import ALL, find_cameras
+from ..read.camera_fields import ALL, find_cameras
 from ..read.frames import frame_of
 from ..rig import frames_of, shows
 

@@ -10,8 +10,8 @@ from bpy_extras.io_utils import ExportHelper
 from ...core.clouds.cloud import AXES, OF_DEVICE, PointCloud, scan
 from ...core.clouds.formats import POINT_FORMATS
 from ...core.library.clouds import save_points
-from ..output.points import categories_of
-from ..read.scene import read_scene
+from ..output.point_files import categories_of
+from ..read.scene_reader import read_scene
 from .drawing import Sidebar
 from .needs import OfScene, reporting, select_alone
 

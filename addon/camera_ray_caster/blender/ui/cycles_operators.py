@@ -9,8 +9,8 @@ from mathutils import Matrix
 from ...core.camera.blender_lens import blender_lens
 from ..cycles import add_projector, from_cycles, to_cycles
 from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
-from ..read.camera import shader_mark
-from ..read.scene import read_camera
+from ..read.camera_fields import shader_mark
+from ..read.scene_reader import read_camera
 from .needs import OfCamera, OfRays, camera_object_of, reporting, select_alone
 
 

@@ -11,8 +11,8 @@ from ...core.exports import EXPORT_FORMATS, find_format
 from ...core.exports.fitted import FIT, FIT_WITHIN
 from ...core.records import InputError
 from ..output import exports
-from ..read.camera import ALL, find_camera, find_cameras
-from ..read.scene import read_camera
+from ..read.camera_fields import ALL, find_camera, find_cameras
+from ..read.scene_reader import read_camera
 from ..read.unique import unique_name
 from . import chosen_frames, in_process
 from .needs import OfScene, can_use, reporting

@@ -8,7 +8,7 @@ from ...core.camera.camera import Camera
 from ...core.camera.facts import camera_facts
 from ...core.records import InputError
 from ..properties.declared import GROUP
-from ..properties.labels import in_labels
+from ..properties.setting_labels import in_labels
 from ..read.evaluated import camera_at
 from ..read.lengths import length
 from .drawing import Sidebar, draw_message, draw_row

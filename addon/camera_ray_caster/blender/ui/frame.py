@@ -14,7 +14,7 @@ from ...core.cameras.parts.settings import CAMERA, Flag
 from ...core.records import InputError
 from ..properties.declared import CAMERA as OWN_SETTINGS
 from ..properties.declared import GROUP
-from ..read.camera import camera_record
+from ..read.camera_fields import camera_record
 from .needs import OfCamera, camera_object_of, reporting
 from .notes import Note
 

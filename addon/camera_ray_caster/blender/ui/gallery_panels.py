@@ -12,7 +12,7 @@ from ...core.cameras.model import GROUPS
 from ...core.cameras.parts.settings import Item
 from .. import gallery
 from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
-from ..properties.labels import label_of
+from ..properties.setting_labels import label_of
 from .model_settings import key_of
 from .needs import OfCamera, camera_object_of, objection
 

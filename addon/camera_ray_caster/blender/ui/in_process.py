@@ -18,7 +18,7 @@ import bpy
 
 from ...core.file_set import clear_up
 from ...core.records import InputError
-from ..properties.labels import in_labels
+from ..properties.setting_labels import in_labels
 from ..read.unique import unique_name
 from ..read.view import views_3d
 from .other_engine import show, show_later

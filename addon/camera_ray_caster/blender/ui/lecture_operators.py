@@ -7,7 +7,7 @@ from mathutils import Matrix
 
 from ...core.lesson.diagram import pixel_outline
 from ..read.scene_cache import cached_scene
-from ..view3d import lesson, text
+from ..view3d import pixel_lessons, text
 from ..view3d.clicked import clicked
 from .lesson_operators import OfLesson
 
@@ -41,11 +41,11 @@ class LectureStep(bpy.types.Operator):
     def poll(cls, context):
         """Leave the keys to Blender without a lecture."""
         cls.poll_message_set("First click a pixel with Step Through, and switch on Lecture")
-        return context.window_manager.camera_ray_caster_place.lecture and bool(lesson.lessons(context))
+        return context.window_manager.camera_ray_caster_place.lecture and bool(pixel_lessons.lessons(context))
 
     def execute(self, context):
         """Change the step, within those of the latest pixel."""
-        state, (*_, latest) = context.window_manager.camera_ray_caster_place, lesson.lessons(context).values()
+        state, (*_, latest) = context.window_manager.camera_ray_caster_place, pixel_lessons.lessons(context).values()
         last = len(latest.screens) - 1
         state.step = min(max(min(state.step, last) + self.by, 0), last)
         return {"FINISHED"}
@@ -66,7 +66,7 @@ class RayView(OfLesson, bpy.types.Operator):
     def execute(self, context):
         """Turn the 3D View, the first one if the operator runs elsewhere, and frame the ray."""
         views = [area for area in context.screen.areas if area.type == "VIEW_3D"]
-        latest = lesson.lessons(context).get(clicked.pixels[-1])
+        latest = pixel_lessons.lessons(context).get(clicked.pixels[-1])
         if not views or latest is None:
             self.report({"ERROR"}, "There is no 3D View: open one" if latest else "The pixel is outside the frame")
             return {"CANCELLED"}

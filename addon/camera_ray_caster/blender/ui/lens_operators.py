@@ -7,7 +7,7 @@ from ...core.cameras.parts.lens_settings import LENS_FILE
 from ...core.lenses.focus import own_focal_length
 from ...core.lenses.read import library, read_lens
 from ..properties.declared import GROUP
-from ..read.camera import own_value
+from ..read.camera_fields import own_value
 from .needs import OfCamera, camera_object_of, reporting
 
 

@@ -6,7 +6,7 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty, PointerProperty
 
 from ..read.scene_cache import cached_scene
-from ..view3d import lesson
+from ..view3d import pixel_lessons
 from ..view3d.camera_frame import frame_in
 from ..view3d.clicked import clicked
 from ..view3d.shown import is_other
@@ -226,7 +226,7 @@ class CopySteps(OfLesson, bpy.types.Operator):
 
     def execute(self, context):
         """Copy the steps."""
-        texts = ["\n".join(steps.lines()) for steps in lesson.lessons(context).values()]
+        texts = ["\n".join(steps.lines()) for steps in pixel_lessons.lessons(context).values()]
         context.window_manager.clipboard = "\n\n".join(texts) + "\n"
         return {"FINISHED"}
 
@@ -239,7 +239,7 @@ class ClearSteps(OfLesson, bpy.types.Operator):
 
     def execute(self, context):
         """Forget the pixels."""
-        lesson.forget()
+        pixel_lessons.forget()
         redraw(context)
         return {"FINISHED"}
 

@@ -8,7 +8,7 @@ from ...core.lesson.lesson import GLASS
 from ..read.scene_cache import cached_scene
 from ..view3d import lens_icon
 from ..view3d.camera_frame import is_picture
-from ..view3d.lesson import lessons
+from ..view3d.pixel_lessons import lessons
 from .drawing import Sidebar, draw_message
 from .lecture_operators import SIDES, LectureStep, RayView
 from .lesson_operators import ClearSteps, CopySteps, StepThrough

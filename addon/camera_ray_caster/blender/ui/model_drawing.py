@@ -10,7 +10,7 @@ from ...core.cameras.parts.settings import CAMERA, Setting
 from ..cycles.shader import CUSTOM
 from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
 from ..properties.owners import owner_of
-from ..read.camera import shader_mark
+from ..read.camera_fields import shader_mark
 from .add_line import AddGradient, AddLine, SelectLine
 from .cycles_operators import AddProjector, BackToBlender, FitLens, UseInCycles
 from .drawing import draw_field, draw_message

@@ -9,7 +9,7 @@ from ...core.cameras.parts.port_settings import SETTINGS as PORTS
 from ...core.cameras.parts.settings import CAMERA, OWN, STEREO, Setting
 from ..cycles.shader import CUSTOM
 from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
-from ..read.camera import shader_mark
+from ..read.camera_fields import shader_mark
 
 SHOWN_FOR = {"lens": "PERSP", "ortho_scale": "ORTHO"}
 """Camera types by Blender setting, for settings that Blender's panel shows for one type only; film is always shown."""

@@ -7,8 +7,8 @@ from pathlib import Path
 import bpy
 
 from ...core.records import InputError
-from ..properties.labels import in_labels
-from ..read.camera import check_camera
+from ..properties.setting_labels import in_labels
+from ..read.camera_fields import check_camera
 from .drawing import draw_message
 from .facts_panels import camera_of
 

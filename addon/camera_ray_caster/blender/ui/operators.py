@@ -13,10 +13,10 @@ from ...core.programs import READ
 from ...core.records import InputError
 from ...core.report.report import Report, as_json
 from ..output import reports
-from ..properties.calibration import cameras_in, lenses_in, set_calibration, set_lens
+from ..properties.calibration_choice import cameras_in, lenses_in, set_calibration, set_lens
 from ..read import movie_clips
 from ..read.frames import frame_of
-from ..read.scene import read_camera
+from ..read.scene_reader import read_camera
 from ..verification.check import verified
 from .frame import SET_FRAME, framed
 from .needs import OfCamera, OfFile, OfScene, camera_object_of, can_use, reporting, select_alone

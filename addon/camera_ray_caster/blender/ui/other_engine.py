@@ -8,8 +8,8 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
-from ..properties.labels import label_of
-from ..read.camera import shader_mark
+from ..properties.setting_labels import label_of
+from ..read.camera_fields import shader_mark
 from ..view3d.shown import ENGINES
 from .cycles_operators import UseInCycles
 from .model_settings import blender_type

@@ -5,7 +5,7 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 from ..read.scene_cache import cached_scene
-from ..view3d import lesson
+from ..view3d import pixel_lessons
 from ..view3d.clicked import clicked
 from .lesson_operators import OfLesson, redraw
 from .needs import OfScene, select_alone
@@ -54,7 +54,7 @@ def points_of(context) -> tuple[str, np.ndarray]:
 
 def hidden_by(context, point) -> str:
     """Return the end of a sentence that names the object hiding the last point, or "" if the point is visible."""
-    seen = list(lesson.lessons(context).values())[-1].seen
+    seen = list(pixel_lessons.lessons(context).values())[-1].seen
     away = np.linalg.norm(point - seen.origin)
     return f"; hidden by {seen.name!r}" if seen.distance < away * (1 - 1e-3) else ""
 
@@ -68,7 +68,7 @@ class EmptyAtHit(OfLesson, bpy.types.Operator):
 
     def execute(self, context):
         """Add the empties."""
-        hits = [hit for hit in lesson.lessons(context).values() if hit.point is not None]
+        hits = [hit for hit in pixel_lessons.lessons(context).values() if hit.point is not None]
         if not hits:
             self.report({"WARNING"}, "the rays of these pixels hit no surface")
             return {"CANCELLED"}

@@ -6,7 +6,7 @@ import bpy
 
 from ..engine.engine import CameraRayCaster
 from ..output import reports
-from ..properties.passes import PASSES
+from ..properties.pass_properties import PASSES
 from .camera_notes import sample_note
 from .cast_panels import summary
 from .drawing import draw_message

@@ -15,7 +15,7 @@ from mathutils import Quaternion
 
 from ..properties.declared import ENGINE
 from ..read.view import views_3d
-from ..view3d import lesson, live, notice, overlay
+from ..view3d import live, notice, overlay, pixel_lessons
 from ..view3d.live_picture import why_not
 from ..view3d.shown import can_show, is_live
 from .needs import OfScene
@@ -34,7 +34,7 @@ PERIOD = 0.2
 """Seconds after which it is looked again whether a cast is still shown."""
 BEFORE = "camera_ray_caster_engine"
 """Custom property of a scene: its render engine before See Through, which a file keeps that is saved meanwhile."""
-OVER = overlay.draw_in_picture, lesson.draw_marks, notice.draw
+OVER = overlay.draw_in_picture, pixel_lessons.draw_marks, notice.draw
 """What is drawn over a live view's picture."""
 RESTORES = "the scene's render engine is Camera Ray Caster; See Through again restores it"
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..properties.declared import BLENDERS_OWN, GROUP
-from ..properties.labels import label_of
+from ..properties.setting_labels import label_of
 from ..read.view import camera_frame
 from ..view3d import text
 from ..view3d.shown import is_other

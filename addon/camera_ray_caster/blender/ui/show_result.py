@@ -3,8 +3,8 @@
 import bpy
 from bpy.props import StringProperty
 
-from ..output import images
-from ..properties.passes import PASSES
+from ..output import image_datablocks
+from ..properties.pass_properties import PASSES
 
 
 class ShowResult(bpy.types.Operator):
@@ -18,10 +18,10 @@ class ShowResult(bpy.types.Operator):
 
     def execute(self, context):
         """Show the pass and report the meaning of the colors."""
-        if self.name not in images.results():
+        if self.name not in image_datablocks.results():
             self.report({"ERROR"}, f"no cast has made an image {self.name!r}: cast first")
             return {"CANCELLED"}
-        image, meaning = images.show_in_colors(self.name)
+        image, meaning = image_datablocks.show_in_colors(self.name)
         editor = open_editor()
         if editor is not None:
             editor.image = image
@@ -31,9 +31,9 @@ class ShowResult(bpy.types.Operator):
 
 def open_editor():
     """Return an Image Editor; if there is none, open one as for a render. Return None without a window."""
-    if not bpy.app.background and not images.editors():
+    if not bpy.app.background and not image_datablocks.editors():
         bpy.ops.render.view_show("INVOKE_DEFAULT")
-    return next(iter(images.editors()), None)
+    return next(iter(image_datablocks.editors()), None)
 
 
 class ResultsMenu(bpy.types.Menu):
@@ -44,14 +44,14 @@ class ResultsMenu(bpy.types.Menu):
 
     def draw(self, context):
         """Draw an entry for each image, those of the latest cast first."""
-        results, labels = images.results(), {entry.key: entry.label for entry in PASSES}
-        before = [name for name in results if images.latest and name not in images.latest]
+        results, labels = image_datablocks.results(), {entry.key: entry.label for entry in PASSES}
+        before = [name for name in results if image_datablocks.latest and name not in image_datablocks.latest]
         for name in sorted(results, key=before.__contains__):
             if before and name == before[0]:
                 self.layout.separator()
                 self.layout.label(text="Earlier Casts")
             key = results[name]
-            text = labels[key] + name.removeprefix(images.image_name(key))  # with the view
+            text = labels[key] + name.removeprefix(image_datablocks.image_name(key))  # with the view
             self.layout.operator(ShowResult.bl_idname, text=text).name = name
 
 

@@ -6,7 +6,7 @@ import bpy
 
 from ..cycles.renderer import changed
 from ..engine.engine import RenderCall
-from ..faces.picture import EEVEE, NAMES, WORKBENCH, picture_of
+from ..faces.engine_picture import EEVEE, NAMES, WORKBENCH, picture_of
 from ..properties.declared import ENGINE
 from ..view3d.live_picture import why_not
 from .needs import OfScene, can_use, reporting

@@ -17,10 +17,10 @@ from ...core.timeline import Timeline
 from ..read.evaluated import camera_at, scene_at
 from ..read.frames import frame_of, go_to
 from ..read.motion import motion_of
-from ..read.scene import evaluated_camera
-from . import witness
+from ..read.scene_reader import evaluated_camera
+from . import blender_witness
+from .blender_witness import Witness
 from .cycles_witness import cycles_finding
-from .witness import Witness
 
 MOVING_GRID = 2
 """Number of pixels per side at which a moving camera is verified: each projection is searched over all of its times."""
@@ -92,4 +92,4 @@ def _answers(camera: Camera, camera_object, depsgraph, view: str) -> Witness | N
     """
     apart = not view or depsgraph.scene_eval.render.views_format == "MULTIVIEW"
     by_blender = camera.model.key == camera_object.data.type and apart and PORT.name not in camera.record.settings
-    return witness.ask(camera_object, depsgraph) if by_blender else None
+    return blender_witness.ask(camera_object, depsgraph) if by_blender else None

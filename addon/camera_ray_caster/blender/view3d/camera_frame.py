@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import gpu
 import numpy as np
 
-from ..output import images
+from ..output import image_datablocks
 from .shown import picture_frame
 
 FAR = 1000.0
@@ -53,4 +53,4 @@ def is_picture(image) -> bool:
     """Return whether an image shows a camera's picture: a render, or an image made by a cast."""
     if image is None:
         return False
-    return image.type == "RENDER_RESULT" or image.name == images.VIEW or image.name in images.results()
+    return image.type == "RENDER_RESULT" or image.name in (image_datablocks.VIEW, *image_datablocks.results())

@@ -18,7 +18,7 @@ from ...core.faces.faces import Face, faces_of, refusal, turn_of
 from ...core.maths.recording import NotRecordable
 from ...core.records import InputError
 from ...core.shaders.ray_map import ray_map
-from ..properties.labels import in_labels
+from ..properties.setting_labels import in_labels
 from ..read.evaluated import camera_at
 from ..read.scene_cache import differences
 from .live_programs import draw_map, draw_warp, map_texture

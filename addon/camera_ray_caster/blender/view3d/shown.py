@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
-from ..read.camera import shader_mark
+from ..read.camera_fields import shader_mark
 from ..read.view import camera_frame
 
 ENGINES = "BLENDER_EEVEE", "BLENDER_EEVEE_NEXT", "BLENDER_WORKBENCH"

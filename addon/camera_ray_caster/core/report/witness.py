@@ -39,7 +39,7 @@ FRAME, MATRIX, VIEW = "view_frame", "calc_matrix_camera", "world_to_camera_view"
 
 
 class Witness(Protocol):
-    """Blender's answers for one camera; see ``blender.verification.witness``."""
+    """Blender's answers for one camera; see ``blender.verification.blender_witness``."""
 
     size: tuple[int, int]
     matrix_world: np.ndarray

@@ -13,7 +13,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from camera_ray_caster import InputError, cast, cast_rays, read_camera, read_shapes
 from camera_ray_caster.blender.faces.driver import check_driver
-from camera_ray_caster.blender.faces.picture import EEVEE, WORKBENCH, engine_name, picture_of
+from camera_ray_caster.blender.faces.engine_picture import EEVEE, WORKBENCH, engine_name, picture_of
 from camera_ray_caster.blender.output.reports import latest
 from camera_ray_caster.blender.ui.cast_panels import summary
 

@@ -3,7 +3,7 @@
 import bpy
 import pytest
 
-from camera_ray_caster.blender.read.keypoints import key_points
+from camera_ray_caster.blender.read.scene_keypoints import key_points
 
 from .scene_parts import geometry_nodes, mesh_of, new_object
 

@@ -27,8 +27,8 @@ from ...core.records import BlenderCamera, InputError
 from ...core.shaders.camera_shader import camera_shader
 from ...core.shaders.turn import UPRIGHT, Turn, shutter_of
 from ..process.signals import raise_if_stopping
-from ..read.camera import camera_record, shader_mark, view_names
-from ..read.scene import evaluated, evaluated_camera
+from ..read.camera_fields import camera_record, shader_mark, view_names
+from ..read.scene_reader import evaluated, evaluated_camera
 from .device import device_of
 from .renderer import Render, border, changed, cycles_engine
 from .rolling import blur_settings, is_shutter

@@ -22,24 +22,24 @@ from ...core.records import InputError
 from ...core.report.report import Report
 from ...core.sets.run import Run
 from ...core.sets.shared_facts import dataset_of
+from ..cycles.cycles_picture import CyclesPicture, picture_of
 from ..cycles.device import device_notes, use_device
-from ..cycles.picture import CyclesPicture, picture_of
 from ..cycles.shader import check_cycles
 from ..engine.engine import CameraRayCaster
-from ..faces.picture import EEVEE, WORKBENCH, FacesPicture
-from ..faces.picture import picture_of as faces_picture
-from ..output.points import PointFiles, add_points, check_points
+from ..faces.engine_picture import EEVEE, WORKBENCH, FacesPicture
+from ..faces.engine_picture import picture_of as faces_picture
+from ..output.point_files import PointFiles, add_points, check_points
 from ..output.stamps import file_hash, finished, stamp_of
 from ..process import signals
-from ..properties.passes import tick, ticked
-from ..read.camera import ALL, find_camera, find_cameras, views_of
+from ..properties.pass_properties import tick, ticked
+from ..read.camera_fields import ALL, find_camera, find_cameras, views_of
 from ..read.frames import frame_of
-from ..read.keypoints import check_key_points
-from ..read.scene import read_camera
+from ..read.scene_keypoints import check_key_points
+from ..read.scene_reader import read_camera
 from ..read.size import own_size, set_size, size_of
 from ..read.unique import unique_name
 from ..rig import files_of, shows
-from . import files, ray_maps
+from . import frame_files, ray_maps
 from .jobs import Jobs, Outcome, PictureJob, RayMap
 from .options import go_to, open_scene, stem, use_camera
 from .words import Parser, add_cameras, check_cameras, pass_names, sample_count, unstamped
@@ -69,7 +69,7 @@ def add_words(parser) -> None:
     )
     parser.add_argument("--device", type=str.upper, metavar="KIND", help=
         "kind of device that Cycles renders on, such as CPU or OPTIX; default: the file's and the Preferences'")
-    parser.add_argument("--format", type=str.upper, choices=files.PASS_FORMATS,
+    parser.add_argument("--format", type=str.upper, choices=frame_files.PASS_FORMATS,
                         help="file format of the passes: a multilayer EXR file, or NumPy arrays; "
                              "default: EXR, or NPZ with --dataset")  # fmt: skip
     parser.add_argument(
@@ -103,7 +103,7 @@ def parsed(parser: Parser, arguments: Sequence[str]) -> Namespace:
             raise InputError(f"--{name} applies to data sets only: add --dataset")
     if options.retries < 0:
         raise InputError("--retries is negative: give 0 or more")
-    options.format = options.format or (files.NPZ if options.dataset else files.EXR)
+    options.format = options.format or (frame_files.NPZ if options.dataset else frame_files.EXR)
     options.skip_existing |= options.dataset
     return options
 
@@ -222,7 +222,7 @@ class Pictures:
         """
         asked = self.options
         path = asked.output / job.name
-        return files.render(
+        return frame_files.render(
             self.scene, path.parent, path.name, Path(job.report).name,
             layers=asked.format, half=asked.half, file_output=asked.file_output, stamp=of, spare=self.spare,
             dataset=dataset_of(asked.output) if asked.dataset else None, **options,
@@ -258,7 +258,7 @@ class Pictures:
 
     def _by_engine(self, prog: str) -> CyclesPicture | FacesPicture:
         """Render the current frame with another engine, which a Python signal handler cannot interrupt."""
-        files.check(self.scene)
+        frame_files.check(self.scene)
         with signals.leaving(f"{prog}: {signals.STOPPED}"):
             if self.options.engine == CYCLES:
                 return picture_of(self.scene)

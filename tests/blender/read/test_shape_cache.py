@@ -4,8 +4,8 @@ import bpy
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.read import kept
-from camera_ray_caster.blender.read.scene import read_shapes
+from camera_ray_caster.blender.read import shape_cache
+from camera_ray_caster.blender.read.scene_reader import read_shapes
 
 from .scene_parts import ADD, geometry_nodes, in_a_render, mesh_of, new_collection, new_object, paint, plain
 from .time_scene import drive, key
@@ -285,5 +285,5 @@ def test_memory_holds_what_the_last_reading_has_used(scene, objects):
     for name in ("Plain", "Text", "Scattered"):
         bpy.data.objects.remove(objects[name])
     shapes = read_shapes(scene)
-    held = {entry.mesh for entries in kept._entries.values() for entry in entries.values()} - {None}
+    held = {entry.mesh for entries in shape_cache._entries.values() for entry in entries.values()} - {None}
     assert held == set(shapes.meshes)

@@ -23,8 +23,8 @@ from ..properties.declared import SHADING
 from ..read.scene_cache import CachedScene, cached_scene
 from .camera_frame import frame_in, in_pixels
 from .clicked import clicked
-from .glass import draw_lens, forget_lens, parts_of_paths
 from .lecture import write_step
+from .lens_view import draw_lens, forget_lens, parts_of_paths
 from .overlay import batch_of, draw_batch
 from .shown import picture_frame
 

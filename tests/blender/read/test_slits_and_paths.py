@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.blender.read.scene_reader import read_camera
 from camera_ray_caster.core.conventions import EPS32
 from camera_ray_caster.core.records import InputError
 

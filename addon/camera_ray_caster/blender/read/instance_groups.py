@@ -11,8 +11,8 @@ from ...core.records import EVERYWHERE, Shapes, Slots
 from ...core.shape_records import World
 from ...core.shapes.instances import Primitive, castable, lights_in_world, put_in_world
 from ..process.signals import raise_if_stopping
-from .kept import Found
 from .materials import Look
+from .shape_cache import Found
 
 SINGULAR = "its size is zero in some direction, or not finite: clear its scale (Alt S) or apply it"
 VANISHED = "its size is zero in some direction, and others share its mesh: it is not shown, as in Cycles"

@@ -7,7 +7,7 @@ from camera_ray_caster.core.records import InputError
 
 @pytest.mark.parametrize("suffix", ["/../../../x", "/x", "\\x"])
 def test_a_view_whose_suffix_leads_to_another_folder_is_refused(blender, tmp_path, suffix):
-    from camera_ray_caster.blender.terminal.files import render
+    from camera_ray_caster.blender.terminal.frame_files import render
 
     scene = blender.context.scene
     blender.ops.object.camera_add()

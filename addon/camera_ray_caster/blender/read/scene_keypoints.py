@@ -7,8 +7,8 @@ import numpy as np
 
 from ...core.annotations.keypoints import KeyPoint
 from ...core.records import InputError
-from .camera import ALL
-from .meshes import vertices
+from .camera_fields import ALL
+from .mesh_reading import vertices
 from .unique import by_name, named, unique_name
 
 

@@ -14,7 +14,7 @@ from mathutils import Matrix
 from ...core.faces.faces import turn_of
 from ...core.faces.inverse_table import InverseTable, inverse_table
 from ..read.evaluated import camera_at
-from ..read.scene import evaluated_camera
+from ..read.scene_reader import evaluated_camera
 
 POWER = 1000.0
 """Watts of the lamp, as if it shone white in every direction."""

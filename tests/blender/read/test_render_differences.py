@@ -2,7 +2,7 @@
 
 import pytest
 
-from camera_ray_caster.blender.read.differences import evaluated_otherwise
+from camera_ray_caster.blender.read.render_differences import evaluated_otherwise
 
 
 def subdivided(item, **values):

@@ -16,12 +16,12 @@ from ...core.casting.passes import PASSES
 from ...core.records import InputError, Shapes
 from ...core.scene import Scene
 from ...core.timeline import Timeline
-from .camera import check_camera, eye_object, has_pixel_times, is_removed
+from .camera_fields import check_camera, eye_object, has_pixel_times, is_removed
+from .depsgraph_shapes import shapes_record
 from .evaluated import camera_at, scene_at
 from .frames import frame_of, go_to, layer_of
 from .motion import motion_of, with_other_frames
 from .physics import prepare
-from .shapes import shapes_record
 
 
 def _frame_came_second(function):

@@ -11,10 +11,10 @@ from ...core.report.indices import indices_of
 from ...core.report.report import Report, as_data, uncolored
 from ..output.annotations import category_of
 from ..read.frames import frame_rate
-from ..read.scene import read_shapes
+from ..read.scene_reader import read_shapes
 from ..verification.check import verify_camera
 from .jobs import PictureJob
-from .pictures import Pictures
+from .picture_jobs import Pictures
 
 ENTRIES = "version", "conventions", "layers", "passes", "findings", "left_out", "notes", "exact", "host", "indices"
 """Entries of reports that are the same for all pictures of a scene that stands still. The camera and its record, which

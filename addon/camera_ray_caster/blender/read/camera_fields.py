@@ -23,7 +23,7 @@ from ..properties.declared import BLENDERS_OWN, MODEL, files
 from ..properties.owners import owner_of
 from .frames import frame_of
 from .lengths import meters_of
-from .lines import line_record
+from .slits_and_paths import line_record
 from .stored import own_value
 from .unique import by_name, named, unique_name
 

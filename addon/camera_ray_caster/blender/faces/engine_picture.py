@@ -29,8 +29,8 @@ from ...core.records import InputError
 from ..cycles.renderer import changed, only_engine
 from ..process.opening import reported
 from ..process.signals import raise_if_stopping
-from ..read.camera import camera_record, view_names
-from ..read.scene import evaluated_camera
+from ..read.camera_fields import camera_record, view_names
+from ..read.scene_reader import evaluated_camera
 from .driver import check_driver
 
 EEVEE, WORKBENCH = "EEVEE", "WORKBENCH"

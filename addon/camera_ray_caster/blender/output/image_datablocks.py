@@ -9,7 +9,7 @@ import numpy as np
 from bpy.app.handlers import persistent
 
 from ...core.report.display import displayed
-from ..properties.passes import PASSES, stored
+from ..properties.pass_properties import PASSES, stored
 
 PREFIX = "Ray Caster "
 VIEW = "Ray Caster: Shown"

@@ -6,7 +6,7 @@ import pytest
 from mathutils import Matrix
 
 from camera_ray_caster.blender.read import geometry
-from camera_ray_caster.blender.read.scene import read_shapes
+from camera_ray_caster.blender.read.scene_reader import read_shapes
 from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE
 
 from .scene_parts import ADD, ball, counts, geometry_nodes, mesh_of, new_object

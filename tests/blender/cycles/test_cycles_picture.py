@@ -4,8 +4,8 @@ import bpy
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.cycles.picture import picture_of
-from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.blender.cycles.cycles_picture import picture_of
+from camera_ray_caster.blender.read.scene_reader import read_camera, read_shapes
 from camera_ray_caster.core.cast import cast
 
 from ..read.scene_parts import curves, new_object

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 
-from camera_ray_caster.blender.read.camera import camera_record, check_markers, find_camera
-from camera_ray_caster.blender.read.scene import evaluated, read_camera
+from camera_ray_caster.blender.read.camera_fields import camera_record, check_markers, find_camera
+from camera_ray_caster.blender.read.scene_reader import evaluated, read_camera
 from camera_ray_caster.core.records import InputError
 
 ULP = float(np.finfo(np.float32).eps)
@@ -246,7 +246,7 @@ def test_a_frame_beyond_the_scene_is_as_blender_has_it(scene):
 
 
 def test_cameras_by_their_names_are_each_found_once(blender, camera_scene):
-    from camera_ray_caster.blender.read.camera import find_cameras
+    from camera_ray_caster.blender.read.camera_fields import find_cameras
 
     camera_scene.camera.name = "Right"
     blender.ops.object.camera_add()

@@ -19,19 +19,19 @@ from ...core.memory import of_pixels, require
 from ...core.names import folded
 from ...core.records import Cancelled, InputError
 from ...core.report.report import Report, as_json
-from ..cycles.picture import CyclesPicture
+from ..cycles.cycles_picture import CyclesPicture
 from ..cycles.renderer import changed
 from ..engine.engine import RenderCall
-from ..faces.picture import FacesPicture
+from ..faces.engine_picture import FacesPicture
 from ..output import arrays, file_outputs
 from ..output.annotations import ENDING, annotated
-from ..output.points import PointFiles
+from ..output.point_files import PointFiles
 from ..output.saving import LAYERS, PICTURE, blender_writes, check_whole
 from ..output.stamps import made, short
 from ..process import signals
 from ..process.opening import not_run, reported
-from ..properties.passes import ticked
-from ..read.camera import views_of
+from ..properties.pass_properties import ticked
+from ..read.camera_fields import views_of
 from ..read.frames import check_layers
 
 EXR, NPZ = "EXR", "NPZ"

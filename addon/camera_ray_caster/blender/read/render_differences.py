@@ -1,6 +1,6 @@
 """Objects that a render evaluates otherwise than the viewport: hidden in the viewport, or shown in less detail."""
 
-from .visibility import ItemVisibility
+from .render_visibility import ItemVisibility
 
 OF_MODIFIERS = (
     ("show_viewport", "show_render"),

@@ -5,7 +5,7 @@ from unittest.mock import MagicMock
 
 import pytest
 
-from camera_ray_caster.blender.view3d import lesson
+from camera_ray_caster.blender.view3d import pixel_lessons
 
 
 @pytest.mark.parametrize("function", ["draw", "draw_marks"])
@@ -17,9 +17,9 @@ def test_rays_and_marks_are_drawn_for_pixels_where_overlays_are_shown(function, 
     scene = SimpleNamespace(camera=None)
     region = SimpleNamespace(as_pointer=lambda: 1)
     context = SimpleNamespace(space_data=space, region_data=None, region=region, scene=scene, preferences=preferences)
-    monkeypatch.setattr(lesson, "bpy", SimpleNamespace(context=context))
-    monkeypatch.setattr(lesson, "gpu", MagicMock())
-    monkeypatch.setattr(lesson.clicked, "pixels", pixels)
-    monkeypatch.setattr(lesson, "lessons", lambda context: asked.append(context) or {})
-    getattr(lesson, function)()
+    monkeypatch.setattr(pixel_lessons, "bpy", SimpleNamespace(context=context))
+    monkeypatch.setattr(pixel_lessons, "gpu", MagicMock())
+    monkeypatch.setattr(pixel_lessons.clicked, "pixels", pixels)
+    monkeypatch.setattr(pixel_lessons, "lessons", lambda context: asked.append(context) or {})
+    getattr(pixel_lessons, function)()
     assert len(asked) == (overlays and len(pixels) > 0)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from camera_ray_caster.blender.engine.reading import read_as_rendered
+from camera_ray_caster.blender.engine.render_evaluation import read_as_rendered
 from camera_ray_caster.core.records import InputError
 
 

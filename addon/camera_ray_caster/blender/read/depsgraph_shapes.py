@@ -12,14 +12,14 @@ from ...core.records import Shapes
 from ...core.shape_records import World
 from ..properties.declared import EXACT_SHAPES, PRIMITIVE
 from .geometry import mesh_shapes, shapes_of
-from .groups import Group, cancellable, gathered, listed
-from .kept import Found, Reading
+from .instance_groups import Group, cancellable, gathered, listed
 from .lights import cone_of, light_color, world_of
 from .materials import LayerLooks, Look, first_slot, is_finite
 from .nodes import Unread
+from .render_visibility import ItemVisibility, original_source
+from .shape_cache import Found, Reading
 from .stored import own_value
 from .unique import unique_name
-from .visibility import ItemVisibility, original_source
 
 NO_SURFACE = frozenset(
     {"EMPTY", "CAMERA", "LIGHT", "ARMATURE", "SPEAKER", "LIGHT_PROBE", "LATTICE", "CURVE", "SURFACE", "FONT", "META"}

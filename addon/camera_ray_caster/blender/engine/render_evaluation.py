@@ -12,7 +12,7 @@ from ...core.records import Cancelled, InputError
 from ..cycles.renderer import changed, only_engine
 from ..process import signals
 from ..process.opening import reported
-from ..read.camera import check_camera
+from ..read.camera_fields import check_camera
 from ..read.frames import check_layers
 from .engine import CameraRayCaster
 from .job import Job

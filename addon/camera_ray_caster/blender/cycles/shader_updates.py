@@ -8,7 +8,7 @@ from bpy.app.handlers import persistent
 from ...core.camera.build import camera_from
 from ...core.records import BlenderCamera, InputError
 from ...core.shaders.camera_shader import CameraShader
-from ..read.camera import camera_record, shader_mark
+from ..read.camera_fields import camera_record, shader_mark
 from .convert import shader_of
 from .shader import CUSTOM, has_inputs, is_enabled, rewrite, set_inputs
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 
-from camera_ray_caster.blender.read.scene import read_shapes
+from camera_ray_caster.blender.read.scene_reader import read_shapes
 from camera_ray_caster.core.records import MESH, PLANE, SPHERE
 
 from .scene_parts import ADD, ball, counts, geometry_nodes, in_a_render, mesh_of, new_collection, new_object
