@@ -67,12 +67,13 @@ def plain_test(corners, origin, direction):
     return t.argmin(axis=1), t.min(axis=1)
 
 
-def test_random_rays_beside_a_plain_test_of_each_triangle():
+@pytest.mark.parametrize("spread", [2.0, 0.01])
+def test_random_rays_beside_a_plain_test_of_each_triangle(spread):
     random = np.random.default_rng(7)
     middle = random.uniform(-1, 1, (300, 1, 3))
     corners = middle + random.normal(0, 0.2, (300, 3, 3))
     shapes = crc.mesh(corners.reshape(-1, 3), np.arange(900).reshape(-1, 3))
-    origin, direction = random.uniform(-2, 2, (4000, 3)), random.normal(size=(4000, 3))
+    origin, direction = random.uniform(-spread, spread, (4000, 3)), random.normal(size=(4000, 3))
     face, t = plain_test(corners.swapaxes(0, 1), origin, direction)
     found = crc.cast_rays(origin, direction, shapes, passes=("depth", "face_index"))
     hit = np.isfinite(t)

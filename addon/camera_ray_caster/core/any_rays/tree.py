@@ -58,12 +58,16 @@ class Tree:
         return self.faces[:, len(self) :] / 2 + self.faces[:, : len(self)] / 2
 
 
+def enlarged(low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the corners of boxes, (3, b) each, outside of which no hit lies by rounding."""
+    reach = BOX_MARGIN * (high - low + np.maximum(np.abs(low), np.abs(high)))
+    return low - reach, high + reach
+
+
 def tree_of(low: np.ndarray, high: np.ndarray, body: np.ndarray) -> Tree:
     """Return the tree of some bodies, (b,) indices, b > 0, given the corners of their boxes, (3, b) each."""
     order = _order(low / 2 + high / 2)
-    low, high = low[:, order], high[:, order]
-    reach = BOX_MARGIN * (high - low + np.maximum(np.abs(low), np.abs(high)))
-    levels = [(low - reach, high + reach)]
+    levels = [(low[:, order], high[:, order])]
     step = LEAF
     while len(levels) < 2 or levels[-1][0].shape[1] > FAN:
         starts = np.arange(0, levels[-1][0].shape[1], step)

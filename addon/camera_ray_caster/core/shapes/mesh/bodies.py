@@ -15,8 +15,8 @@ from ..frames import InCamera
 from .surface import TRIANGLES, HitTriangles
 from .triangles import VOLUME_ROUNDING, crossing, edge_vectors, signs, volumes
 
-BYTES = 144
-"""Upper bound of the memory of each triangle, with its box and its share of the tree."""
+BYTES = 192
+"""Upper bound of the memory of each triangle, with its boxes and its share of the tree."""
 
 PREPARED = 0.25
 """Number of rays, for each triangle, from which the triangles are prepared for them. Not tuned."""
