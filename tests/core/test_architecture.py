@@ -16,7 +16,7 @@ SOURCES = [*MODULES, *sorted((ROOT / "scripts").rglob("*.py")), *sorted((ROOT / 
 
 # What a part of the package may import of the package: the longest name that fits counts. The lowest layer comes first.
 LOW = {
-    "core.conventions", "core.other_names", "core.tuning", "core.materials", "core.mesh", "core.timeline",
+    "core.conventions", "core.other_names", "core.tuning", "core.materials", "core.mesh",
     "core.shape_records", "core.records", "core.arguments", "core.memory", "core.maths", "core.units",
 }  # fmt: skip
 FILES = {"core.openexr", "core.programs", "core.text_forms"}
@@ -30,8 +30,7 @@ MAY_IMPORT = {
     "core.tuning": set(),
     "core.mesh": {"core.tuning"},
     "core.materials": {"core.materials"},
-    "core.timeline": set(),
-    "core.shape_records": {"core.materials", "core.mesh", "core.timeline"},
+    "core.shape_records": {"core.materials", "core.mesh"},
     "core.records": {"core.conventions", "core.shape_records"},
     "core.other_names": set(),
     "core.arguments": {"core.other_names", "core.records"},

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import camera_ray_caster as crc
+from camera_ray_caster.core.motion.evaluations import Motion
 
 CAMERA = crc.camera("ORTHO", (16, 12), ortho_scale=4.0)
 SHAPES = crc.planes((0.0, 0.0, -5.0), [[1, 0], [0, 1], [0, 0]])
@@ -41,3 +42,11 @@ def test_what_is_made_of_a_camera_or_of_shapes_keeps_their_other_times():
     scene = crc.Scene(CAMERA, SHAPES).with_timeline(next=crc.Scene(CAMERA, RIGHT))
     camera, shapes = replace(scene.camera, clip_end=50.0), replace(scene.shapes, color=scene.shapes.color / 2)
     np.testing.assert_array_equal(flow(camera, shapes), flow(scene))
+
+
+def test_other_neighbors_leave_the_motion_as_it_is_and_camera_and_shapes_know_only_their_like():
+    motion = Motion((), {}, 0.1, 0.0, ())
+    scene = crc.Scene(CAMERA, SHAPES).with_timeline(motion).with_timeline(next=crc.Scene(UP, RIGHT))
+    assert scene.motion is scene.camera.motion is scene.shapes.motion is motion
+    assert (scene.camera.next, scene.camera.previous) == (UP, None)
+    assert (scene.shapes.next, scene.shapes.previous) == (RIGHT, None)

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Protocol
 
 from .camera.camera import Camera
+from .camera.times import MovingCamera
 from .records import Shapes
-from .timeline import MovingScene, Timeline
+from .shape_records import MovingShapes
+
+
+class MovingScene(MovingCamera[Camera], MovingShapes, Protocol):
+    """An object that returns the camera and the shapes of a scene at any frame, such as ``Motion``."""
 
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """A camera and the shapes that it sees, at one time, and through their timelines at others."""
+    """A camera and the shapes that it sees. Each of the two knows itself at other times."""
 
     camera: Camera
     shapes: Shapes
@@ -43,19 +48,21 @@ class Scene:
         return cls.given(camera, shapes, to), value
 
     @property
-    def motion(self) -> MovingScene | None:
+    def motion(self) -> MovingCamera[Camera] | None:
         """The scene over the times of the camera's pixels; None if they have one time, or nothing moves."""
-        return self.camera.timeline.motion
+        return self.camera.motion
 
     @property
     def next(self) -> Scene | None:
         """The scene at the next frame, and in ``previous`` at the previous one. None if it was not read."""
-        return self._other("next")
+        camera, shapes = self.camera.next, self.shapes.next
+        return None if camera is None or shapes is None else Scene(camera, shapes)
 
     @property
     def previous(self) -> Scene | None:
         """The scene at the previous frame. None if it was not read."""
-        return self._other("previous")
+        camera, shapes = self.camera.previous, self.shapes.previous
+        return None if camera is None or shapes is None else Scene(camera, shapes)
 
     def at(self, frame: float | None) -> Scene:
         """Return the scene at a frame, without pixel times; itself if ``frame`` is None."""
@@ -63,19 +70,22 @@ class Scene:
 
     def at_rest(self) -> Scene:
         """Return the scene without pixel times if nothing moves meanwhile, else itself."""
-        motions = self.camera.timeline.motion, self.shapes.timeline.motion
+        motions = self.camera.motion, self.shapes.motion
         if self.camera.pixel_time is None or not all(motion is None or motion.is_still for motion in motions):
             return self
-        return Scene(replace(self.camera, pixel_time=None), self.shapes)
+        return replace(self, camera=replace(self.camera, pixel_time=None))
 
     def with_timeline(
         self, motion: MovingScene | None = None, next: Scene | None = None, previous: Scene | None = None
     ) -> Scene:
-        """Return the scene with its motion and its neighboring frames, to which camera and shapes refer."""
-        timeline = Timeline(motion, next, previous)
-        return Scene(replace(self.camera, timeline=timeline), replace(self.shapes, timeline=timeline))
-
-    def _other(self, name: str) -> Scene | None:
-        """Return a neighboring frame: the camera and the shapes may have been read one by one."""
-        ours, theirs = getattr(self.camera.timeline, name), getattr(self.shapes.timeline, name)
-        return None if None in (ours, theirs) else Scene(ours.camera, theirs.shapes)
+        """Return the scene with other neighboring frames, and with another motion unless that is None; camera and
+        shapes take what is theirs.
+        """
+        camera, shapes = self.camera, self.shapes
+        if motion is not None:
+            camera, shapes = replace(camera, motion=motion), replace(shapes, motion=motion)
+        of_camera: dict[str, Any] = {}
+        of_shapes: dict[str, Any] = {}
+        for name, scene in (("next", next), ("previous", previous)):
+            of_camera[name], of_shapes[name] = (None, None) if scene is None else (scene.camera, scene.shapes)
+        return Scene(replace(camera, **of_camera), replace(shapes, **of_shapes))

@@ -8,14 +8,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from operator import attrgetter
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
 from .materials.surface import Surface
 from .materials.values import Value
 from .mesh import Mesh
-from .timeline import ONE_TIME, Timeline
 
 SPHERE, PLANE, INFINITE_PLANE, MESH = 0, 1, 2, 3
 """Values of ``Shapes.kind``."""
@@ -163,6 +162,17 @@ else:
     _Values = object
 
 
+class MovingShapes(Protocol):
+    """An object that returns the shapes of a scene at any frame, such as ``Motion``."""
+
+    @property
+    def is_still(self) -> bool:
+        """Whether neither the camera nor the shapes move."""
+
+    def shapes_at(self, frame: float) -> Shapes:
+        """Return the shapes at a frame."""
+
+
 @dataclass(frozen=True, eq=False, init=False, kw_only=True)
 class Shapes(_Values):
     """The spheres, planes and meshes of a scene, one row per shape; ``shape_index`` of a pixel is the row.
@@ -176,19 +186,23 @@ class Shapes(_Values):
     lights: Lights
     world: World
     remarks: Remarks
-    timeline: Timeline
-    """The shapes, and the camera that sees them, at other times."""
+    motion: MovingShapes | None
+    """The shapes over the times of a camera's pixels; None if they have one time."""
+    next: Shapes | None
+    previous: Shapes | None
+    """The shapes at the neighboring frames: see ``casting.flow``. None if they were not read."""
 
-    def __init__(self, *columns, timeline: Timeline = ONE_TIME, **values):
+    def __init__(self, *columns, **values):
         values |= dict(zip(COLUMNS[: len(columns)], columns, strict=True))
         for group, kind in GROUPS.items():
             whole = values.pop(group, None)
             parts = {name: values.pop(known) for known, name in NAMES[group].items() if known in values}
             record = kind(**parts) if whole is None else replace(whole, **parts) if parts else whole
             object.__setattr__(self, group, record)
+        for name in ("motion", "next", "previous"):
+            object.__setattr__(self, name, values.pop(name, None))
         if values:
             raise TypeError(f"Shapes has no {', '.join(values)}")
-        object.__setattr__(self, "timeline", timeline)
 
     def __len__(self) -> int:
         return len(self.kind)
@@ -199,8 +213,7 @@ class Shapes(_Values):
 
     def at(self, frame: float) -> Shapes:
         """Return the shapes at a frame: themselves if they do not move."""
-        motion = self.timeline.motion
-        return self if motion is None else motion.shapes_at(frame)
+        return self if self.motion is None else self.motion.shapes_at(frame)
 
 
 for _group, _names in NAMES.items():

@@ -134,8 +134,8 @@ def test_a_fan_of_whole_turns_a_frame_is_resolved(blender, scene):
     own = scene.camera.data.camera_ray_caster
     own.time_start, own.time_end = 7.0, 7.5
     camera, found = read_camera(scene), walked(scene)
-    assert not camera.timeline.motion.unresolved
-    assert len(camera.timeline.motion.states) > 6
+    assert not camera.motion.unresolved
+    assert len(camera.motion.states) > 6
     x, y, frame = coordinates()
     angle = 2 * np.pi * 3 * (7 + (frame - 1) / 48)
     along, across = x * np.cos(angle) + y * np.sin(angle), y * np.cos(angle) - x * np.sin(angle)

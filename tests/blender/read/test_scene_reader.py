@@ -6,7 +6,6 @@ import pytest
 from camera_ray_caster.blender.read import evaluated, read_camera, read_scene, read_shapes
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.records import InputError
-from camera_ray_caster.core.timeline import Timeline
 
 from .scene_parts import new_object
 from .time_scene import PASSES, coordinates, disc, key, same
@@ -35,7 +34,7 @@ def test_camera_and_shapes_are_what_the_doors_give(scene, sphere):
         np.testing.assert_array_equal(found.camera.rays().origins, camera.rays().origins)
         np.testing.assert_array_equal(found.shapes.center, shapes.center)
         assert found.camera.name == camera.name == "Camera"
-        assert found.shapes.timeline == camera.timeline == Timeline()
+        assert (found.shapes.motion, camera.motion, shapes.motion) == (None, None, None)
 
 
 @pytest.mark.parametrize("read", [read_scene, read_shapes])
@@ -58,8 +57,7 @@ def test_motion_is_evaluated_once_for_camera_and_shapes(scene, sphere, counted):
     key(sphere, "location", (1, -3.0), (25, 3.0), index=0)
     scene.frame_set(7)
     found = read_scene(scene)
-    assert found.camera.timeline is found.shapes.timeline
-    assert found.motion is not None
+    assert found.camera.motion is found.shapes.motion is found.motion is not None
     once = len(counted)
     assert once == len(found.motion.states) + 4 + 1  # beside: the checks, and the frame itself
     read_camera(scene), read_shapes(scene)
@@ -79,7 +77,7 @@ def test_shapes_move_for_a_camera_that_is_not_the_active_one(blender, scene, sph
     key(sphere, "location", (1, -3.0), (25, 3.0), index=0)
     scene.frame_set(7)
     scanning, scene.camera = scene.camera, new_object("Other", blender.data.cameras.new("Other"))
-    assert read_shapes(scene).timeline.motion is None
+    assert read_shapes(scene).motion is None
     camera, shapes = read_camera(scene, scanning), read_shapes(scene, camera_object=scanning)
     x, y, frame = coordinates()
     same(cast(camera, shapes, passes=PASSES)["shape_index"] == 0, *disc(x, y, (frame - 13) / 4))
@@ -105,7 +103,7 @@ def test_the_shapes_of_an_eye_are_read_for_that_eye(scene, sphere):
     scene.render.use_multiview = True
     found = read_scene(scene, view="right")
     np.testing.assert_array_equal(found.camera.pose.eye, read_camera(scene, view="right").pose.eye)
-    motion = read_shapes(scene, view="right").timeline.motion
+    motion = read_shapes(scene, view="right").motion
     assert motion.camera_at(3.0).pose.eye[0] == found.camera.at(3.0).pose.eye[0]
     assert found.camera.pose.eye[0] != read_camera(scene).pose.eye[0]
     with pytest.raises(InputError, match="'middle' is not an eye"):

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 import camera_ray_caster as crc
-from camera_ray_caster.core.timeline import Timeline
 
 PASSES = ("depth", "distance", "position", "normal", "uv", "shape_index", "face_index", "object_index", "valid")
 BOUND = {"distance": "distance_bound", "position": "position_bound", "normal": "normal_bound"}
@@ -180,7 +179,7 @@ class Falling:
 
 
 def test_each_ray_meets_the_shapes_at_its_own_time():
-    shapes = replace(Falling().shapes_at(0.0), timeline=Timeline(Falling()))
+    shapes = replace(Falling().shapes_at(0.0), motion=Falling())
     times = np.array([0.0, 2.0, 2.0, 0.5])
     origin = np.array([[0.0, 0, 0], [0, 0, 0], [0, -2, 0], [0, -0.5, 0]])
     found = crc.cast_rays(origin, [0.0, 0, -1], shapes, passes=("distance",), times=times)["distance"]
@@ -189,7 +188,7 @@ def test_each_ray_meets_the_shapes_at_its_own_time():
     assert every["count"].tolist() == [2, 0, 2, 2]
     np.testing.assert_allclose(every["distance"], [4.0, 6.0] * 3, rtol=1e-15)
     assert crc.occluded(origin, origin - [0, 0, 9], shapes, times=times).tolist() == [True, False, True, True]
-    still = replace(shapes, timeline=Timeline())
+    still = replace(shapes, motion=None)
     assert crc.cast_rays(origin, [0.0, 0, -1], still, passes=("valid",), times=times)["valid"].all()
 
 
@@ -204,7 +203,7 @@ def test_shapes_that_have_gone_are_not_kept(moving):
     shapes = crc.spheres([[0.0, 0.0, -5.0]], 1.0)
     times = 1.5 if moving else None
     if moving:
-        shapes = replace(shapes, timeline=Timeline(Falling()))
+        shapes = replace(shapes, motion=Falling())
     for all_hits in (False, True):
         crc.cast_rays([0.0, 0, 0], [0.0, 0, -1], shapes, times=times, all_hits=all_hits)
     crc.occluded([0.0, 0, 0], [0.0, 0, -9], shapes, times=times)

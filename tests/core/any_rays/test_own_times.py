@@ -8,7 +8,6 @@ import pytest
 import camera_ray_caster as crc
 from camera_ray_caster.core.any_rays.moving import moving_of
 from camera_ray_caster.core.motion.evaluations import resolve
-from camera_ray_caster.core.timeline import Timeline
 
 PASSES = "depth", "position", "normal", "uv", "shape_index", "face_index", "position_bound", "normal_bound"
 CORNER = (np.arange(6)[:, None] * 7 + np.arange(6)).ravel()
@@ -68,7 +67,7 @@ def test_each_ray_meets_what_moves_as_a_cast_at_its_time_does(name):
         return camera, replace(at(frame), meshes=at(frame).meshes if "bends" in name else meshes)
 
     motion = resolve(evaluate, 0.0, 1.0, 0.1, 64)
-    shapes = replace(at(0.0), timeline=Timeline(motion))
+    shapes = replace(at(0.0), motion=motion)
     apart = moving_of(shapes)
     assert apart.alike.all()
     assert bool(apart.forms) == ("bends" in name)
@@ -106,6 +105,6 @@ def test_a_world_that_brightens_is_seen_by_each_ray_at_its_time():
         return replace(ball, world_color=(frame, frame, frame, 1.0))
 
     motion = resolve(lambda frame: (camera, at(frame)), 0.0, 1.0, 0.1, 16)
-    shapes, times = replace(at(0.0), timeline=Timeline(motion)), np.array([0.0, 0.25, 1.0])
+    shapes, times = replace(at(0.0), motion=motion), np.array([0.0, 0.25, 1.0])
     colors = crc.cast_rays([0, 0, 0], [[0, 0, 1.0]] * 3, shapes, passes="combined", times=times)["combined"]
     np.testing.assert_allclose(colors[:, 0], times, atol=1 / 255)

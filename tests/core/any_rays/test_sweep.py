@@ -11,7 +11,6 @@ from camera_ray_caster.core.any_rays.body_search import BodySearch
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.motion.evaluations import resolve
 from camera_ray_caster.core.records import Pose
-from camera_ray_caster.core.timeline import Timeline
 
 from ..casting.neighbors import with_motion
 
@@ -127,11 +126,11 @@ def test_where_nothing_moves_a_picture_with_times_is_cast_once(mode):
 def test_settings_that_change_during_a_sweep_are_refused():
     camera, _ = moving((90, 16))
     other = crc.camera("SCANNER", (90, 16), scanner_device="HDL_32E")
-    states = dict(camera.timeline.motion.states)
+    states = dict(camera.motion.states)
     last = max(states)
     states[last] = replace(states[last][0], model=other.model), states[last][1]
     with pytest.raises(crc.InputError, match="change during the sweep"):
-        replace(camera, timeline=Timeline(replace(camera.timeline.motion, states=states))).rays()
+        replace(camera, motion=replace(camera.motion, states=states)).rays()
 
 
 def test_rays_near_what_moves_are_found_whatever_it_is():
@@ -151,7 +150,7 @@ def test_rays_near_what_moves_are_found_whatever_it_is():
     first = at(0.0)
     state = crc.camera("PERSP", (8, 8))
     motion = resolve(lambda frame: (state, replace(at(frame), meshes=at(frame).meshes)), 0.0, 1.0, 0.1, 64)
-    shapes = replace(first, timeline=Timeline(motion))
+    shapes = replace(first, motion=motion)
     rng = np.random.default_rng(5)
     times = np.round(rng.uniform(0, 1, 600), 2)
     rays = rng.normal(size=(600, 3)), rng.normal(size=(600, 3))

@@ -13,7 +13,6 @@ from camera_ray_caster.core.camera import pixel_coordinates
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.records import InputError
-from camera_ray_caster.core.timeline import Timeline
 
 from ..cameras.model_examples import BORDER, EXAMPLES, TURNED, camera, raw_of
 from ..truth import truth
@@ -220,7 +219,7 @@ def test_pixels_with_their_own_times_have_the_camera_s_own_derivatives():
         plain, still = camera(key), camera(key, rows)
         points = plain.rays().origins[3, 5] + 3 * plain.rays().directions[3, 5]
         assert still.pixel_time is not None
-        moving = replace(still, timeline=Timeline(Sliding(plain)))
+        moving = replace(still, motion=Sliding(plain))
         for cam in (still, moving):
             found = cam.rays_jacobian()
             np.testing.assert_array_equal(found.directions, plain.rays_jacobian().directions)

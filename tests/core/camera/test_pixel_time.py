@@ -10,7 +10,6 @@ from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.motion.evaluations import measured, resolve
 from camera_ray_caster.core.records import PLANE, SPHERE, BlenderCamera, InputError, Shapes
-from camera_ray_caster.core.timeline import Timeline
 
 from ..casting.neighbors import with_motion
 
@@ -180,7 +179,7 @@ def test_a_fan_at_many_turns_a_frame_does_not_alias(turns):
         return
     assert len(motion.states) > 3 * turns
     assert measured(motion, evaluate, np.random.default_rng(2).uniform(4.75, 5.25, 50)).measured <= 0.15
-    hit = cast(replace(camera(SHUTTER), timeline=Timeline(motion)), scene, passes=("shape_index",))["shape_index"]
+    hit = cast(replace(camera(SHUTTER), motion=motion), scene, passes=("shape_index",))["shape_index"]
     time = camera(SHUTTER).rays().time
     x, y = (np.arange(64) + 0.5 - 32)[None] / 16, (np.arange(48) + 0.5 - 24)[:, None] / 16
     angle = 2 * np.pi * turns * time

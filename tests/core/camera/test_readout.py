@@ -10,7 +10,6 @@ from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.motion.evaluations import resolve
-from camera_ray_caster.core.timeline import Timeline
 
 from ..cameras.model_examples import raw_of
 from .test_pixel_time import shapes
@@ -47,7 +46,7 @@ def test_each_ray_is_cast_at_its_pixel_s_time_from_where_the_camera_is_then(key,
     still = moving(key, readout)
     first, last = still.pixel_time.first, still.pixel_time.last
     motion = resolve(lambda frame: (moving(key, readout, frame), shapes(((0, 0, -9), 1.0))), first, last, 0.01, 256)
-    cam = replace(still, timeline=Timeline(motion))
+    cam = replace(still, motion=motion)
     rays, time = cam.rays(), 5 + 2 * (0.75 * READ[readout] + 0.25 / 2)
     np.testing.assert_allclose(rays.time, time, rtol=8 * EPS)
     expected = np.stack((0.1 * time, 0 * time, -0.2 * time), axis=-1)

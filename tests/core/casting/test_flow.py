@@ -91,7 +91,7 @@ def test_each_point_is_where_60_digits_see_it_and_hidden_where_they_hide_it(mode
             assert not hidden
             continue
         point = exactly_moved(shapes, after, hit.shape, hit.position)
-        place, jacobian = camera.timeline.next.camera.project(np.array(point, float), jacobian=True)
+        place, jacobian = camera.next.project(np.array(point, float), jacobian=True)
         if np.isnan(flow).any():
             assert not ((place > 0) & (place < (64, 48))).all()
             assert not hidden

@@ -16,7 +16,6 @@ from camera_ray_caster.core.exports import export_files
 from camera_ray_caster.core.exports.format import Shot
 from camera_ray_caster.core.motion.evaluations import resolve
 from camera_ray_caster.core.records import no_shapes
-from camera_ray_caster.core.timeline import Timeline
 
 from ..cameras.model_examples import BORDER, EXAMPLES, camera, raw_of
 from .shots import CAMERAS, pose, shots
@@ -84,16 +83,16 @@ def timed(**settings):
     now = at(2.0)
     clock = now.pixel_time
     motion = resolve(lambda frame: (at(frame), no_shapes()), clock.first, clock.last, 1e-3, 64)
-    return replace(now, timeline=Timeline(motion))
+    return replace(now, motion=motion)
 
 
 def test_clocks_and_motion_come_back():
     there = timed()
     back = crc.camera_from_json(crc.camera_to_json(there))
-    assert len(there.timeline.motion.states) > 4
+    assert len(there.motion.states) > 4
     assert_same(there, back)
     assert_same(there.at(1.7), back.at(1.7))
-    assert back.timeline.motion.in_words() == there.timeline.motion.in_words()
+    assert back.motion.in_words() == there.motion.in_words()
     point = there.pose.eye + there.rays_at(20.0, 30.0).directions * 5
     assert there.project(point).tobytes() == back.project(point).tobytes()
 

@@ -30,7 +30,6 @@ from ...core.motion.unfinished import seen_by
 from ...core.records import BlenderCamera, InputError
 from ...core.report.report import uncolored
 from ...core.scene import Scene
-from ...core.timeline import Timeline
 from ..output.reports import left_out_count
 from ..properties.declared import SHADING
 from ..read import other_times
@@ -81,7 +80,7 @@ class Target:
         if self.motion is None:
             return replace(made(self.raw), pixel_time=None)
         motion = seen_by(self.motion, lambda camera: made(camera.record))
-        return replace(made(self.raw), timeline=Timeline(motion))
+        return replace(made(self.raw), motion=motion)
 
     def rectangle(self, raster) -> tuple[float, float, float, float]:
         """Return left, bottom, width and height of a raster's render window in the region."""
@@ -232,7 +231,7 @@ def _cast(target: Target, shapes, shown: dict[str, Any], step: int, spare: Image
     """
     camera, passes = target.camera(step), ("combined",)
     into = reusable(spare, passes, camera.raster.shape, np.float32)
-    scene = Scene(camera, replace(shapes, timeline=camera.timeline))
+    scene = Scene(camera, replace(shapes, motion=camera.motion))
     images = cast(scene, passes=passes, dtype=np.float32, **shown, progress=progress, into=into)
     return images, target.rectangle(camera.raster)
 

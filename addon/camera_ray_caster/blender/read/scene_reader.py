@@ -15,7 +15,6 @@ from ...core.casting.needs import frames_of
 from ...core.casting.passes import PASSES
 from ...core.records import InputError, Shapes
 from ...core.scene import Scene
-from ...core.timeline import Timeline
 from .camera_fields import check_camera, eye_object, has_pixel_times, is_removed
 from .depsgraph_shapes import shapes_record
 from .evaluated import camera_at, scene_at
@@ -68,7 +67,7 @@ def read_camera(scene, camera_object=None, *, frame=None, view="") -> Camera:
         _, camera = camera_at(active, depsgraph, eye)
         read = partial(scene_at, eye=eye, has_colors=False)
         motion = motion_of(camera, depsgraph, active, partial(go_to, scene), read)
-        return replace(camera, timeline=Timeline(motion))
+        return replace(camera, motion=motion)
 
 
 @_frame_came_second

@@ -13,7 +13,6 @@ from ...core.motion.means import same
 from ...core.records import Finding
 from ...core.report.report import Report
 from ...core.report.verification import verify
-from ...core.timeline import Timeline
 from ..read.evaluated import camera_at, scene_at
 from ..read.frames import frame_of, go_to
 from ..read.motion import motion_of
@@ -52,7 +51,7 @@ def _read_and_verified(scene, camera_object=None, frame=None, view="") -> tuple[
         read = partial(scene_at, eye=eye, has_colors=False)
         motion = motion_of(camera, depsgraph, active, partial(go_to, scene), read)
     if motion is not None:
-        camera = replace(camera, timeline=Timeline(motion))
+        camera = replace(camera, motion=motion)
         findings[-1:] = verify(camera, grid=MOVING_GRID)
     return camera, findings
 

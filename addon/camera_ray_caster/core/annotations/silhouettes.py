@@ -16,7 +16,6 @@ from ..maths.speed import lending
 from ..motion.apart import of_rows, rows_of
 from ..motion.evaluations import Motion
 from ..records import Shapes
-from ..timeline import ONE_TIME, Timeline
 
 Box = tuple[int, int, int, int]
 """x0, x1, y0, y1 in the pixels of the render window, row 0 at the bottom, x1 and y1 not included."""
@@ -97,6 +96,5 @@ def _boxes(index: np.ndarray, columns: np.ndarray, rows: np.ndarray) -> tuple[li
 
 def _only(shapes: Shapes, row: int) -> Shapes:
     """Return a single shape, with its motion."""
-    motion, only = shapes.timeline.motion, np.array([row])
-    timeline = Timeline(of_rows(motion, only)) if isinstance(motion, Motion) else ONE_TIME
-    return replace(rows_of(shapes, only), timeline=timeline)
+    motion, only = shapes.motion, np.array([row])
+    return replace(rows_of(shapes, only), motion=of_rows(motion, only) if isinstance(motion, Motion) else None)

@@ -203,7 +203,7 @@ def times_of(shapes: Shapes, times, shape: tuple[int, ...]) -> np.ndarray | None
         raise InputError(f"times of shape {frames.shape} do not broadcast to rays of shape {shape}") from error
     if not np.isfinite(each).all():
         raise InputError("times hold NaN or infinite numbers: give each ray the frame at which it is cast")
-    motion = shapes.timeline.motion
+    motion = shapes.motion
     if isinstance(motion, Motion) and each.size:
         first, last = motion.intervals[0].frames[0], motion.intervals[-1].frames[-1]
         if each.min() < first - FRAMES or each.max() > last + FRAMES:
@@ -211,7 +211,7 @@ def times_of(shapes: Shapes, times, shape: tuple[int, ...]) -> np.ndarray | None
                 f"times from {each.min():g} to {each.max():g} lie beyond the frames {first:g} to {last:g} at which the "
                 "shapes were read: read them over all of these frames"
             )
-    return None if shapes.timeline.motion is None else each
+    return None if shapes.motion is None else each
 
 
 def _all(shapes, each, origin, direction, shape, passes, span: Span, dtype) -> RayImages:

@@ -69,7 +69,7 @@ _known: WeakKeyDictionary[Shapes, Moving | None] = WeakKeyDictionary()
 def moving_of(shapes: Shapes) -> Moving | None:
     """Return the shapes, divided; None if they have no motion that tells which of them move."""
     if shapes not in _known:
-        motion = shapes.timeline.motion
+        motion = shapes.motion
         _known[shapes] = _divided(motion) if isinstance(motion, Motion) else None
     return _known[shapes]
 
@@ -140,7 +140,7 @@ class HitGroup:
 def prepare(shapes: Shapes, passes: tuple[str, ...]) -> None:
     """Make the trees of shapes that do not move, before several threads need them for rays with times."""
     apart = _apart(shapes, np.zeros(1), passes)
-    if apart is not None or shapes.timeline.motion is None:
+    if apart is not None or shapes.motion is None:
         search_of(shapes if apart is None else apart.still)
 
 

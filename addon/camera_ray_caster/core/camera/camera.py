@@ -19,7 +19,6 @@ from ..maths.speed import lazy
 from ..maths.vector import matvec, norm
 from ..memory import of_pixels, require
 from ..records import BlenderCamera, InputError, Pose, Raster, Rays, RaysJacobian
-from ..timeline import ONE_TIME, Timeline
 from .changed import changed
 from .description import Description
 from .evaluation import pixels_of, rays_through
@@ -30,7 +29,7 @@ from .posed import posed
 from .sampling import sampled
 from .spherical_stereo import with_eye
 from .sweep import rays_in_sweep
-from .times import PixelTime, SweepTime
+from .times import MovingCamera, PixelTime, SweepTime
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -54,8 +53,11 @@ class Camera(Description):
     """The opening that admits rays other than the chief ray; None for a pinhole."""
     pixel_time: PixelTime | None = None
     """The frame of each pixel; None if the picture has one time."""
-    timeline: Timeline = ONE_TIME
-    """The camera, and the shapes that it sees, at other times."""
+    motion: MovingCamera[Camera] | None = None
+    """The camera over the times of its pixels; None if they have one time, or nothing moves."""
+    next: Camera | None = None
+    previous: Camera | None = None
+    """The camera at the neighboring frames: see ``casting.flow``. None if they were not read."""
 
     from_record: ClassVar[Callable[[BlenderCamera], Camera]]
     """The function of ``build`` that makes cameras."""
@@ -87,8 +89,7 @@ class Camera(Description):
 
     def at(self, frame: float) -> Camera:
         """Return the camera at a frame, without its pixel_time."""
-        motion = self.timeline.motion
-        return replace(self, pixel_time=None) if motion is None else motion.camera_at(frame)
+        return replace(self, pixel_time=None) if self.motion is None else self.motion.camera_at(frame)
 
     def with_pose(self, pose) -> Camera:
         """Return the camera at another pose, (4, 4) to the world, as in ``crc.camera``. Raises InputError for a matrix
@@ -183,7 +184,7 @@ class Camera(Description):
     @property
     def _moves(self) -> bool:
         """Whether pixels have cameras of their own."""
-        return self.pixel_time is not None and self.timeline.motion is not None
+        return self.pixel_time is not None and self.motion is not None
 
     def _timed(self, ask: Callable, x, y, axes: tuple[int, ...]) -> tuple[np.ndarray, Any]:
         """Return the times of pixels, and the origins and directions, (2, ..., *axes), that ``ask(camera, x, y)``
@@ -244,13 +245,12 @@ class Camera(Description):
         """Return the pixel coordinates (..., 2) in the full frame of world points (..., 3); NaN for points that are not
         seen or not finite. With ``jacobian`` return also the derivatives with respect to the points, (..., 2, 3), in
         pixels per world unit, for every model; see ``camera.jacobian``. With ``jacobian="settings"`` these are the
-        derivatives by the n numbers of ``parameters`` instead, (..., 2, n), in pixels per unit of each (radians for
-        angles); 0 by a number on which the picture does not depend. ``rows="top"``: pixels as OpenCV has them, those of
-        ``K``, with y down from the center of the top left one.
+        derivatives by the n numbers of ``parameters`` instead, (..., 2, n), per unit of each (radians for angles); 0 by
+        a number on which the picture does not depend. ``rows="top"``: pixels as OpenCV has them, those of ``K``, with y
+        down from the center of the top left one.
 
         With pixel times and a moving camera the pixels are found by a search, with points that stand still: see
-        ``meeting``. Raises InputError for derivatives in this case and of a scanner, and for an array of another
-        shape.
+        ``meeting``. Raises InputError for derivatives then and of a scanner, and for an array of another shape.
         """
         if word(rows, "rows", (BOTTOM, TOP)) == TOP:
             result = self.project(points, jacobian)
@@ -260,8 +260,7 @@ class Camera(Description):
         points = numbers(points, "points")
         if points.shape[-1:] != (3,):
             raise InputError(f"points of shape {points.shape} cannot be projected: give x, y, z, shape (..., 3)")
-        each = points.reshape(-1, 3)
-        by_settings = isinstance(jacobian, str) and jacobian == "settings"
+        each, by_settings = points.reshape(-1, 3), isinstance(jacobian, str) and jacobian == "settings"
         if not by_settings and not isinstance(jacobian, bool | np.bool_):
             raise InputError(f"jacobian is {shown(jacobian)}: it must be True, False or 'settings'")
         if jacobian:
@@ -277,10 +276,9 @@ class Camera(Description):
             seen = self.pose, each, pixels.reshape(-1, 2)
             derivatives = of_settings(self._varied, count, *seen) if by_settings else of_projection(self.model, *seen)
             return pixels, derivatives.reshape(*points.shape[:-1], 2, count)
-        if self._moves:
-            time: Any = self.pixel_time
-            motion: Any = self.timeline.motion
-            sought = meeting(time, lambda frame, indices: self.at(frame).project(each[indices]), len(each), motion.cuts)
+        if self.pixel_time is not None and self.motion is not None:
+            time, cuts = self.pixel_time, self.motion.cuts
+            sought = meeting(time, lambda frame, indices: self.at(frame).project(each[indices]), len(each), cuts)
             return sought.reshape(*points.shape[:-1], 2)
         return pixels_of(self, each).reshape(*points.shape[:-1], 2)
 

@@ -7,7 +7,6 @@ from dataclasses import replace
 from ..cameras import find_model
 from ..cameras.parts.pose import pose_from, pose_matrix
 from ..records import InputError
-from ..timeline import ONE_TIME
 from .spherical_stereo import with_eye
 
 
@@ -19,10 +18,11 @@ def posed(camera, matrix):
     raw = replace(camera.record, matrix_world=pose_matrix(matrix))
     pose = pose_from(raw)
     model = with_eye(find_model(raw).from_blender(raw, camera.raster), raw, pose)
-    return replace(camera, model=model, pose=pose, record=raw, aperture=model.aperture(raw, pose), timeline=ONE_TIME)
+    others = {"motion": None, "next": None, "previous": None}
+    return replace(camera, model=model, pose=pose, record=raw, aperture=model.aperture(raw, pose), **others)
 
 
 def check_still(camera, remedy: str) -> None:
     """Raise InputError for a camera that moves while it is exposed."""
-    if camera.timeline.motion is not None:
+    if camera.motion is not None:
         raise InputError(f"camera {camera.name!r} moves from pixel to pixel: give camera.at(frame) another {remedy}")

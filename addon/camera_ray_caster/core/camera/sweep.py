@@ -22,7 +22,7 @@ def rays_in_sweep(camera: Any, time: SweepTime, x, y, shape: tuple[int, ...]) ->
     ``Camera.rays_at``. Raises InputError for a scanner whose settings change during the sweep.
     """
     frames = np.clip(time.frame_at(x, y), *time.span)
-    motion = camera.timeline.motion
+    motion = camera.motion
     if motion is None:
         return replace(rays_through(camera, x, y, shape), time=np.broadcast_to(frames, shape))
     x, y, each = (np.broadcast_to(array, shape).reshape(-1) for array in (x, y, frames))

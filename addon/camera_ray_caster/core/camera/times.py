@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol, TypeVar
 
 import numpy as np
 
@@ -105,3 +106,28 @@ class SweepTime:
 
 
 PixelTime = LinearTime | ImageTime | SweepTime
+
+
+OneTime = TypeVar("OneTime", covariant=True)
+"""The type of the cameras at one time."""
+
+
+class MovingCamera(Protocol[OneTime]):
+    """An object that returns the camera of a scene at any frame, such as ``Motion``."""
+
+    @property
+    def is_still(self) -> bool:
+        """Whether neither the camera nor the shapes move."""
+
+    @property
+    def cuts(self) -> tuple[float, ...]:
+        """The frames at which motion may change abruptly."""
+
+    def camera_at(self, frame: float) -> OneTime:
+        """Return the camera at a frame, without its pixel times."""
+
+    def poses_at(self, frames: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+        """Return the eyes (n, 3) and bases (n, 3, 3) of the camera at frames (n,); None if its model changes."""
+
+    def in_words(self) -> list[str]:
+        """Return lines for the report on the accuracy of the motion."""

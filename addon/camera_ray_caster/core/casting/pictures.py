@@ -51,7 +51,7 @@ class Picture:
         points not seen in the full frame. ``beside``: pixels (count, 2); with pixel times the search begins near their
         mean time, so that of several pixels that see a point one near that time is found.
         """
-        clock, motion = self.camera.pixel_time, self.camera.timeline.motion
+        clock, motion = self.camera.pixel_time, self.camera.motion
         if clock is None:
             seen_at = self._project(points, None, np.arange(count))
         else:

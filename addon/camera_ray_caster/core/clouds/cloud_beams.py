@@ -103,7 +103,7 @@ class CameraBeams(CloudBeams):
 
     def turned(self, at: Places, vectors: np.ndarray) -> np.ndarray:
         """See CloudBeams."""
-        camera, motion, basis = self.camera, self.camera.timeline.motion, self.camera.pose.basis
+        camera, motion, basis = self.camera, self.camera.motion, self.camera.pose.basis
         bases = np.broadcast_to(basis, (len(vectors), 3, 3))
         if self.times is not None and motion is not None:
             frames, frame_index = np.unique(self.times[at], return_inverse=True)

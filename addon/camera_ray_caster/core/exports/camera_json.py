@@ -25,7 +25,6 @@ from ..motion.evaluations import Motion
 from ..motion.interpolation import TimeInterval
 from ..records import BlenderCamera, InputError, no_shapes
 from ..text_forms.json_text import as_text
-from ..timeline import Timeline
 from ..version import VERSION
 from .format import Format, Shot
 from .json_values import merged, plain, restored, shared, without
@@ -143,7 +142,7 @@ def recorded(camera: Camera) -> dict[str, Any]:
     ``motion``.
     """
     entry: dict[str, Any] = {"record": plain(_record(camera))}
-    motion = camera.timeline.motion
+    motion = camera.motion
     if isinstance(motion, Motion):
         entry["evaluations"] = [
             {FRAME: frame, "record": without(plain(_record(_of_one_time(state))), entry["record"])}
@@ -182,7 +181,7 @@ def _camera(entry: Mapping[str, Any]) -> Camera:
     }
     accuracy["unresolved"] = tuple(map(tuple, accuracy["unresolved"]))
     intervals = tuple(TimeInterval.of(states, tuple(frames)) for frames in entry["intervals"])
-    return replace(camera, timeline=Timeline(Motion(intervals, states, **accuracy)))
+    return replace(camera, motion=Motion(intervals, states, **accuracy))
 
 
 def _restored_record(record: Mapping[str, Any]) -> BlenderCamera:

@@ -30,7 +30,7 @@ def join(*shapes: Shapes) -> Shapes:
     for record in shapes:
         if not isinstance(record, Shapes):
             raise TypeError(f"join takes shapes, not {type(record)}")
-        if any(record.timeline):
+        if (record.motion, record.next, record.previous) != (None, None, None):
             raise InputError("shapes that move cannot be joined: join those of one frame")
     if len(shapes) < 2:
         return shapes[0] if shapes else no_shapes()

@@ -20,7 +20,6 @@ from ..motion.interpolation import TimeInterval
 from ..programs.parts.placed import Rolling
 from ..programs.reading.mounted import Mounted, mounted
 from ..records import InputError, no_shapes
-from ..timeline import Timeline
 from .cameras import checked_path, of_lens, pair_of_pixels, size_of
 from .models import models
 
@@ -120,7 +119,7 @@ def _rolling(camera: Camera, rolling: Rolling, rate: float) -> Camera:
     motion = Motion((TimeInterval.of(states, (times.first, times.last)),), states, times.tolerance, 0.0, ())
     middle, pose = motion.camera_at(min(max(settings["frame"], times.first), times.last)).pose, np.eye(4)
     pose[:3, :3], pose[:3, 3] = middle.basis, middle.eye
-    return replace(first.with_pose(pose), timeline=Timeline(motion))
+    return replace(first.with_pose(pose), motion=motion)
 
 
 def rigid(pose: np.ndarray) -> np.ndarray:

@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 
 from ..records import Shapes
-from ..timeline import ONE_TIME
 from .evaluations import Motion
 from .interpolation import TimeInterval, matched
 from .means import same
@@ -27,14 +26,14 @@ LIGHT = "lights", "world"
 
 
 def rows_of(shapes: Shapes, rows: np.ndarray) -> Shapes:
-    """Return some of the shapes, by index, without their timeline."""
+    """Return some of the shapes, by index, without other times."""
     each = {name: getattr(shapes, name) for name in BY_SHAPE}
     kept = {name: values[rows] if len(values) else values for name, values in each.items()}
     slots = None if shapes.slots is None else replace(shapes.slots, first=shapes.slots.first[rows])
     used, numbers = np.unique(kept["mesh"], return_inverse=True)
     first = np.count_nonzero(used < 0)
     meshes, kept["mesh"] = tuple(shapes.meshes[k] for k in used[first:]), (numbers - first).astype(np.int32)
-    return replace(shapes, meshes=meshes, slots=slots, timeline=ONE_TIME, **kept)
+    return replace(shapes, meshes=meshes, slots=slots, motion=None, next=None, previous=None, **kept)
 
 
 def moving(motion: Motion, but: Collection[str] = ()) -> np.ndarray | None:

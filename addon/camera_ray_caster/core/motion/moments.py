@@ -36,5 +36,5 @@ def check_still(shapes: Shapes, owners: Collection[str]) -> None:
 
 def _others(shapes: Shapes) -> list[tuple[float, Shapes]]:
     """Return the frames and shapes of all evaluations, none for a picture of one time."""
-    motion = shapes.timeline.motion
+    motion = shapes.motion
     return [(frame, other) for frame, (_, other) in sorted(motion.states.items())] if isinstance(motion, Motion) else []

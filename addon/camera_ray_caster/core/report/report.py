@@ -138,7 +138,7 @@ def report_cast(
     host: Mapping[str, Any] | None = None,
 ) -> Report:
     """Return the report of one cast of a view layer; if ``several``, ``not_done`` has the layer's name."""
-    motion, pixels = camera.timeline.motion, camera.raster.shape[0] * camera.raster.shape[1]
+    motion, pixels = camera.motion, camera.raster.shape[0] * camera.raster.shape[1]
     return Report(
         camera=camera_facts(camera),
         frame=frame,
