@@ -68,7 +68,7 @@ def test_a_wall_shows_the_picture_where_the_inverse_says(blender, camera_scene, 
 
 def test_many_origins_are_refused(camera_scene):
     camera_scene.camera.data.camera_ray_caster.model = "GENERAL_LINEAR"
-    with pytest.raises(InputError, match="many origins"):
+    with pytest.raises(InputError, match="no single viewpoint"):
         add_projector(camera_scene)
     assert not camera_scene.objects.get("Camera Projector")
 

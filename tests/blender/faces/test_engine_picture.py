@@ -125,7 +125,7 @@ def test_eyes_of_a_stereo_camera_and_view_layers(cubes):
 
 
 @pytest.mark.parametrize(("model", "time", "why"), [
-    ("GENERAL_LINEAR", "NONE", "many origins"), ("DOME_MASTER", "ROWS", "its own time"),
+    ("GENERAL_LINEAR", "NONE", "no single viewpoint"), ("DOME_MASTER", "ROWS", "its own time"),
 ])  # fmt: skip
 def test_what_cannot_be_rendered_is_refused_in_a_line(cubes, model, time, why):
     own = cubes.camera.data.camera_ray_caster
@@ -150,7 +150,7 @@ def test_the_button_renders_the_passes_beside_the_picture(blender, cubes, tmp_pa
     assert pixels == pytest.approx(expected, abs=1e-3)  # half floats
     cubes.view_layers[0].use_pass_z = False
     blender.ops.camera_ray_caster.render_through_model()
-    assert summary(latest(cubes)).startswith("Picture by Workbench, 5 shapes, "), "without rays"
+    assert summary(latest(cubes)).startswith("Workbench picture, 5 shapes, "), "without rays"
     assert latest(cubes).rays_per_second is None
 
 

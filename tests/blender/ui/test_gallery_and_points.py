@@ -71,7 +71,7 @@ def test_the_camera_of_a_time_or_a_place_comes_with_all_that_it_needs(blender, n
 
 def test_what_the_gallery_does_not_have_is_refused(blender):
     for operator in (blender.ops.camera_ray_caster.append_camera, blender.ops.camera_ray_caster.open_example):
-        with pytest.raises(RuntimeError, match="the gallery has no scene 'cat'"):
+        with pytest.raises(RuntimeError, match="The gallery has no scene 'cat'"):
             operator(name="cat")
 
 

@@ -115,7 +115,7 @@ def test_the_render_panel_leads_to_cycles_and_the_passes_have_the_alpha_threshol
     from camera_ray_caster.blender.ui import render_panels
 
     said = drawn(blender, render_panels.RenderPanel)
-    assert "For materials and light" in said
+    assert "Cycles renders materials and light" in said
     assert "camera_ray_caster.use_in_cycles" in said
     assert "use_pass_albedo pass_alpha_threshold" in " ".join(
         word for word in drawn(blender, render_panels.PassesPanel).split()

@@ -99,7 +99,7 @@ def test_a_result_is_shown_in_colors(blender, scene):
     shown = pixels_of(there)
     assert np.array_equal(pixels_of(images.show_in_colors(images.image_name("depth"))[0]), shown)
     assert images.show_in_colors(images.image_name("combined"))[0].name == images.image_name("combined")
-    with pytest.raises(RuntimeError, match="no cast has made an image 'Cat'"):
+    with pytest.raises(RuntimeError, match="No cast has made an image 'Cat'"):
         blender.ops.camera_ray_caster.show_result(name="Cat")
 
 

@@ -5,7 +5,7 @@ import pytest
 
 import camera_ray_caster as crc
 from camera_ray_caster.core.web.page import example
-from camera_ray_caster.core.web.room import EYE, room_shapes
+from camera_ray_caster.core.web.room import BALLS, EYE, SCENE
 
 from .programs import KEYS
 
@@ -16,6 +16,13 @@ SLOWEST = 200
 """Milliseconds of a picture of 320 x 180 in software: five frames a second."""
 
 pytestmark = pytest.mark.full
+
+
+def room_from(eye):
+    """The room as shapes for the caster: balls, then walls; ``eye`` is the origin."""
+    _, centers, radii, _ = zip(*BALLS, strict=True)
+    walls = [(np.subtract(wall["center"], eye), np.transpose((wall["u"], wall["v"]))) for wall in SCENE["rectangles"]]
+    return crc.join(crc.spheres(np.subtract(centers, eye), radii), *(crc.planes(*wall) for wall in walls))
 
 
 def even(index):
@@ -29,7 +36,7 @@ def even(index):
 @pytest.mark.parametrize("key", KEYS)
 def test_the_shader_sees_what_our_cast_sees(opened, key):
     camera = example(crc.models()[key], clip_start=1e-4, clip_end=1e4)
-    images = crc.cast(camera, room_shapes((0.0, EYE, 3.0)), passes=("shape_index", "distance", "valid"))
+    images = crc.cast(camera, room_from((0.0, EYE, 3.0)), passes=("shape_index", "distance", "valid"))
     expected = np.where(images["valid"], np.where(images["shape_index"] < 0, NOTHING, images["shape_index"]), NO_RAY)
     read = opened.execute_script("return window.lesson.indices(arguments[0])", key)
     found = np.array(read).reshape(*expected.shape, 2)

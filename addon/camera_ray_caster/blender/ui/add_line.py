@@ -8,8 +8,9 @@ from mathutils import Euler, Matrix, Vector
 from ...core.camera.pixel_time import GRAY
 from ...core.cameras.parts.lines import SECOND_SLIT, SLIT
 from ...core.cameras.strip import PATH
+from ...core.records import InputError
 from ..properties.declared import GROUP
-from .needs import OfCamera, camera_object_of, select_alone
+from .needs import OfCamera, camera_object_of, reporting, select_alone
 
 QUARTER = 1.5707963267948966
 GRADIENT = 256, 16
@@ -42,6 +43,7 @@ class AddLine(OfLine, bpy.types.Operator):
     bl_label = "Add Slit or Path"
     bl_options = {"REGISTER", "UNDO"}
 
+    @reporting
     def execute(self, context):
         """Add the line to the collections of the camera."""
         camera = camera_object_of(context)
@@ -56,7 +58,6 @@ class AddLine(OfLine, bpy.types.Operator):
         setattr(getattr(camera.data, GROUP), self.setting, line)
         if context.area is not None and context.area.type == "VIEW_3D":  # the Properties editor stays with the camera
             select_alone(context, line)
-        return {"FINISHED"}
 
 
 class SelectLine(OfLine, bpy.types.Operator):
@@ -66,14 +67,13 @@ class SelectLine(OfLine, bpy.types.Operator):
     bl_label = "Select Slit or Path"
     bl_options = {"REGISTER", "UNDO"}
 
+    @reporting
     def execute(self, context):
         """Select the line and make it active."""
         line = getattr(getattr(camera_object_of(context).data, GROUP), self.setting)
         if line is None or line.name not in context.view_layer.objects:
-            self.report({"ERROR"}, "The object is not in this view layer: enable its collection, or choose another one")
-            return {"CANCELLED"}
+            raise InputError("the object is not in this view layer: enable its collection, or choose another one")
         select_alone(context, line)
-        return {"FINISHED"}
 
 
 class AddGradient(OfCamera, bpy.types.Operator):
@@ -84,6 +84,7 @@ class AddGradient(OfCamera, bpy.types.Operator):
     bl_label = "Add Gradient"
     bl_options = {"REGISTER", "UNDO"}
 
+    @reporting
     def execute(self, context):
         """Add the image to the file, and assign it to the camera."""
         image = bpy.data.images.new("Time Gradient", *GRADIENT, float_buffer=True, is_data=True)
@@ -93,7 +94,6 @@ class AddGradient(OfCamera, bpy.types.Operator):
         image.pixels.foreach_set(np.tile(gray, (rows, 1)).ravel())
         image.pack()
         setattr(getattr(camera_object_of(context).data, GROUP), GRAY.name, image)
-        return {"FINISHED"}
 
 
 def _path(name: str):

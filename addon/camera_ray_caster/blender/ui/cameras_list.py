@@ -46,8 +46,7 @@ class UseCamera(bpy.types.Operator):
         """Set the camera."""
         context.scene.camera = find_camera(context.scene, self.name)
         if self.see_through and not is_seen_through(context):
-            return bpy.ops.camera_ray_caster.see_through()
-        return {"FINISHED"}
+            bpy.ops.camera_ray_caster.see_through()
 
 
 class SidebarCameras(Sidebar, bpy.types.Panel):

@@ -93,7 +93,6 @@ class CastAll(bpy.types.Operator):
         words = ["--cameras", ALL, "--format", self.format, "--engine", self.engine]
         words += ["--skip-existing"] * self.skip_existing
         in_process.begin("cast", [*words, *chosen_frames.as_options(scene, self.frames, cameras)], folder)
-        return {"FINISHED"}
 
 
 def _own_folder() -> Path:

@@ -18,10 +18,10 @@ from ...core.report.report import Report
 from ..engine.job import Job
 from ..output import image_datablocks, reports
 from ..properties.pass_properties import ticked
-from ..properties.setting_labels import in_labels
 from ..read.camera_fields import view_names
 from ..read.scene_reader import evaluated_camera
 from .needs import OfScene, reporting
+from .other_engine import show_in_sidebars
 
 INTERVAL = 0.1
 """Seconds between two timer events, which update the progress and store images."""
@@ -82,21 +82,19 @@ class Cast(OfScene, bpy.types.Operator):
         """Cast and wait for the result."""
         source, jobs = self.read(context)
         passes, report = cast_views(jobs)
-        return self.finish(context, list(image_datablocks.store(passes)), report, source)
+        self.finish(context, list(image_datablocks.store(passes)), report, source)
 
+    @reporting
     def invoke(self, context, event):
         """Read the scene, then cast on a thread; Blender calls ``modal`` until the cast has ended."""
-        try:
-            source, jobs = self.read(context)
-        except InputError as error:
-            self.report({"ERROR"}, in_labels(str(error)))
-            return {"CANCELLED"}
+        source, jobs = self.read(context)
         timer = context.window_manager.event_timer_add(INTERVAL, window=context.window)
         _running.append(RunningCast(Worker(partial(cast_views, jobs)), timer, source))
         context.window_manager.modal_handler_add(self)
         show_progress()
         return {"RUNNING_MODAL"}
 
+    @reporting
     def modal(self, context, event):
         """Show the progress, stop on Esc during the cast, then store the images; pass other events to Blender."""
         running = _running[0]
@@ -114,14 +112,11 @@ class Cast(OfScene, bpy.types.Operator):
                     ending.pop_all()
                     return {"PASS_THROUGH"}
                 _, report = running.worker.result()
-                return self.finish(context, running.stored, report, running.source)
-            except InputError as error:
-                self.report({"ERROR"}, in_labels(str(error)))
-            except MemoryError:
-                self.report(
-                    {"ERROR"}, "There is not enough memory for these passes: choose fewer passes, or fewer pixels"
-                )
-        return {"CANCELLED"}
+            except MemoryError as error:
+                raise InputError(
+                    "there is not enough memory for these passes: choose fewer passes, or fewer pixels"
+                ) from error
+            self.finish(context, running.stored, report, running.source)
 
     def cancel(self, context):
         """Stop the cast. Blender calls this when it ends the operator itself, for example to load another file."""
@@ -141,11 +136,10 @@ class Cast(OfScene, bpy.types.Operator):
         image_datablocks.show(made)
         reports.keep(report, source)
         if report.shapes == 0:
-            self.report({"WARNING"}, "The scene has no surface to cast: the images show the background")
+            self.report({"WARNING"}, "The scene has nothing to cast: the images show the background")
         else:
             others = f" and {len(made) - 1} more" if len(made) > 1 else ""
             self.report({"INFO"}, f"{report.rays:,} rays cast: open image {made[0]!r}{others} with Show Result")
-        return {"FINISHED"}
 
 
 def cast_views(jobs: Mapping[str, Job], progress=None) -> tuple[dict[tuple[str, str], Any], Report]:
@@ -166,16 +160,9 @@ def show_progress() -> None:
     """Show the progress in the status bar and the sidebars. Redraw only if the text has changed: drawing takes time."""
     done = fraction()
     text = None if done is None else "Storing Images" if done == 1 else f"Casting Rays  {done:.0%}      Esc: Stop"
-    if _shown == [text]:
-        return
-    _shown[:] = [text]
-    for window in bpy.context.window_manager.windows:
-        window.workspace.status_text_set(text)
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                for region in area.regions:
-                    if region.type == "UI":
-                        region.tag_redraw()
+    if _shown != [text]:
+        _shown[:] = [text]
+        show_in_sidebars(text)
 
 
 def stop() -> None:

@@ -47,7 +47,7 @@ def summary(report) -> str:
     engine.
     """
     shapes = f"{report.shapes:,} {'shape' if report.shapes == 1 else 'shapes'}"
-    made = f"{report.rays:,} rays" if report.rays else f"Picture by {engine_label(report.combined['engine'])}"
+    made = f"{report.rays:,} rays" if report.rays else f"{engine_label(report.combined['engine'])} picture"
     return f"{made}, {shapes}, {sum(report.seconds.values()):.3g} s"
 
 

@@ -74,7 +74,6 @@ class PointsToMesh(OfPoints, bpy.types.Operator):
         context.collection.objects.link(made)
         select_alone(context, made)
         self.report({"INFO"}, f"{len(cloud):,} points")
-        return {"FINISHED"}
 
 
 class SavePoints(OfPoints, ExportHelper, bpy.types.Operator):
@@ -98,7 +97,6 @@ class SavePoints(OfPoints, ExportHelper, bpy.types.Operator):
         cloud = self.points(context)
         paths = save_points(cloud, path.parent, self.format, name=path.stem, axes=self.axes).paths
         self.report({"INFO"}, f"Wrote {len(cloud):,} points into {', '.join(path.name for path in paths)}")
-        return {"FINISHED"}
 
 
 class SidebarPoints(Sidebar, bpy.types.Panel):

@@ -34,7 +34,6 @@ class UseInCycles(OfRays, bpy.types.Operator):
             context.scene.render.engine = "CYCLES"
         for line in remarks:
             self.report({"INFO"}, line)
-        return {"FINISHED"}
 
 
 class BackToBlender(OfCamera, bpy.types.Operator):
@@ -56,7 +55,6 @@ class BackToBlender(OfCamera, bpy.types.Operator):
     def execute(self, context):
         """Restore the camera's type."""
         from_cycles(camera_object_of(context))
-        return {"FINISHED"}
 
 
 class FitLens(OfRays, bpy.types.Operator):
@@ -82,7 +80,6 @@ class FitLens(OfRays, bpy.types.Operator):
             setattr(scene.render if name.startswith("pixel_aspect") else item.data, name, value)
         setattr(getattr(item.data, GROUP), MODEL.name, BLENDERS_OWN)
         self.report({"INFO"}, lens.message)
-        return {"FINISHED"}
 
 
 def _turned(context, item, elevation: float):
@@ -100,8 +97,8 @@ def _turned(context, item, elevation: float):
 
 
 class AddProjector(OfRays, bpy.types.Operator):
-    """Add a lamp that shines a picture through this camera's model in Cycles, on any device. The picture is a color
-    grid, to be exchanged in the lamp's nodes"""
+    """Add a lamp that projects a picture through this camera's model in Cycles, on any device. The picture is a color
+    grid: replace it in the lamp's nodes"""
 
     bl_idname = "camera_ray_caster.add_projector"
     bl_label = "Add Projector"
@@ -112,8 +109,7 @@ class AddProjector(OfRays, bpy.types.Operator):
         """Add the lamp, select it, and report the error of its table."""
         lamp, error = add_projector(context.scene, camera_object_of(context))
         select_alone(context, lamp)
-        self.report({"INFO"}, f"{lamp.name} shines in Cycles, exact to {error:.2g} pixels; the picture is in its nodes")
-        return {"FINISHED"}
+        self.report({"INFO"}, f"{lamp.name} projects, exact to {error:.2g} pixels; its picture is in its nodes")
 
 
 CLASSES = (UseInCycles, BackToBlender, FitLens, AddProjector)

@@ -145,12 +145,11 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
             words += [f"--to={unique_name(target, bpy.data.objects)}"] if target else []
             words += [f"--fit={degrees(self.fit_within)!r}"] if self.fit else []
             in_process.begin("export", [*words, *chosen_frames.as_options(scene, self.frames, cameras)], folder)
-            return {"FINISHED"}
+            return
         fit = self.fit_within if self.fit else None
         written = exports.write(scene, self.format, cameras, frames, folder, target, fit=fit, shown=shown)
         for line in said_of(*written, folder, self.fit):
             self.report({"INFO"}, line)
-        return {"FINISHED"}
 
 
 class ExportMenu(bpy.types.Menu):
@@ -181,7 +180,6 @@ class CopyK(OfScene, bpy.types.Operator):
         if camera.K is None:
             raise InputError(f"{camera.model.label} has no K matrix: use Copy Camera to copy all its numbers")
         context.window_manager.clipboard = _as_text(camera.K)
-        return {"FINISHED"}
 
 
 class CopyWorldToCamera(OfScene, bpy.types.Operator):
@@ -195,7 +193,6 @@ class CopyWorldToCamera(OfScene, bpy.types.Operator):
     def execute(self, context):
         """Copy the matrix."""
         context.window_manager.clipboard = _as_text(read_camera(context.scene).opencv_from_world)
-        return {"FINISHED"}
 
 
 def _as_text(matrix) -> str:

@@ -7,13 +7,13 @@ import bpy
 from ...core.camera.pixel_time import END, SETTINGS, START
 from ..properties.declared import GROUP
 from ..read.frames import frame_of
-from .needs import OfCamera, camera_object_of
+from .needs import OfCamera, camera_object_of, reporting
 from .notes import Note
 
 
 class FollowTimeline(OfCamera, bpy.types.Operator):
-    """Add drivers that move Start and End, the pixel times, with the timeline. The picture of the current frame stays
-    the same, and each frame of an animation gets its own
+    """Add drivers that move Start and End of the pixel times with the timeline. The current frame's picture stays the
+    same; in an animation each frame gets its own
     """
 
     bl_idname = "camera_ray_caster.follow_timeline"
@@ -28,13 +28,13 @@ class FollowTimeline(OfCamera, bpy.types.Operator):
         cls.poll_message_set("Available only for slit scans and time displacement")
         return has_range(camera_object_of(context).data)
 
+    @reporting
     def execute(self, context):
         """Drive both by the frame."""
         settings = getattr(camera_object_of(context).data, GROUP)
         for setting in (START, END):
             offset = getattr(settings, setting.name) - frame_of(context.scene)
             settings.driver_add(setting.name).driver.expression = f"frame {offset:+.9g}"
-        return {"FINISHED"}
 
 
 def has_range(camera) -> bool:

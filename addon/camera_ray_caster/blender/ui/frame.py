@@ -42,7 +42,7 @@ class SetFrame(OfCamera, bpy.types.Operator):
             self.report({"INFO"}, "The frame already has the aspect ratio of the camera's pictures")
             return {"CANCELLED"}
         self.report({"INFO"}, set_frame(context.scene, wanted))
-        return {"FINISHED"}
+        return None
 
 
 def frame_of(context, item) -> AskedSize | None:

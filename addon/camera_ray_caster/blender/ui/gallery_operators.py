@@ -5,9 +5,10 @@ from bpy.app.handlers import persistent
 from bpy.props import StringProperty
 from mathutils import Matrix
 
+from ...core.records import InputError
 from .. import gallery
 from . import see_through
-from .needs import select_alone
+from .needs import reporting, select_alone
 
 _opening: list[str] = []
 """The name of the example that is being opened."""
@@ -22,11 +23,11 @@ class OfGallery:
 
     name: StringProperty(name="Scene", description="Name of the scene in the gallery", options={"SKIP_SAVE"})
 
-    def path(self) -> str | None:
-        """Return the path of the scene; report an error and return None if there is no scene of that name."""
+    def path(self) -> str:
+        """Return the path of the scene. Raises InputError if there is none of that name."""
         path = {scene.stem: str(scene) for scene in gallery.scenes()}.get(self.name)
         if path is None:
-            self.report({"ERROR"}, f"the gallery has no scene {self.name!r}")
+            raise InputError(f"the gallery has no scene {self.name!r}")
         return path
 
 
@@ -37,11 +38,10 @@ class OpenExample(OfGallery, bpy.types.Operator):
     bl_label = "Open Example Scene"
     bl_options = {"INTERNAL"}
 
+    @reporting
     def execute(self, context):
         """Open the scene."""
         path = self.path()
-        if path is None:
-            return {"CANCELLED"}
         _opening[:] = [self.name]
         return bpy.ops.wm.read_homefile("INVOKE_DEFAULT", filepath=path, load_ui=False)
 
@@ -70,13 +70,11 @@ class AppendCamera(OfGallery, bpy.types.Operator):
     bl_label = "Add Gallery Camera"
     bl_options = {"REGISTER", "UNDO"}
 
+    @reporting
     def execute(self, context):
         """Append the camera to the active collection."""
-        path = self.path()
-        if path is None:
-            return {"CANCELLED"}
         known = set(bpy.data.objects)
-        with bpy.data.libraries.load(path, link=False) as (_, wanted):
+        with bpy.data.libraries.load(self.path(), link=False) as (_, wanted):
             wanted.objects = [CAMERA]
         added = [item for item in bpy.data.objects if item not in known]
         for item in added:
@@ -87,7 +85,6 @@ class AppendCamera(OfGallery, bpy.types.Operator):
         select_alone(context, camera)
         context.scene.camera = camera
         self.report({"INFO"}, f"{camera.name!r} is now the scene's camera")
-        return {"FINISHED"}
 
 
 def fit_around(context, camera, items) -> None:

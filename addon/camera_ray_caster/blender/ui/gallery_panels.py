@@ -10,11 +10,12 @@ from ...core.camera import pixel_time
 from ...core.cameras import MODELS
 from ...core.cameras.model import GROUPS
 from ...core.cameras.parts.settings import Item
+from ...core.records import InputError
 from .. import gallery
 from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
 from ..properties.setting_labels import label_of
 from .model_settings import key_of
-from .needs import OfCamera, camera_object_of, objection
+from .needs import OfCamera, camera_object_of, objection, reporting
 
 LINES = 15
 """Number of lines in a column of the menu."""
@@ -61,13 +62,12 @@ class ChooseModel(OfCamera, bpy.types.Operator):
         """Return the tooltip, which is the model's."""
         return next((entry.text for entry in every_item() if entry.key == properties.key), cls.__doc__)
 
+    @reporting
     def execute(self, context):
         """Set the model or the time."""
         if self.key not in [entry.key for entry in every_item()]:
-            self.report({"ERROR"}, f"There is no camera model {self.key!r}")
-            return {"CANCELLED"}
+            raise InputError(f"there is no camera model {self.key!r}")
         choose(camera_object_of(context).data, self.key)
-        return {"FINISHED"}
 
 
 class KeyModel(OfCamera, bpy.types.Operator):
@@ -85,17 +85,17 @@ class KeyModel(OfCamera, bpy.types.Operator):
         self.driver |= event.shift
         return self.execute(context)
 
+    @reporting
     def execute(self, context):
         """Insert the keyframe, or add a driver that keeps the model until it is edited."""
         settings = getattr(camera_object_of(context).data, GROUP)
         if not self.driver:
             settings.keyframe_insert(MODEL.name)
-            return {"FINISHED"}
+            return
         number = settings.bl_rna.properties[MODEL.name].enum_items[settings.model].value
         curve = settings.driver_add(MODEL.name)
         curve.driver.expression = curve.driver.expression or str(number)
         self.report({"INFO"}, "The model has a driver: edit it in a Drivers Editor")
-        return {"FINISHED"}
 
 
 def choose(camera, key: str) -> None:

@@ -1,11 +1,11 @@
 """Changes what Blender draws in a 3D View that shows the picture of a model that Blender cannot draw.
 
-In a cast's picture Blender's outlines and grid are hidden: Blender draws them in perspective, so they do not match it.
-In a live view World Space Lighting is switched on: light that turned with each face would jump at their edges. Both are
-restored when the view shows something else, before the file is saved, and before another file is loaded. The update
-runs after a view is drawn, since every relevant change redraws the view. Auto Save and the save on quit call no
-handlers of add-ons, so a screen with changed views is marked; when a file with such a mark is opened, they are
-restored.
+In a cast's picture Blender's outlines, grid and texts are hidden: Blender draws them in perspective, so they do not
+match it. In a live view World Space Lighting is switched on: light that turned with each face would jump at their
+edges. Both are restored when the view shows something else, before the file is saved, and before another file is
+loaded. The update runs after a view is drawn, since every relevant change redraws the view. Auto Save and the save on
+quit call no handlers of add-ons, so a screen with changed views is marked; when a file with such a mark is opened, they
+are restored.
 """
 
 from __future__ import annotations
@@ -21,9 +21,11 @@ from .see_through import shows_cast, shows_picture
 MISLEADING = (
     "show_outline_selected", "show_floor", "show_axis_x", "show_axis_y", "show_axis_z", "show_ortho_grid",
     "show_object_origins", "show_relationship_lines", "show_extras", "show_bones", "show_motion_paths",
-    "show_wireframes", "show_face_orientation", "show_cursor",
+    "show_wireframes", "show_face_orientation", "show_cursor", "show_text",
 )  # fmt: skip
-"""Properties of a view's overlays that are drawn in Blender's perspective."""
+"""Properties of a view's overlays that are drawn in Blender's perspective. Texts are the names of objects at places in
+it, and "Camera Perspective".
+"""
 
 MARK = "camera_ray_caster_overlays"
 """Custom property of a screen with hidden overlays: the names of those that were shown."""

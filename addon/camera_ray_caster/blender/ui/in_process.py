@@ -20,8 +20,8 @@ from ...core.file_set import clear_up
 from ...core.records import InputError
 from ..properties.setting_labels import in_labels
 from ..read.unique import unique_name
-from ..read.view import views_3d
-from .other_engine import show, show_later
+from .needs import reporting
+from .other_engine import show_in_sidebars, show_later
 
 INTERVAL = 0.2
 """Seconds between two looks at the process."""
@@ -151,23 +151,16 @@ def tick() -> float | None:
     if work is None:
         return None
     if work.process.poll() is None:
-        tell(work.progress)
+        show_in_sidebars(work.progress)
         return INTERVAL
     try:
         _ended[:] = [work.result()]
     except InputError as error:
         _ended[:] = [in_labels(str(error))]
     forget()
-    tell(latest().partition("\n")[0])
+    show_in_sidebars(latest().partition("\n")[0])
     show_later(None, SHOWN)
     return None
-
-
-def tell(text: str) -> None:
-    """Show a text in the status bar, and draw the sidebars again."""
-    show(text)
-    for _, area in views_3d():
-        area.tag_redraw()
 
 
 def forget() -> None:
@@ -194,11 +187,11 @@ class StopAll(bpy.types.Operator):
     bl_label = "Stop"
     bl_options = {"INTERNAL"}
 
+    @reporting
     def execute(self, context):
         """Ask the running work to end."""
         for work in _running:
             work.stop()
-        return {"FINISHED"}
 
 
 CLASSES = (StopAll,)

@@ -6,10 +6,12 @@ from bpy.props import EnumProperty, IntProperty
 from mathutils import Matrix
 
 from ...core.lesson.diagram import pixel_outline
+from ...core.records import InputError
 from ..read.scene_cache import cached_scene
 from ..view3d import pixel_lessons, text
 from ..view3d.clicked import clicked
 from .lesson_operators import OfLesson
+from .needs import reporting
 
 SIDES = {
     "OUTSIDE": ("Outside", "from behind the camera, in perspective", (0.7, 0.5, 0.8), "PERSP"),
@@ -43,12 +45,12 @@ class LectureStep(bpy.types.Operator):
         cls.poll_message_set("First click a pixel with Step Through, and switch on Lecture")
         return context.window_manager.camera_ray_caster_place.lecture and bool(pixel_lessons.lessons(context))
 
+    @reporting
     def execute(self, context):
         """Change the step, within those of the latest pixel."""
         state, (*_, latest) = context.window_manager.camera_ray_caster_place, pixel_lessons.lessons(context).values()
         last = len(latest.screens) - 1
         state.step = min(max(min(state.step, last) + self.by, 0), last)
-        return {"FINISHED"}
 
 
 class RayView(OfLesson, bpy.types.Operator):
@@ -63,18 +65,17 @@ class RayView(OfLesson, bpy.types.Operator):
         """Return the tooltip: from where."""
         return f"Look at the ray of the latest pixel {SIDES[properties.side][1]}. Marks stay"
 
+    @reporting
     def execute(self, context):
         """Turn the 3D View, the first one if the operator runs elsewhere, and frame the ray."""
         views = [area for area in context.screen.areas if area.type == "VIEW_3D"]
         latest = pixel_lessons.lessons(context).get(clicked.pixels[-1])
         if not views or latest is None:
-            self.report({"ERROR"}, "There is no 3D View: open one" if latest else "The pixel is outside the frame")
-            return {"CANCELLED"}
+            raise InputError("there is no 3D View: open one" if latest else "the pixel is outside the frame")
         area = context.area if context.area in views else views[0]
         region = next(region for region in area.regions if region.type == "WINDOW")
         with context.temp_override(area=area, region=region):
             look_at(bpy.context, latest, self.side)
-        return {"FINISHED"}
 
 
 def look_at(context, explained, side: str) -> None:

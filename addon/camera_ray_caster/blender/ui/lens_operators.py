@@ -30,7 +30,6 @@ class ChooseLens(OfCamera, bpy.types.Operator):
         data = camera_object_of(context).data
         setattr(getattr(data, GROUP), LENS_FILE.name, self.name)
         data.lens = own_focal_length(read_lens(self.name))
-        return {"FINISHED"}
 
 
 class OwnFocalLength(OfCamera, bpy.types.Operator):
@@ -46,7 +45,6 @@ class OwnFocalLength(OfCamera, bpy.types.Operator):
         data = camera_object_of(context).data
         file = bpy.path.abspath(own_value(data, LENS_FILE), library=data.library)
         data.lens = own_focal_length(read_lens(file))
-        return {"FINISHED"}
 
 
 def draw_lens_file(layout, camera) -> None:

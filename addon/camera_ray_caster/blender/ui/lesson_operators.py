@@ -10,7 +10,7 @@ from ..view3d import pixel_lessons
 from ..view3d.camera_frame import frame_in
 from ..view3d.clicked import clicked
 from ..view3d.shown import is_other
-from .needs import OfScene
+from .needs import OfScene, reporting
 
 HINT = "Click or drag in the camera's view or an Image Editor      Shift: One More      Esc, Enter: Done"
 
@@ -224,11 +224,11 @@ class CopySteps(OfLesson, bpy.types.Operator):
     bl_idname = "camera_ray_caster.copy_steps"
     bl_label = "Copy Steps"
 
+    @reporting
     def execute(self, context):
         """Copy the steps."""
         texts = ["\n".join(steps.lines()) for steps in pixel_lessons.lessons(context).values()]
         context.window_manager.clipboard = "\n\n".join(texts) + "\n"
-        return {"FINISHED"}
 
 
 class ClearSteps(OfLesson, bpy.types.Operator):
@@ -237,11 +237,11 @@ class ClearSteps(OfLesson, bpy.types.Operator):
     bl_idname = "camera_ray_caster.clear_steps"
     bl_label = "Clear Steps"
 
+    @reporting
     def execute(self, context):
         """Forget the pixels."""
         pixel_lessons.forget()
         redraw(context)
-        return {"FINISHED"}
 
 
 CLASSES = (Place, StepThrough, CopySteps, ClearSteps)

@@ -104,15 +104,22 @@ class OfFile:
             draw_message(self.layout, context, line)
 
 
-def reporting(execute):
-    """Decorate an operator's ``execute`` so that it reports an InputError as a Blender error and returns CANCELLED."""
+def reporting(method):
+    """Decorate an operator's ``execute``, ``invoke`` or ``modal``: it returns FINISHED where it returns nothing; an
+    InputError is reported as a Blender error, and it returns CANCELLED.
+    """
 
-    @wraps(execute)
-    def reported(self, context):
+    def reported(self, *arguments):
         try:
-            return execute(self, context)
+            return method(self, *arguments) or {"FINISHED"}
         except InputError as error:
             self.report({"ERROR"}, in_labels(str(error)))
             return {"CANCELLED"}
 
-    return reported
+    def with_event(self, context, event):
+        return reported(self, context, event)
+
+    def without(self, context):
+        return reported(self, context)
+
+    return wraps(method)(without if method.__name__ == "execute" else with_event)  # Blender counts the parameters

@@ -34,7 +34,6 @@ class OpenLesson(OfScene, bpy.types.Operator):
         path = write_lesson(camera, clicked.pixels[-1] if clicked.pixels else middle, scene.shapes)
         bpy.ops.wm.url_open(url=path.as_uri())
         self.report({"INFO"}, f"Wrote {path}")
-        return {"FINISHED"}
 
 
 def write_lesson(camera, pixel, shapes) -> Path:

@@ -58,11 +58,10 @@ class Verify(OfScene, bpy.types.Operator):
             self.report(
                 {"WARNING"}, "A reference check failed: the rays differ by more than its error bound. See the sidebar"
             )
-        return {"FINISHED"}
 
 
 class CopyFacts(OfScene, bpy.types.Operator):
-    """Copy the active camera to the clipboard, as JSON with all digits, from which camera_from_json makes its rays"""
+    """Copy the active camera to the clipboard as JSON, with all digits. In Python camera_from_json reads it"""
 
     bl_idname = "camera_ray_caster.copy_facts"
     bl_label = "Copy Camera"
@@ -74,7 +73,6 @@ class CopyFacts(OfScene, bpy.types.Operator):
         camera, frame = read_camera(context.scene), frame_of(context.scene)
         report = Report(camera=camera_facts(camera), frame=frame, record=recorded(camera))
         context.window_manager.clipboard = as_json(report)
-        return {"FINISHED"}
 
 
 class LoadCalibration(OfFile, OfCamera, bpy.types.Operator):
@@ -113,12 +111,12 @@ class LoadCalibration(OfFile, OfCamera, bpy.types.Operator):
         if not (self.camera or bpy.app.background) and len(names := cameras_in(item.data, path)) > 1:
             entries = partial(draw_cameras, path, names, self.set_frame)
             context.window_manager.popup_menu(entries, title="Camera in File")
-            return {"CANCELLED"}
+            return {"CANCELLED"}  # an entry loads it
         with framed(context, item, self.set_frame) as remarks:
             remarks.append(set_calibration(item.data, path, self.camera))
         for line in remarks:
             self.report({"INFO"}, line)
-        return {"FINISHED"}
+        return None
 
 
 class LensOfClip(OfCamera, bpy.types.Operator):
@@ -150,7 +148,6 @@ class LensOfClip(OfCamera, bpy.types.Operator):
         set_lens(item.data, lens)
         render.resolution_x, render.resolution_y = lens.size
         self.report({"INFO"}, f"{clip.name}: {model_of(lens).label}; the frame is {lens.size[0]} × {lens.size[1]}")
-        return {"FINISHED"}
 
 
 def sizes_in_words(context, item, path: str) -> list[str]:
@@ -189,17 +186,14 @@ class SelectLeftOut(bpy.types.Operator):
         cls.poll_message_set(NO_REPORT)
         return reports.latest(context.scene) is not None
 
+    @reporting
     def execute(self, context):
         """Select only these objects, as far as they are in the view layer."""
         names = reports.by_reason(reports.latest(context.scene)).get(self.reason, ())
         users = reports.users_of(context.view_layer, self.reason, names)
         if not users:
-            self.report(
-                {"ERROR"}, "None of these objects is in this view layer: they were renamed, removed or excluded"
-            )
-            return {"CANCELLED"}
+            raise InputError("none of these objects is in this view layer: they were renamed, removed or excluded")
         select_alone(context, *users)
-        return {"FINISHED"}
 
 
 class WriteReport(bpy.types.Operator):
@@ -215,11 +209,11 @@ class WriteReport(bpy.types.Operator):
         cls.poll_message_set(NO_REPORT)
         return reports.latest(context.scene) is not None
 
+    @reporting
     def execute(self, context):
         """Write the report into the text datablock and report its name."""
         text = reports.write_text(reports.latest(context.scene))
         self.report({"INFO"}, f"The report is in the text {text.name!r}: open it in the Text Editor")
-        return {"FINISHED"}
 
 
 CLASSES = (Verify, CopyFacts, LoadCalibration, LensOfClip, SelectLeftOut, WriteReport)

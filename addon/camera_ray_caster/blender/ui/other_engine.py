@@ -10,10 +10,11 @@ from bpy.app.handlers import persistent
 from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
 from ..properties.setting_labels import label_of
 from ..read.camera_fields import shader_mark
+from ..read.view import views_3d
 from ..view3d.shown import ENGINES
 from .cycles_operators import UseInCycles
 from .model_settings import blender_type
-from .needs import OfScene
+from .needs import OfScene, reporting
 from .notes import Note
 from .through_model import RenderThroughModel
 
@@ -29,10 +30,10 @@ class UseThisEngine(OfScene, bpy.types.Operator):
     bl_label = "Use Camera Ray Caster"
     bl_options = {"REGISTER", "UNDO"}
 
+    @reporting
     def execute(self, context):
         """Set the engine."""
         context.scene.render.engine = ENGINE
-        return {"FINISHED"}
 
 
 def ignored(scene, camera) -> str:
@@ -105,6 +106,15 @@ def show(text: str | None) -> None:
     """Show a text in the status bar of every window, or Blender's own."""
     for window in bpy.context.window_manager.windows:
         window.workspace.status_text_set(text)
+
+
+def show_in_sidebars(text: str | None) -> None:
+    """Show a text in the status bar, and draw the sidebars of the 3D Views again."""
+    show(text)
+    for _, area in views_3d():
+        for region in area.regions:
+            if region.type == "UI":
+                region.tag_redraw()
 
 
 CLASSES = (UseThisEngine,)

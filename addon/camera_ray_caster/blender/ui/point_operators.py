@@ -4,11 +4,12 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
+from ...core.records import InputError
 from ..read.scene_cache import cached_scene
 from ..view3d import pixel_lessons
 from ..view3d.clicked import clicked
 from .lesson_operators import OfLesson, redraw
-from .needs import OfScene, select_alone
+from .needs import OfScene, reporting, select_alone
 
 
 class PixelOfPoint(OfScene, bpy.types.Operator):
@@ -18,12 +19,12 @@ class PixelOfPoint(OfScene, bpy.types.Operator):
     bl_label = "Pixel of 3D Cursor or Vertices"
     bl_options = {"REGISTER"}
 
+    @reporting
     def execute(self, context):
         """Step through the pixels; report the position of the last one, and what hides its point."""
         camera = cached_scene(context).camera
         if camera is None:
-            self.report({"ERROR"}, "the camera cannot be cast: see the reason in the sidebar")
-            return {"CANCELLED"}
+            raise InputError("the camera cannot be cast: see the reason in the sidebar")
         label, points = points_of(context)
         places = camera.project(points)
         size = camera.raster.width, camera.raster.height
@@ -38,7 +39,7 @@ class PixelOfPoint(OfScene, bpy.types.Operator):
         where = f"{label}: x = {x:.3f}, y = {y:.3f}, from the bottom left"
         self.report({"INFO"}, where + hidden_by(context, points[inside][-1]))
         redraw(context)
-        return {"FINISHED"}
+        return None
 
 
 def points_of(context) -> tuple[str, np.ndarray]:
@@ -66,11 +67,12 @@ class EmptyAtHit(OfLesson, bpy.types.Operator):
     bl_label = "Empty at Hit"
     bl_options = {"REGISTER", "UNDO"}
 
+    @reporting
     def execute(self, context):
         """Add the empties."""
         hits = [hit for hit in pixel_lessons.lessons(context).values() if hit.point is not None]
         if not hits:
-            self.report({"WARNING"}, "the rays of these pixels hit no surface")
+            self.report({"WARNING"}, "The rays of these pixels hit no surface")
             return {"CANCELLED"}
         added = []
         for hit in hits:
@@ -81,7 +83,7 @@ class EmptyAtHit(OfLesson, bpy.types.Operator):
             context.collection.objects.link(empty)
             added.append(empty)
         select_alone(context, *added)
-        return {"FINISHED"}
+        return None
 
 
 CLASSES = (PixelOfPoint, EmptyAtHit)

@@ -50,7 +50,7 @@ class RenderPanel(EnginePanel, bpy.types.Panel):
             layout.label(text=summary(report))
             layout.label(text=f"Worst distance error: {reports.relative_error(report, 'worst')}")
         layout.operator("camera_ray_caster.write_report")
-        draw_message(layout, context, "for materials and light render with Cycles through this camera")
+        draw_message(layout, context, "Cycles renders materials and light through this camera")
         layout.operator("camera_ray_caster.use_in_cycles").set_engine = True
 
 

@@ -12,7 +12,8 @@ from .needs import OfFile, reporting, select_alone
 
 
 class AddCameras(OfFile, bpy.types.Operator):
-    """Add the cameras of a file, with lenses, poses and keyframes, as children of one empty. A trajectory moves it"""
+    """Add the cameras of a file, with lenses, poses and keyframes, as children of an empty. A trajectory animates the
+    empty"""
 
     bl_idname = "camera_ray_caster.add_cameras"
     bl_label = "Add Cameras from File"
@@ -49,7 +50,6 @@ class AddCameras(OfFile, bpy.types.Operator):
         select_alone(context, *cameras)
         keyed = len(frames_of(cameras))
         self.report({"INFO"}, f"{len(cameras)} cameras" + (f" with keyframes at {keyed} frames" if keyed else ""))
-        return {"FINISHED"}
 
 
 def _draw_in_file_menu(menu, context) -> None:

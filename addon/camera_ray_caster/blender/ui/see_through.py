@@ -1,7 +1,7 @@
 """The See Through operator: the 3D View looks through the camera, whatever its model.
 
 In a window the view is live: Blender's own drawing in the shading that the view has, warped by the model. What cannot
-be warped, such as a model whose rays have many origins, is shown by our own cast: shading and engine change for it.
+be warped, such as a model without a single viewpoint, is shown by our own cast: shading and engine change for it.
 It is a switch: pressed again it restores the view, its shading and the scene's render engine. Shading and engine are
 given back, too, however else a cast's view is left: by another view, shading, engine or workspace, and without the
 camera. A saved file has those of before.
@@ -18,7 +18,7 @@ from ..read.view import views_3d
 from ..view3d import live, notice, overlay, pixel_lessons
 from ..view3d.live_picture import why_not
 from ..view3d.shown import can_show, is_live
-from .needs import OfScene
+from .needs import OfScene, reporting
 
 SEEN = "CAMERA", "RENDERED"
 """Perspective and shading of a view that shows the picture of a cast."""
@@ -36,13 +36,13 @@ BEFORE = "camera_ray_caster_engine"
 """Custom property of a scene: its render engine before See Through, which a file keeps that is saved meanwhile."""
 OVER = overlay.draw_in_picture, pixel_lessons.draw_marks, notice.draw
 """What is drawn over a live view's picture."""
-RESTORES = "the scene's render engine is Camera Ray Caster; See Through again restores it"
+RESTORES = "The scene's render engine is Camera Ray Caster; See Through again restores it"
 
 
 class SeeThrough(OfScene, bpy.types.Operator):
-    """Look through the scene's camera, whatever its model, in the shading that the view has. A model whose rays have
-    many origins, and pixels with times of their own, are shown in Rendered shading by the render engine Camera Ray
-    Caster. Press again to restore the view"""
+    """Look through the scene's camera, whatever its model, in the view's shading. Models without a single viewpoint,
+    such as Cross-Slit, and slit scans switch the view to Rendered and the engine to Camera Ray Caster. Press again to
+    restore both"""
 
     bl_idname = "camera_ray_caster.see_through"
     bl_label = "See Through Camera"
@@ -56,26 +56,24 @@ class SeeThrough(OfScene, bpy.types.Operator):
             return False
         return is_seen_through(context) or super().poll(context)
 
+    @reporting
     def execute(self, context):
         """Look through the camera, or restore what was before; report a change of the scene's engine."""
         if is_seen_through(context):
             end(context)
-            return {"FINISHED"}
+            return
         space, scene = context.space_data, context.scene
         before = space.region_3d.view_perspective, space.shading.type
         if before != SEEN or scene.render.engine != ENGINE:  # an undo restores the engine alone
             _views[space.as_pointer()] = (*before, space.region_3d.view_rotation.copy())
         space.use_local_camera = False
         space.region_3d.view_perspective = "CAMERA"
-        can_be_live = not bpy.app.background and can_show(space, scene)
-        if can_be_live:
+        if not bpy.app.background and can_show(space, scene):
             live.begin(space, follow, OVER)
-            reason = why_not(scene.camera, context.evaluated_depsgraph_get())
-            if not reason:
-                return {"FINISHED"}
+            if not why_not(scene.camera, context.evaluated_depsgraph_get()):
+                return
         if show_cast(space, scene):
-            self.report({"INFO"}, f"{reason}: {RESTORES}" if can_be_live else f"T{RESTORES[1:]}")
-        return {"FINISHED"}
+            self.report({"INFO"}, RESTORES)
 
 
 def show_cast(space, scene) -> bool:

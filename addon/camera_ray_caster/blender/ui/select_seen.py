@@ -7,6 +7,7 @@ from ..read.scene_cache import cached_scene
 from ..read.unique import named
 from .hide_overlays import misleads
 from .lesson_operators import pixel_at
+from .needs import reporting
 
 TOOLS = "builtin.select", "builtin.select_box", "builtin.select_circle", "builtin.select_lasso"
 """Tools with which a click selects: Tweak, and the three kinds of Select."""
@@ -57,6 +58,7 @@ class SelectSeen(bpy.types.Operator):
             bpy.ops.transform.translate("INVOKE_DEFAULT", release_confirm=True)
         return {"FINISHED"}
 
+    @reporting
     def execute(self, context):
         """Select this object and no others; none, if nothing is under the mouse."""
         for item in context.selected_objects:
@@ -64,7 +66,6 @@ class SelectSeen(bpy.types.Operator):
         if self.item is not None:
             self.item.select_set(True)
             context.view_layer.objects.active = self.item
-        return {"FINISHED"}
 
 
 def object_at(context, pixel: tuple[int, int]):

@@ -3,8 +3,10 @@
 import bpy
 from bpy.props import StringProperty
 
+from ...core.records import InputError
 from ..output import image_datablocks
 from ..properties.pass_properties import PASSES
+from .needs import reporting
 
 
 class ShowResult(bpy.types.Operator):
@@ -16,17 +18,16 @@ class ShowResult(bpy.types.Operator):
 
     name: StringProperty(name="Image", description="Name of an image made by a cast", options={"SKIP_SAVE"})
 
+    @reporting
     def execute(self, context):
         """Show the pass and report the meaning of the colors."""
         if self.name not in image_datablocks.results():
-            self.report({"ERROR"}, f"no cast has made an image {self.name!r}: cast first")
-            return {"CANCELLED"}
+            raise InputError(f"no cast has made an image {self.name!r}: cast first")
         image, meaning = image_datablocks.show_in_colors(self.name)
         editor = open_editor()
         if editor is not None:
             editor.image = image
         self.report({"INFO"}, f"{self.name}: {meaning}")
-        return {"FINISHED"}
 
 
 def open_editor():

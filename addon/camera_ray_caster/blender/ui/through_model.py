@@ -13,8 +13,8 @@ from .needs import OfScene, can_use, reporting
 
 
 class RenderThroughModel(OfScene, bpy.types.Operator):
-    """Render the frame with EEVEE or Workbench through the camera's model, whatever it is, and cast the other passes.
-    EEVEE renders if the scene has another engine"""
+    """Render the frame through the camera's model with EEVEE, or with Workbench if the scene has it, and cast the other
+    passes. Blender does not respond until the picture is done"""
 
     bl_idname = "camera_ray_caster.render_through_model"
     bl_label = "Render Through Model"
@@ -45,7 +45,6 @@ class RenderThroughModel(OfScene, bpy.types.Operator):
             self.report({"INFO"}, line)
         if not bpy.app.background:
             bpy.ops.render.view_show("INVOKE_DEFAULT")
-        return {"FINISHED"}
 
 
 CLASSES = (RenderThroughModel,)

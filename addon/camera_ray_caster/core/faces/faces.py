@@ -91,7 +91,7 @@ def turn_of(camera: Camera) -> np.ndarray:
 def refusal(camera: Camera) -> str:
     """Return why a camera's picture is not a warp of perspective pictures; "" if it is."""
     if not camera.model.central:
-        return f"the rays of {camera.model.label} have many origins"
+        return f"{camera.model.label} has no single viewpoint"
     return "" if camera.model.differentiable else f"the pixels of {camera.model.label} are single beams"
 
 

@@ -4,12 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
-from ..library.join import join
-from ..library.shapes import planes, spheres
-from ..records import Shapes
-
 BALLS = (
     ("red ball", (0.0, 0.1, -0.6), 0.6, (0.78, 0.10, 0.09)),
     ("yellow ball", (1.25, -0.2, 0.1), 0.3, (0.86, 0.55, 0.06)),
@@ -51,11 +45,3 @@ SCENE: dict[str, Any] = {
 the eye; ``near``: least distance of a hit; ``camera``: its place and axes when it is not moved; ``scale``: of what the
 second view draws; the others are those of ``page_scene``, of which the room has none.
 """
-
-
-def room_shapes(eye: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Shapes:
-    """Return the room as shapes for the caster: balls, then walls, at time 0; ``eye`` is the origin."""
-    balls = spheres([np.subtract(ball[1], eye) for ball in BALLS], [ball[2] for ball in BALLS])
-    flats = SCENE["rectangles"]
-    walls = [planes(np.subtract(flat["center"], eye), np.transpose((flat["u"], flat["v"]))) for flat in flats]
-    return join(balls, *walls)
