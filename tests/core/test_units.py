@@ -137,6 +137,7 @@ def test_every_reader_of_poses_has_the_unit_of_its_format(tmp_path, monkeypatch,
     place, sizes = np.eye(4), {"": 1.0, "m": 1.0 / meters, "cm": 1e-2 / meters, "mm": 1e-3 / meters}
     place[:3, 3] = 1, 2, 3
     for program in (one for one in PROGRAMS if one.poses is not None):
+        assert program.name in UNITS, f"UNITS of test_units.py has no entry for the lengths of {program.name}"
         of_any = replace(program, poses=lambda document: [Placed("", "", None, place)])
         monkeypatch.setattr(poses, "program_of", lambda document, of_any=of_any: of_any)
         (found,) = poses.placed_in(Document(str(tmp_path / "file")), meters)

@@ -164,6 +164,8 @@ def ray_origin(''',
 
 def test_a_program(copy):
     copy.write(f"{CORE}/programs/lens_cards.py", text_of("tests/core/programs/lens_cards.py"))
+    said = said_by(copy, "tests/core/test_listed.py", "-k", "lens_cards")
+    assert "nothing imports core.programs.lens_cards: add it to MODULES in programs/__init__.py" in said
     copy.change(
         f"{CORE}/programs/__init__.py",
         ("    kitti,\n", "    kitti,\n    lens_cards,\n"),
@@ -172,7 +174,8 @@ def test_a_program(copy):
     assert "give a sample" in said_by(copy, "tests/core/programs/test_contract.py", "-k", "lens_cards")
     card = "LENS CARDS\na_0001 64 48 60.5 60.5 32 24 0 -1 0 1 1 0 0 2 0 0 1 3\n"
     copy.write("tests/core/programs/samples/lens_cards.txt", card)
-    assert "KeyError: 'Lens Cards'" in said_by(copy, "tests/core/test_units.py", "-k", "every_reader")
+    said = said_by(copy, "tests/core/test_units.py", "-k", "every_reader")
+    assert "UNITS of test_units.py has no entry for the lengths of Lens Cards" in said
     copy.change("tests/core/test_units.py", ("UNITS = {\n", 'UNITS = {\n    "Lens Cards": "",\n'))
     copy.follow("Add a program", NAME="lens_cards")
 

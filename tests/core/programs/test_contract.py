@@ -54,7 +54,7 @@ def test_a_sample_is_of_its_program_and_of_no_other(program):
     assert samples, f"give a sample: {SAMPLES / MODULES[program.name]}.ENDING"
     for path in samples:
         found = [one.name for one in PROGRAMS if one.recognizes(document(path)) and one.general == program.general]
-        assert found == [program.name]
+        assert found == [program.name], f"{path.name} looks like {found or 'no program'}: see looks in its file"
         assert program_of(document(path)) is program
     lenses = [lens for path in samples for lens in read(path, lenses_of)]
     assert all(lens.refusal is None for lens in lenses)

@@ -1,6 +1,6 @@
 """The contract of a program: what its files are called and look like, how they are read, and how they are written.
 
-A program is a module of ``core.programs`` with a ``PROGRAM``, and a word in PROGRAMS. Each part is optional. Functions
+A program is a module of ``core.programs`` with a ``PROGRAM``, and a word in MODULES. Each part is optional. Functions
 work on plain records: lenses, poses, sizes, names and times.
 """
 
