@@ -96,20 +96,23 @@ help:  ## show this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 17
 
 # pip from outside installs into the environment, itself, too: no ensurepip needed, which some systems package apart.
+# Python compiles what is imported; all of an environment would take 20 s of a processor.
+INSTALL = $(PYTHON) -m pip --python $(@D)/bin/python install --quiet --no-compile
+
 .venv/bpy-%/ready: pyproject.toml
 	$(PYTHON) -m venv --without-pip $(@D)
-	$(PYTHON) -m pip --python $(@D)/bin/python install --quiet --editable '.[test]' 'bpy==$*.*' pip
+	$(INSTALL) --editable '.[test]' 'bpy==$*.*' pip
 	@touch $@
 
 # Any Python from 3.11 on.
 .venv/numpy/ready:
 	$(PYTHON) -m venv --without-pip $(@D)
-	$(PYTHON) -m pip --python $(@D)/bin/python install --quiet numpy
+	$(INSTALL) numpy
 	@touch $@
 
 .venv/docs/ready: pyproject.toml
 	$(PYTHON) -m venv --without-pip $(@D)
-	$(PYTHON) -m pip --python $(@D)/bin/python install --quiet --editable '.[docs]'
+	$(INSTALL) --editable '.[docs]'
 	@touch $@
 
 # Pure Python only: Blender brings its own Python and its own numpy.
