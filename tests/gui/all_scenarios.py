@@ -5,7 +5,7 @@ import json
 import _cycles
 import bpy
 import numpy as np
-from parts import BUTTON, addon, load
+from parts import BUTTON, addon, load, timed
 from window_scenarios import dialog, middle
 
 STOP = 0.82
@@ -172,12 +172,14 @@ def check_whole(folder):
 
 
 def open_list(user):
-    """Unfold the list of cameras, below the button Use in Cycles and the notes, unless it is unfolded."""
-    try:
-        yield from user.find(f"{BUTTON}cast_all(")
+    """Unfold the list of cameras, below the button Use in Cycles and the notes, unless it is unfolded: drawn."""
+    seconds = []
+    end = timed(addon("ui.cameras_list").SidebarCameras, seconds)
+    user.region().tag_redraw()
+    yield from user.wait(0.3)
+    end()
+    if seconds:
         return
-    except AssertionError:
-        pass
     button, region = f"{BUTTON}use_in_cycles(", user.region()
     yield from user.find(button)
     yield from user.click(region.x + region.width // 4, user.known[button] - LIST)

@@ -30,7 +30,7 @@ def cast_through(user):
 
 
 def timed(panel, seconds):
-    """Have the drawing of a panel timed, in seconds of the processor."""
+    """Have the drawing of a panel timed, in seconds of the processor. Return a function that ends it."""
     draw = panel.draw
 
     def measured(self, context):
@@ -39,3 +39,4 @@ def timed(panel, seconds):
         seconds.append(time.thread_time() - started)
 
     panel.draw = measured
+    return lambda: setattr(panel, "draw", draw)

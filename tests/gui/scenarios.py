@@ -18,7 +18,7 @@ from redraw_scenarios import REDRAW_SCENARIOS
 from saved_scenarios import SAVED_SCENARIOS
 from stranger_scenarios import ROW, STRANGER_SCENARIOS, open_menu
 from time_scenarios import TIME_SCENARIOS
-from user import pixels_of
+from user import PATIENCE, pixels_of
 from views_scenarios import VIEWS_SCENARIOS
 from walk_scenarios import WALK_SCENARIOS
 from window_scenarios import WINDOW_SCENARIOS
@@ -236,9 +236,13 @@ def cycles(user, scenes):
     space = view.spaces.active
     space.region_3d.view_perspective, space.overlay.show_overlays = "CAMERA", False
     space.shading.type = "RENDERED"
-    yield from user.wait(15)
-    shown = user.cut(user.picture("cycles_omnimax"), user.region("WINDOW"))
-    assert shown[..., :3].std() > 0.05  # a picture, and not one color
+    shown = np.zeros(3)
+    for _ in range(PATIENCE):
+        yield from user.wait(1)
+        shown = user.cut(user.picture("cycles_omnimax"), user.region("WINDOW"))[..., :3]
+        if shown.std() > 0.05:  # a picture, and not one color
+            break
+    assert shown.std() > 0.05
     space.shading.type = "SOLID"
     space.overlay.show_overlays = True
 

@@ -211,7 +211,7 @@ def results_stay(user, scenes):
         user.known.clear()
         for button in buttons:
             yield from user.find(button)
-        return dict(user.known)
+        return [user.known[button] for button in buttons]
 
     before = yield from places()
     yield from user.press(buttons[2])

@@ -35,7 +35,7 @@ SCENARIOS = (
 SEEDS = "1", "2", "3", "4"
 """Of random acts, 250 each: see random_acts.py."""
 SIZE = "1400x900"
-WINDOWS = 2
+WINDOWS = 3
 """How many Blenders share the scenarios: they mostly wait."""
 LIMIT = 3600
 """Seconds for the whole walk: six times what it takes on two idle cores without a graphics card."""

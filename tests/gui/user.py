@@ -9,7 +9,7 @@ import time
 import bpy
 import numpy as np
 
-TICK = 0.05
+TICK = 0.025
 """Seconds between two steps."""
 PATIENCE = 180
 """Seconds after which what a scenario waits for has failed: no measure of speed, for the machine may be busy."""
@@ -49,10 +49,15 @@ class User:
             yield
 
     def point(self, x, y):
-        """Move the mouse to a place in the window, from the bottom left, in two steps: Blender ignores a jump."""
-        for off in (3, 0):
-            self.send("mousemove", round(x) - off, self.window.height - 1 - round(y) - off)
-            yield
+        """Move the mouse to a place in the window, from the bottom left."""
+        self.send(*self.moves(x, y))
+        yield
+        yield
+
+    def moves(self, x, y):
+        """The words that move the mouse to a place, in two steps: Blender ignores a jump."""
+        column, row = round(x), self.window.height - 1 - round(y)
+        return "mousemove", column - 3, row - 3, "mousemove", column, row
 
     def drag(self, start, end, steps, pause):
         """Move the mouse from a place to another in steps, with pauses in seconds, while Blender handles events."""
@@ -124,8 +129,8 @@ class User:
 
     def find(self, command, region=None, keys="ctrl+c", share=1 / 3):
         """Move the mouse onto the button of an operator in a region, the sidebar's by default: the one of which Ctrl+C
-        copies that Python command; of a property Ctrl+Shift+C copies the data path. ``known`` has its height, and the
-        mouse is at a ``share`` of the region's width.
+        copies that Python command; of a property Ctrl+Shift+C copies the data path. ``known`` has its height, and that
+        of each button passed on the way; the mouse is at a ``share`` of the region's width.
 
         Where it was the last time is tried first, then every 17 pixels: less than a button's height. If it is not in
         sight, the sidebar is scrolled down, by less than its height at once, and back to its top.
@@ -138,13 +143,16 @@ class User:
                 yield from self.scroll(abs(steps), steps > 0)
             for y in (self.known.get(command, top), *range(top, region.y, -17)):
                 wm.clipboard = ""
-                yield from self.point(x, y)
+                self.send(*self.moves(x, y))
+                yield  # Blender leaves the button before this one first
                 self.send("key", keys)
                 yield
                 yield
-                if wm.clipboard.strip().startswith(command):
+                copied = wm.clipboard.strip()
+                if copied.startswith(command):
                     self.known[command] = y
                     return
+                self.known[copied.partition("(")[0] + "("] = y
         raise AssertionError(f"no button for {command}")
 
     def see_render(self, name=""):
