@@ -85,16 +85,16 @@ def draw_message(layout, context, text: str, icon: str = "INFO") -> None:
 
 
 @lru_cache(1000)
-def lines_of(text: str, width: float, most: int | None = None) -> list[str]:
+def lines_of(text: str, width: float, max_lines: int | None = None) -> list[str]:
     """Return a text as lines that fit a width in pixels at interface scale 1: at most so many, then the last one ends
     in "..." where words are left out.
     """
     usual = int(len(text) * width / max(text_width(text), 1.0))
     for letters in range(usual + 8, FEWEST, -1):  # lines of narrow letters have some more
-        lines = wrap(text, letters, max_lines=most, placeholder=" ...")
+        lines = wrap(text, letters, max_lines=max_lines, placeholder=" ...")
         if all(text_width(line) <= width for line in lines):
             return lines
-    return wrap(text, FEWEST, max_lines=most, placeholder=" ...")
+    return wrap(text, FEWEST, max_lines=max_lines, placeholder=" ...")
 
 
 def capital(text: str) -> str:

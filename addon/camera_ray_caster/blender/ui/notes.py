@@ -45,7 +45,7 @@ def draw_first(layout, context, notes: list[Note], panel: str) -> None:
         draw_line(layout, context, text, panel, first.icon)
         first.mend(layout.row(align=True))
         return
-    line, *continued = lines_of(text, _room(context), most=2)
+    line, *continued = lines_of(text, _room(context), max_lines=2)
     layout.popover(panel, text=line, icon=first.icon)
     layout.label(text="".join(continued), icon="BLANK1")
 
@@ -55,7 +55,7 @@ def draw_line(layout, context, text: str, panel: str, icon: str = "INFO", otherw
     empty.
     """
     if text:
-        layout.popover(panel, text=lines_of(text, _room(context), most=1)[0], icon=icon)
+        layout.popover(panel, text=lines_of(text, _room(context), max_lines=1)[0], icon=icon)
     else:
         layout.label(text=otherwise, icon="BLANK1")
 
