@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.conventions import EPS
+from camera_ray_caster.core.maths.exact import FLAT, invert
 from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE, BlenderCamera
-from camera_ray_caster.core.shapes.in_camera import FLAT, invert
 
 from ...tiers import examples
 from ..errors.extreme_cases import camera_from, pose, shapes_of

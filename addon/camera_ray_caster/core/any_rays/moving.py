@@ -15,14 +15,14 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from ..maths.exact import invert
 from ..maths.speed import Scratch
-from ..motion.apart import centers_at, light_changes, moving, of_rows, place_at, rows_of
+from ..motion.apart import BY_SHAPE, centers_at, light_changes, moving, of_rows, place_at, rows_of
 from ..motion.evaluations import Motion
 from ..motion.interpolation import PLACE
-from ..motion.means import same
 from ..motion.triangles import bends, mesh_of
 from ..records import MESH, PLANE, SPHERE, Shapes
-from ..shapes.in_camera import in_camera, invert
+from ..shapes.in_camera import in_camera
 from .balls import may_meet, unit_directions
 from .body_search import RAYS, BodySearch, search_of
 from .forms import SLACK, Form
@@ -76,8 +76,8 @@ def moving_of(shapes: Shapes) -> Moving | None:
 
 def _divided(motion: Motion) -> Moving | None:
     moves, changes = moving(motion), moving(motion, but=PLACE)
-    looks = moving(motion, but=(*PLACE, "meshes"))
-    if moves is None or changes is None or looks is None:
+    looks, meshes = moving(motion, but=(*PLACE, "meshes")), moving(motion, but={*BY_SHAPE} - {"mesh"})
+    if moves is None or changes is None or looks is None or meshes is None:
         return None
     still, rows = np.flatnonzero(~moves), np.flatnonzero(moves)
     moved, unlike = of_rows(motion, rows), changes[rows]
@@ -89,7 +89,7 @@ def _divided(motion: Motion) -> Moving | None:
     first = next(iter(motion.states.values()))[1]
     return Moving(
         rows_of(first, still), still, rows, moved, light_changes(motion), ~unlike, forms,
-        of_rows(moved, np.flatnonzero(unlike)), _radius(moved), _boxes(moved, forms),
+        of_rows(moved, np.flatnonzero(unlike)), _radius(moved), _boxes(moved, forms, meshes[rows]),
     )  # fmt: skip
 
 
@@ -103,15 +103,15 @@ def _radius(motion: Motion) -> np.ndarray:
     return radii.max(axis=0) * np.where(changes, BALL_FACTOR, 1 + 1e-6)
 
 
-def _boxes(motion: Motion, forms: dict[int, Form]) -> dict[int, np.ndarray]:
-    every = [shapes for _, shapes in motion.states.values()]
-    first, boxes = every[0], {}
+def _boxes(motion: Motion, forms: dict[int, Form], changes: np.ndarray) -> dict[int, np.ndarray]:
+    """Return the boxes of shapes, ``changes`` says of which the mesh is another at other times."""
+    first, boxes = next(iter(motion.states.values()))[1], {}
     for row, kind in enumerate(first.kind.tolist()):
         if kind in FLAT_OR_ROUND:
             boxes[row] = np.array(FLAT_OR_ROUND[kind])
             continue
-        mesh = first.meshes[first.mesh[row]] if kind == MESH else None
-        if mesh is not None and all(same(mesh, other.meshes[first.mesh[row]]) for other in every):
+        if kind == MESH and not changes[row]:
+            mesh = mesh_of(first, row)
             boxes[row] = np.array((mesh.vertices.min(axis=1), mesh.vertices.max(axis=1))) - mesh.middle
     boxes |= {row: form.box.copy() for row, form in forms.items()}
     for corners in boxes.values():
@@ -189,11 +189,10 @@ def _at_times(shapes: Shapes, times: np.ndarray | None) -> Iterator[tuple[Shapes
 
 
 def _cast_apart(apart: Moving, origin, direction, times: np.ndarray, span: Span, images) -> None:
-    search = search_of(apart.still)
     for first in range(0, len(times), RAYS):
         chunk = slice(first, first + RAYS)
         in_chunk = {name: image[:, chunk] for name, image in images.items()}
-        _cast_some(apart, search, origin[:, chunk], direction[:, chunk], times[chunk], span, in_chunk)
+        _cast_some(apart, origin[:, chunk], direction[:, chunk], times[chunk], span, in_chunk)
 
 
 def _all_apart(apart: Moving, origin, direction, times: np.ndarray, span: Span) -> Iterator[HitGroup]:
@@ -207,7 +206,8 @@ def _all_apart(apart: Moving, origin, direction, times: np.ndarray, span: Span) 
             yield replace(group, hits=RayHits(rays[hits.ray], hits.t, hits.body))
 
 
-def _cast_some(apart: Moving, search: BodySearch, origin, direction, times: np.ndarray, span: Span, images) -> None:
+def _cast_some(apart: Moving, origin, direction, times: np.ndarray, span: Span, images) -> None:
+    search = search_of(apart.still)
     t, body = search.nearest(origin, direction, *span)
     search.write(origin, direction, t, body, images, np.arange(len(t)))
     row = np.append(apart.still_rows, -1)[np.append(search.at, -1)[body]]

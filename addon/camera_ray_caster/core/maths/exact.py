@@ -1,4 +1,5 @@
-"""Arithmetic in pairs of float64: sums and products that keep their rounding errors, for a few critical constants.
+"""Arithmetic in pairs of float64: sums and products that keep their rounding errors, for a few critical constants; and
+the inverses of matrices that need it.
 
 A pair (high, low) stands for high + low, about 32 digits. The error of one addition or multiplication is itself a
 float64, which a few operations compute for numbers and for arrays, unless a value overflows or underflows.
@@ -13,12 +14,21 @@ import math
 
 import numpy as np
 
+from ..conventions import EPS, gamma
+from .vector import cross, dot, norm
+
 SPLITTER = 2.0**27 + 1
 """Cuts the 53 bits of a float64 into two numbers of 26, whose products are exact (Veltkamp)."""
 
 REFINEMENTS = 5
 """Number of corrections of a solution. Each reduces the error by a factor of some EPS times the condition number, so
 that the precision of pairs, EPS^2 times the condition number, is reached up to a condition number of 1e13."""
+
+SKEW = 32.0
+"""Axes beyond this skewness (see ``invert``) are inverted with twice the digits."""
+
+FLAT = 1e13
+"""Beyond this skewness axes cannot be distinguished from coplanar axes."""
 
 
 def two_sum(a, b):
@@ -64,6 +74,61 @@ def solve(matrices, inverses, high, low):
         x_high, lost = two_sum(x_high, (inverses @ residual[..., None])[..., 0])
         x_high, x_low = two_sum(x_high, lost + x_low)
     return x_high, x_low
+
+
+def invert(axes):
+    """Return the inverses of (n, 3, 3) matrices, upper bounds of the errors of their rows over the rows' lengths, (n,),
+    and the skewness, (n,): how far from right-angled the axes are, whatever their sizes.
+
+    Inverses of diagonal matrices are right to EPS. A row of the others is the cross product of two columns over the
+    determinant. The columns are scaled to about 1 first, so that unequal sizes cost no digits; inverses of skew
+    matrices are refined. The skewness is Hadamard's condition number, the product of the axes' lengths over their
+    volume: at least 1, inf or NaN for coplanar axes.
+    """
+    result, rounding, skewness = np.zeros_like(axes), np.full(len(axes), EPS), np.ones(len(axes))
+    straight = _straight(axes)
+    for i in range(3):
+        result[straight, i, i] = 1 / axes[straight, i, i]
+    if not straight.all():
+        turned = ~straight
+        result[turned], skewness[turned] = _invert_turned(axes[turned])
+        rounding[turned] = np.where(skewness[turned] > SKEW, gamma(4), gamma(16) * skewness[turned])
+    return result, rounding, skewness
+
+
+def _invert_turned(axes):
+    """Return the inverses and the skewness of matrices that are not diagonal: see ``invert``."""
+    scale = np.ldexp(1.0, -np.frexp(largest(axes))[1])
+    scaled = axes * scale[:, None, :]
+    columns = np.ascontiguousarray(scaled.transpose(2, 1, 0))
+    first, second, third = columns
+    crossed = cross(second, third), cross(third, first), cross(first, second)
+    volume = dot(crossed[0], first)
+    skewness = norm(first) * norm(second) * norm(third) / np.abs(volume)
+    rows = np.empty_like(axes)
+    for i, row in enumerate(crossed):
+        for j, component in enumerate(row):
+            rows[:, i, j] = component / volume
+    skew = np.flatnonzero((skewness > SKEW) & (skewness < FLAT))
+    if skew.size:
+        units = (np.tile(unit, (len(skew), 1)) for unit in np.eye(3))
+        solved = [solve(scaled[skew], rows[skew], unit, np.zeros_like(unit))[0] for unit in units]
+        rows[skew] = np.stack(solved, axis=2)
+    return rows * scale[..., None], skewness
+
+
+def largest(axes):
+    """Return the largest magnitude in each column, (n, 3)."""
+    return np.maximum(np.maximum(np.abs(axes[:, 0]), np.abs(axes[:, 1])), np.abs(axes[:, 2]))
+
+
+def _straight(axes):
+    """Return which matrices are diagonal, with no 0 on the diagonal."""
+    straight = np.ones(len(axes), bool)
+    for i in range(3):
+        for j in range(3):
+            straight &= (axes[:, i, j] == 0) if i != j else (axes[:, i, j] != 0)
+    return straight
 
 
 def square_less_one(high, low):

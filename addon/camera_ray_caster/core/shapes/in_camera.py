@@ -5,21 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from ..conventions import EPS, gamma
-from ..maths.exact import solve, two_sum
-from ..maths.vector import cross, dot, inverse, norm
+from ..maths.exact import FLAT, invert, largest, solve, two_sum
+from ..maths.vector import inverse
 from ..records import InputError, Pose, Shapes
 from .frames import BOUNDS_FACTOR, InCamera
 from .kinds import SHAPE_KINDS, by_kind
 
 SIZES = 1e-152, 1e152
 """Range of sizes, distances and their ratios: their squares neither overflow nor underflow."""
-
-SKEW = 32.0
-"""Axes beyond this skewness (see ``invert``) are inverted with twice the digits."""
-
-FLAT = 1e13
-"""Beyond this skewness axes cannot be distinguished from coplanar axes."""
-
 
 def in_camera(shapes: Shapes, pose: Pose) -> InCamera:
     """Return the shapes as a camera at this pose sees them.
@@ -31,7 +24,7 @@ def in_camera(shapes: Shapes, pose: Pose) -> InCamera:
     the exact inputs, right to gamma(4) of itself, so that a planet's ground is right from 2 m above it.
     Raises InputError that names the shape if its axes lie in one plane or it is beyond SIZES.
     """
-    away, lost = two_sum(shapes.center, -pose.eye)
+    away = shapes.center - pose.eye
     camera_from_world = inverse(pose.basis)
     radius, reach = np.zeros((2, len(shapes)))
     is_close = np.zeros(len(shapes), bool)
@@ -49,7 +42,7 @@ def in_camera(shapes: Shapes, pose: Pose) -> InCamera:
         close = np.flatnonzero(is_close)
     offset_rest = np.full_like(offset, np.nan)
     if close.size:
-        solved = solve(shapes.axes[close], shape_from_world[close], away[close], lost[close])
+        solved = solve(shapes.axes[close], shape_from_world[close], *two_sum(shapes.center[close], -pose.eye))
         offset[close], offset_rest[close] = solved
     return InCamera(
         shapes=shapes,
@@ -67,7 +60,7 @@ def in_camera(shapes: Shapes, pose: Pose) -> InCamera:
 
 def _refuse(shapes: Shapes, may_be_flat, skewness, away, offset) -> None:
     """Raise InputError for the first shape that cannot be cast."""
-    size = _largest(shapes.axes)
+    size = largest(shapes.axes)
     flat = ~(skewness < FLAT)
     beyond = ~((may_be_flat[:, None] | (size >= SIZES[0])) & (size <= SIZES[1])).all(axis=1)
     beyond |= ~((np.abs(away) <= SIZES[1]) & (np.abs(offset) <= SIZES[1])).all(axis=1)
@@ -85,58 +78,3 @@ def _refuse(shapes: Shapes, may_be_flat, skewness, away, offset) -> None:
                     "tell its axes from flat ones. Scale it less unevenly"
                 )
         raise InputError(f"shape {name!r} {reason}")
-
-
-def invert(axes):
-    """Return the inverses of (n, 3, 3) matrices, upper bounds of the errors of their rows over the rows' lengths, (n,),
-    and the skewness, (n,): how far from right-angled the axes are, whatever their sizes.
-
-    Inverses of diagonal matrices are right to EPS. A row of the others is the cross product of two columns over the
-    determinant. The columns are scaled to about 1 first, so that unequal sizes cost no digits; inverses of skew
-    matrices are refined. The skewness is Hadamard's condition number, the product of the axes' lengths over their
-    volume: at least 1, inf or NaN for coplanar axes.
-    """
-    result, rounding, skewness = np.zeros_like(axes), np.full(len(axes), EPS), np.ones(len(axes))
-    straight = _straight(axes)
-    for i in range(3):
-        result[straight, i, i] = 1 / axes[straight, i, i]
-    if not straight.all():
-        turned = ~straight
-        result[turned], skewness[turned] = _invert_turned(axes[turned])
-        rounding[turned] = np.where(skewness[turned] > SKEW, gamma(4), gamma(16) * skewness[turned])
-    return result, rounding, skewness
-
-
-def _invert_turned(axes):
-    """Return the inverses and the skewness of matrices that are not diagonal: see ``invert``."""
-    scale = np.ldexp(1.0, -np.frexp(_largest(axes))[1])
-    scaled = axes * scale[:, None, :]
-    columns = np.ascontiguousarray(scaled.transpose(2, 1, 0))
-    first, second, third = columns
-    crossed = cross(second, third), cross(third, first), cross(first, second)
-    volume = dot(crossed[0], first)
-    skewness = norm(first) * norm(second) * norm(third) / np.abs(volume)
-    rows = np.empty_like(axes)
-    for i, row in enumerate(crossed):
-        for j, component in enumerate(row):
-            rows[:, i, j] = component / volume
-    skew = np.flatnonzero((skewness > SKEW) & (skewness < FLAT))
-    if skew.size:
-        units = (np.tile(unit, (len(skew), 1)) for unit in np.eye(3))
-        solved = [solve(scaled[skew], rows[skew], unit, np.zeros_like(unit))[0] for unit in units]
-        rows[skew] = np.stack(solved, axis=2)
-    return rows * scale[..., None], skewness
-
-
-def _largest(axes):
-    """Return the largest magnitude in each column, (n, 3)."""
-    return np.maximum(np.maximum(np.abs(axes[:, 0]), np.abs(axes[:, 1])), np.abs(axes[:, 2]))
-
-
-def _straight(axes):
-    """Return which matrices are diagonal, with no 0 on the diagonal."""
-    straight = np.ones(len(axes), bool)
-    for i in range(3):
-        for j in range(3):
-            straight &= (axes[:, i, j] == 0) if i != j else (axes[:, i, j] != 0)
-    return straight
