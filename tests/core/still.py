@@ -1,6 +1,6 @@
 """Passes of scenes that were read at one frame only."""
 
-from camera_ray_caster.core.casting.needs import WITHOUT_PIXEL
+from camera_ray_caster.core.casting.pass_needs import WITHOUT_PIXEL
 from camera_ray_caster.core.casting.passes import PASSES
 
 STILL = tuple(name for name, one in PASSES.items() if not one.frames)

@@ -9,7 +9,7 @@ import pytest
 from camera_ray_caster.core import memory
 from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cast import cast
-from camera_ray_caster.core.casting.needs import image_bytes
+from camera_ray_caster.core.casting.pass_needs import image_bytes
 from camera_ray_caster.core.casting.passes import PASSES
 from camera_ray_caster.core.records import BlenderCamera, InputError
 

@@ -17,7 +17,7 @@ from camera_ray_caster.core.exports.format import Shot
 from camera_ray_caster.core.programs import PROGRAMS
 from camera_ray_caster.core.programs.parts.document import Document
 from camera_ray_caster.core.programs.parts.placed import Placed
-from camera_ray_caster.core.programs.reading import poses
+from camera_ray_caster.core.programs.reading import camera_poses
 from camera_ray_caster.core.programs.reading.mounted import mounted
 from camera_ray_caster.core.units import UNIT_SCALE
 
@@ -139,7 +139,7 @@ def test_every_reader_of_poses_has_the_unit_of_its_format(tmp_path, monkeypatch,
     for program in (one for one in PROGRAMS if one.poses is not None):
         assert program.name in UNITS, f"UNITS of test_units.py has no entry for the lengths of {program.name}"
         of_any = replace(program, poses=lambda document: [Placed("", "", None, place)])
-        monkeypatch.setattr(poses, "program_of", lambda document, of_any=of_any: of_any)
-        (found,) = poses.placed_in(Document(str(tmp_path / "file")), meters)
+        monkeypatch.setattr(camera_poses, "program_of", lambda document, of_any=of_any: of_any)
+        (found,) = camera_poses.placed_in(Document(str(tmp_path / "file")), meters)
         assert np.allclose(found.pose[:3, 3], np.array((1, 2, 3)) * sizes[UNITS[program.name]], rtol=1e-12)
         assert (found.pose[:3, :3] == np.eye(3)).all()

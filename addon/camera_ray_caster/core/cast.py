@@ -14,7 +14,7 @@ from .any_rays.choice import cast_sweep, search_for, sweep_tiles
 from .camera.camera import Camera
 from .camera.times import SweepTime
 from .casting.images import Images, check_reusable
-from .casting.needs import check_passes, image_bytes, pictures
+from .casting.pass_needs import check_passes, image_bytes, pictures
 from .casting.passes import PASSES
 from .casting.plan import Plan, make_plan
 from .casting.previews import Previews, Show

@@ -7,7 +7,7 @@ import pytest
 
 import camera_ray_caster as crc
 from camera_ray_caster.core.any_rays.choice import uses_tree
-from camera_ray_caster.core.casting.needs import WITHOUT_PIXEL
+from camera_ray_caster.core.casting.pass_needs import WITHOUT_PIXEL
 from camera_ray_caster.core.casting.passes import PASSES
 
 from ..shapes.meshes import ball

@@ -12,7 +12,7 @@ from camera_ray_caster.core.camera.spherical_stereo import SphericalStereo
 from camera_ray_caster.core.camera.stereo import eye_record
 from camera_ray_caster.core.cameras.model import Model
 from camera_ray_caster.core.conventions import EPS
-from camera_ray_caster.core.errors.rays import world_rays
+from camera_ray_caster.core.errors.ray_errors import world_rays
 from camera_ray_caster.core.motion.interpolation import TimeInterval
 from camera_ray_caster.core.records import InputError
 from camera_ray_caster.core.report.verification import verify

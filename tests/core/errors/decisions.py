@@ -6,12 +6,12 @@ A value beyond its bound is positive on a hit and negative on a miss; within the
 import numpy as np
 
 from camera_ray_caster.core.conventions import gamma
-from camera_ray_caster.core.errors.rays import world_rays
+from camera_ray_caster.core.errors.ray_errors import world_rays
 from camera_ray_caster.core.maths.vector import cross, difference, norm
 from camera_ray_caster.core.records import INFINITE_PLANE, MESH, PLANE, SPHERE
 from camera_ray_caster.core.shapes.local_rays import LocalRays
 from camera_ray_caster.core.shapes.mesh.errors import TriangleErrors
-from camera_ray_caster.core.shapes.mesh.surface import HitTriangles
+from camera_ray_caster.core.shapes.mesh.mesh_surface import HitTriangles
 from camera_ray_caster.core.shapes.mesh.triangles import VOLUME_ROUNDING, volumes
 from camera_ray_caster.core.shapes.sphere import outside
 

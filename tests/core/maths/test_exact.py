@@ -9,7 +9,7 @@ import pytest
 
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.conventions import EPS
-from camera_ray_caster.core.errors.rays import world_rays
+from camera_ray_caster.core.errors.ray_errors import world_rays
 from camera_ray_caster.core.maths.exact import FLAT, invert, solve, square_less_one, total, two_product, two_sum
 
 from ..cameras.model_examples import EXAMPLES, camera, raw_of

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.conventions import EPS
-from camera_ray_caster.core.errors.rays import world_rays
+from camera_ray_caster.core.errors.ray_errors import world_rays
 from camera_ray_caster.core.maths.chebyshev import COEFFICIENT_ROUNDING, PIECE, POINTS
 from camera_ray_caster.core.maths.panels import COLUMNS, FEWEST, Disc, on_raster
 

@@ -8,9 +8,9 @@ import pytest
 
 import camera_ray_caster as crc
 from camera_ray_caster.core.programs.parts.document import Document
+from camera_ray_caster.core.programs.reading.camera_poses import placed_in
 from camera_ray_caster.core.programs.reading.folders import pair_of
 from camera_ray_caster.core.programs.reading.lenses import lenses_of
-from camera_ray_caster.core.programs.reading.poses import placed_in
 from camera_ray_caster.core.records import InputError
 
 SAMPLES = Path(__file__).parent / "samples"

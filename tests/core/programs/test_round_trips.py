@@ -13,8 +13,8 @@ from camera_ray_caster.core.programs import PROGRAMS
 from camera_ray_caster.core.programs.parts.document import Document
 from camera_ray_caster.core.programs.parts.lens import ANGLES, FRAME_SIZE, Lens, word_of
 from camera_ray_caster.core.programs.parts.program import CameraRecord
+from camera_ray_caster.core.programs.reading.camera_poses import placed_in
 from camera_ray_caster.core.programs.reading.lenses import lenses_of
-from camera_ray_caster.core.programs.reading.poses import placed_in
 from camera_ray_caster.core.records import InputError
 from camera_ray_caster.core.units import factor
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.conventions import EPS
-from camera_ray_caster.core.errors.rays import world_rays
+from camera_ray_caster.core.errors.ray_errors import world_rays
 from camera_ray_caster.core.maths.recording import DOMAIN, NUMPY, look_up, loop, record
 from camera_ray_caster.core.maths.recording.record import COMPARISONS, LOGICAL, NUMERIC
 from camera_ray_caster.core.shaders.javascript import JavaScriptWriter

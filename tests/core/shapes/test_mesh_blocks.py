@@ -12,7 +12,7 @@ from camera_ray_caster.core import tuning
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.pixels import passes_at
 from camera_ray_caster.core.conventions import EPS
-from camera_ray_caster.core.shapes.mesh.in_camera import MeshesInView
+from camera_ray_caster.core.shapes.mesh.mesh_in_camera import MeshesInView
 
 from ..cameras.model_examples import EXAMPLES, IDENTITY, camera
 from ..cameras.table_examples import pinhole

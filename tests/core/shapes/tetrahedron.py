@@ -11,9 +11,9 @@ import numpy as np
 
 from camera_ray_caster.core.conventions import gamma
 from camera_ray_caster.core.maths.vector import difference, dot, matrix_rows, matvec, norm, unit
-from camera_ray_caster.core.shapes.frames import InCamera
 from camera_ray_caster.core.shapes.kind import Candidates, HitPixels, Kind, ShapeErrors, ShapeSet, Visible
 from camera_ray_caster.core.shapes.local_rays import LocalRays
+from camera_ray_caster.core.shapes.shape_frames import InCamera
 
 FACES = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], float)
 """The planes face . q = OFFSETS of the corner between the origin and the ends of the axes."""

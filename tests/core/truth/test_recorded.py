@@ -7,7 +7,7 @@ import pytest
 from mpmath import asin, atan2, mp, mpf, sqrt
 
 from camera_ray_caster.core.cameras import MODELS
-from camera_ray_caster.core.errors.rays import world_rays
+from camera_ray_caster.core.errors.ray_errors import world_rays
 from camera_ray_caster.core.maths.inversion import Inverse
 from camera_ray_caster.core.maths.recording import DOMAIN, record
 from camera_ray_caster.core.maths.recording.record import NUMERIC

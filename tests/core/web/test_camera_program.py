@@ -7,7 +7,7 @@ import pytest
 
 import camera_ray_caster as crc
 from camera_ray_caster.core.cameras import MODELS
-from camera_ray_caster.core.errors.rays import world_rays
+from camera_ray_caster.core.errors.ray_errors import world_rays
 from camera_ray_caster.core.maths.recording import NUMPY
 from camera_ray_caster.core.shaders.javascript import RUNTIME
 from camera_ray_caster.core.web.camera_program import holds

@@ -21,7 +21,7 @@ from ...core.camera.camera import Camera
 from ...core.camera.pixel_time import LinearTime, groups
 from ...core.camera.stereo import blender_shift, eye_record
 from ...core.camera.times import SweepTime
-from ...core.casting.needs import image_bytes
+from ...core.casting.pass_needs import image_bytes
 from ...core.memory import of_pixels, require
 from ...core.records import BlenderCamera, InputError
 from ...core.shaders.camera_shader import camera_shader

@@ -14,7 +14,7 @@ from ...core.camera.camera import Camera
 from ...core.camera.stereo import eye_record
 from ...core.cast import Images, cast
 from ...core.casting.images import reusable
-from ...core.casting.needs import frames_of, has_colors, image_bytes
+from ...core.casting.pass_needs import frames_of, has_colors, image_bytes
 from ...core.casting.previews import Show
 from ...core.memory import of_pixels, require
 from ...core.records import Finding, Shapes

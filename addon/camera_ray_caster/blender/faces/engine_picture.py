@@ -20,7 +20,7 @@ from mathutils import Matrix
 from ...core.camera.build import camera_from
 from ...core.camera.camera import Camera
 from ...core.camera.stereo import eye_record
-from ...core.casting.needs import image_bytes
+from ...core.casting.pass_needs import image_bytes
 from ...core.faces.faces import Face, faces_of, refusal, turn_of
 from ...core.faces.lens_points import LensPoint, blur_refusal, lens_points
 from ...core.faces.resample import FINER, resampled

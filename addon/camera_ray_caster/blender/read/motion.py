@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core.camera.camera import Camera
 from ...core.casting.flow import NEXT, PREVIOUS
-from ...core.casting.needs import frames_of
+from ...core.casting.pass_needs import frames_of
 from ...core.motion.evaluations import Motion, measured, resolve
 from ...core.records import Shapes
 from ...core.scene import Scene

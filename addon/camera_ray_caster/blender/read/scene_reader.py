@@ -11,7 +11,7 @@ from ...core.arguments import deprecated, keywords, number, shown, word, words
 from ...core.camera.camera import Camera
 from ...core.camera.pixel_time import LAST_FRAME
 from ...core.camera.stereo import eye_record
-from ...core.casting.needs import frames_of
+from ...core.casting.pass_needs import frames_of
 from ...core.casting.passes import PASSES
 from ...core.records import InputError, Shapes
 from ...core.scene import Scene

@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 
 from ...core.cast import Images
-from ...core.casting.needs import image_bytes
+from ...core.casting.pass_needs import image_bytes
 from ...core.file_set import atomic_folder
 from ...core.memory import of_pixels, require
 from ...core.names import folded

@@ -12,7 +12,7 @@ import bpy
 
 from ...core.camera.camera import Camera
 from ...core.cast import Images
-from ...core.casting.needs import check_passes
+from ...core.casting.pass_needs import check_passes
 from ...core.casting.passes import PASSES
 from ...core.casting.request import SHADINGS
 from ...core.file_set import CannotWrite

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import arguments, memory
-from ..casting.needs import WITHOUT_PIXEL, image_bytes
+from ..casting.pass_needs import WITHOUT_PIXEL, image_bytes
 from ..casting.passes import PASSES
 from ..conventions import gamma
 from ..maths.vector import norm

@@ -16,9 +16,9 @@ import numpy as np
 
 from ..maths.speed import lazy
 from ..mesh import LooseTriangles, Mesh
+from ..motion.bending_triangles import mesh_of, triangles_at
 from ..motion.evaluations import Motion
 from ..motion.interpolation import TimeInterval
-from ..motion.triangles import mesh_of, triangles_at
 from .tree import Tree, tree_of
 
 SLACK = 1e-6

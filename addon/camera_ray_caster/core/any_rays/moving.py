@@ -18,9 +18,9 @@ import numpy as np
 from ..maths.exact import invert
 from ..maths.speed import Scratch
 from ..motion.apart import BY_SHAPE, centers_at, light_changes, moving, of_rows, place_at, rows_of
+from ..motion.bending_triangles import bends, mesh_of
 from ..motion.evaluations import Motion
 from ..motion.interpolation import PLACE
-from ..motion.triangles import bends, mesh_of
 from ..records import MESH, PLANE, SPHERE, Shapes
 from ..shapes.in_camera import in_camera
 from .balls import may_meet, unit_directions

@@ -18,10 +18,10 @@ from ..mesh import Mesh
 from ..motion.apart import rows_of
 from ..records import MESH, Shapes
 from ..shapes.bodies import Bodies
-from ..shapes.frames import InCamera
 from ..shapes.in_camera import in_camera
 from ..shapes.kind import Kind
 from ..shapes.kinds import by_kind
+from ..shapes.shape_frames import InCamera
 from .body_search import keep_nearest, met
 from .forms import SLACK, Form
 from .packets import coherent_order, packets_of

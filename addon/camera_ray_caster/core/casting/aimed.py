@@ -10,12 +10,12 @@ import numpy as np
 
 from ..camera.camera import Camera
 from ..conventions import gamma
-from ..errors.hits import HitErrors
-from ..errors.rays import world_rays
+from ..errors.hit_errors import HitErrors
+from ..errors.ray_errors import world_rays
 from ..maths.speed import Scratch
 from ..maths.vector import components, difference, inverse, matvec, norm
 from ..records import Shapes
-from ..shapes.frames import WorldRays
+from ..shapes.shape_frames import WorldRays
 from .hit_values import HitValues
 from .plan import Plan, make_plan
 from .rays import TileRays

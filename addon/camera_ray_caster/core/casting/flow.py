@@ -26,10 +26,10 @@ from ..maths.speed import lazy
 from ..maths.vector import norm
 from ..motion.matching import rows_in
 from ..records import Shapes
-from ..shapes.follow import Moved
 from ..shapes.kind import HitPixels, Kind
+from ..shapes.surface_points import Moved
 from .hit_values import HitValues
-from .pictures import Picture
+from .seen_points import Picture
 
 NEXT, PREVIOUS = "next", "previous"
 """The names of the neighboring frames: those of the attributes of ``Scene``."""

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..camera.jacobian import RayDerivatives
-from ..errors.hits import HitErrors
+from ..errors.hit_errors import HitErrors
 from ..materials.surface import Surface
 from ..maths.speed import Scratch, lazy
 from ..maths.vector import dot, inner, is_lattice, is_one, linear, matvec, norm

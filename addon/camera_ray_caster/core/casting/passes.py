@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors.hits import HitErrors
+from ..errors.hit_errors import HitErrors
 from ..maths.reused_memory import empty
 from ..maths.speed import write_where
 from ..maths.vector import matvec, unit

@@ -13,7 +13,7 @@ from ..records import Shapes
 from ..scene import Scene
 from ..shapes.search_rays import Crossings
 from .hits import Hits
-from .needs import pictures
+from .pass_needs import pictures
 from .passes import PASSES
 from .plan import Plan, make_plan
 from .rays import chief_rays

@@ -12,9 +12,9 @@ from .. import tuning
 from ..camera.camera import Camera
 from ..records import Shapes
 from ..shapes import kinds
-from ..shapes.frames import InCamera
 from ..shapes.in_camera import in_camera
 from ..shapes.kind import ShapeSet, Visible
+from ..shapes.shape_frames import InCamera
 from ..shapes.windows import pixels_in
 from .pixel_bounds import CameraPixelBounds
 from .request import Request

@@ -9,10 +9,10 @@ import numpy as np
 
 from ..camera.camera import Camera
 from ..conventions import gamma
-from ..errors.rays import world_rays
+from ..errors.ray_errors import world_rays
 from ..maths.speed import Scratch
 from ..maths.vector import cut, norm
-from ..shapes.frames import WorldRays
+from ..shapes.shape_frames import WorldRays
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from ..records import Pose, Shapes
-from ..shapes.frames import InCamera
 from ..shapes.normals import NormalTable, normal_table
+from ..shapes.shape_frames import InCamera
 from .request import MATERIAL
 
 

@@ -14,7 +14,7 @@ from ..conventions import gamma
 from ..maths.vector import components, norm
 from ..records import InputError, Shapes
 from ..scene import Scene
-from .pictures import Picture
+from .seen_points import Picture
 
 
 class Visibility(IntEnum):

@@ -15,7 +15,7 @@ from ..records import INFINITE_PLANE, MESH, PLANE, SPHERE, Shapes
 from ..shapes.cutouts import Cutouts, crossings
 from ..shapes.in_camera import in_camera
 from ..shapes.kinds import by_kind
-from ..shapes.mesh.surface import TRIANGLES, HitTriangles
+from ..shapes.mesh.mesh_surface import TRIANGLES, HitTriangles
 from ..tuning import MESH_BLOCK
 from .formula import NOISE, digits, shown
 

@@ -1,7 +1,7 @@
 """JPL's camera models as text, .cahv, .cahvor and .cahvore: lines NAME = numbers.
 
 C is the place, A the axis, H and V lead to the column and the row; O is the axis of the distortion R, and E that of
-CAHVORE's pupil: see ``parts.cahvor``. Model = CAHVORE1 has the linearity 1, CAHVORE2 0, CAHVORE3,L that of its number.
+CAHVORE's pupil: see ``parts.cahvor_lens``. Model = CAHVORE1 has the linearity 1, CAHVORE2 0, CAHVORE3,L its number.
 The frame of a camera's lens has z along O. Lengths are meters, the file's frame is that of C.
 Reference: JPL, the CAHV family of camera models.
 """
@@ -13,7 +13,7 @@ import re
 import numpy as np
 
 from ..units import METERS
-from .parts.cahvor import lens_of
+from .parts.cahvor_lens import lens_of
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens

@@ -4,7 +4,7 @@ The center of the first pixel is (0, 0). mrcal's stereographic lens is the unifi
 focal length; its LONLAT is the equirectangular panorama. An entry that stands twice is refused. Older files have the
 model as distortion_model, DISTORTION_OPENCV8, and words as byte strings. extrinsics are the rotation vector and the
 translation from the world to the camera, x right and y down. A CAHVOR or CAHVORE camera is turned to the axis of its
-distortion: see ``parts.cahvor``.
+distortion: see ``parts.cahvor_lens``.
 Reference: mrcal documentation, Lens models; The .cameramodel file format.
 """
 
@@ -22,7 +22,7 @@ import numpy as np
 from ..cameras.parts.settings import LIMIT_ROUNDING
 from ..maths.rotations import half_turn_vector
 from ..records import InputError
-from .parts.cahvor import lens_of
+from .parts.cahvor_lens import lens_of
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import ANGLES, Lens, matrix, matrix_of, word_of

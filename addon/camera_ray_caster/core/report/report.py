@@ -14,7 +14,7 @@ from ..camera.camera import Camera
 from ..camera.facts import CONVENTIONS, camera_facts
 from ..camera.pixel_time import ImageTime
 from ..cast import TIMED_STEPS, Images
-from ..casting.needs import has_colors
+from ..casting.pass_needs import has_colors
 from ..conventions import EPS32
 from ..exports.camera_json import recorded
 from ..exports.json_values import differing, plain

@@ -16,9 +16,9 @@ from ..maths.vector import along, components, difference, dot, matrix_rows, matv
 from .affine_search import AffineSet, SearchGroup, divide
 from .bodies import Bodies, places_of
 from .cutouts import Cutouts, crossings
-from .frames import InCamera, WorldRays
 from .kind import HitPixels, Kind, ShapeErrors, Visible
 from .local_rays import LocalRays
+from .shape_frames import InCamera, WorldRays
 
 
 class Lattice(Protocol):

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from ..maths.vector import ALL, matvec
-from .frames import InCamera
 from .kind import HitPixels, Kind
+from .shape_frames import InCamera
 from .surface_places import KindPlaces, SurfacePlaces
 
 Cross = Callable[[Any], tuple[Any, Any]]

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..maths.speed import taken
-from .frames import BOUNDS_FACTOR
 from .kind import PixelBounds
+from .shape_frames import BOUNDS_FACTOR
 
 
 class HullPoints:

@@ -8,8 +8,8 @@ from ..conventions import EPS, gamma
 from ..maths.exact import FLAT, invert, largest, solve, two_sum
 from ..maths.vector import inverse
 from ..records import InputError, Pose, Shapes
-from .frames import BOUNDS_FACTOR, InCamera
 from .kinds import SHAPE_KINDS, by_kind
+from .shape_frames import BOUNDS_FACTOR, InCamera
 
 SIZES = 1e-152, 1e152
 """Range of sizes, distances and their ratios: their squares neither overflow nor underflow."""

@@ -23,9 +23,9 @@ import numpy as np
 from ..maths.speed import Scratch, lazy, taken
 from ..records import InputError, Shapes
 from .bodies import Bodies
-from .follow import Follow, follow_frames
-from .frames import InCamera, WorldRays
 from .search_rays import SearchRays
+from .shape_frames import InCamera, WorldRays
+from .surface_points import Follow, follow_frames
 
 
 class PixelBounds(Protocol):

@@ -12,7 +12,7 @@ import numpy as np
 from ..conventions import gamma
 from ..maths.speed import lazy, taken
 from ..maths.vector import difference, dot, norm
-from .frames import InCamera, Offsets, WorldRays
+from .shape_frames import InCamera, Offsets, WorldRays
 
 
 class Lookup:

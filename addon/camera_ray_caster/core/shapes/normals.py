@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import tuning
-from .frames import InCamera
 from .kind import PixelNormals
 from .kinds import by_kind
+from .shape_frames import InCamera
 
 
 @dataclass(frozen=True)

@@ -19,8 +19,8 @@ from ..conventions import EPS, gamma
 from ..maths.vector import cross, difference, linear, matvec
 from ..records import INFINITE_PLANE, PLANE, Shapes
 from .affine import AffineErrors, AffineKind
-from .frames import InCamera
 from .kind import PixelNormals
+from .shape_frames import InCamera
 
 GRAZING = 1 / 16
 """If N_z is below this fraction of the sum of its terms' magnitudes, it is computed with twice the digits."""

@@ -17,9 +17,9 @@ from ..maths.vector import cross, difference, dot, matvec, norm, unit
 from ..records import SPHERE, Shapes
 from . import sphere_rays
 from .affine import AffineErrors, AffineKind
-from .frames import InCamera
 from .kind import HitPixels, PixelNormals
 from .local_rays import LocalRays
+from .shape_frames import InCamera
 
 
 class Sphere(AffineKind):

@@ -24,7 +24,7 @@ import numpy as np
 
 from ..maths.exact import square_less_one
 from ..maths.vector import difference, dot, inner, is_lattice, is_one, linear, matvec, norm
-from .frames import InCamera
+from .shape_frames import InCamera
 
 CLOSE = 2.0
 """Nearer than this many radii, c = n^2 - 1 is computed with twice the digits."""

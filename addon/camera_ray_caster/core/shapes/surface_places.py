@@ -9,8 +9,8 @@ import numpy as np
 from ..materials.values import OBJECT, UV, Places
 from ..maths.speed import lazy, taken
 from ..records import Shapes
-from .frames import InCamera
 from .kind import HitPixels, Kind
+from .shape_frames import InCamera
 
 
 class KindPlaces:

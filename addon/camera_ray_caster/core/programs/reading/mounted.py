@@ -13,9 +13,9 @@ from .. import program_of
 from ..parts.document import Document
 from ..parts.lens import Lens
 from ..parts.placed import FROM_BLENDER, Placed, Rolling
+from .camera_poses import object_and_frame, placed_in
 from .folders import nearest, number_of, pair_of, pictures_in
 from .lenses import lenses_of
-from .poses import object_and_frame, placed_in
 
 UNNAMED = "", "camera"
 """Names of lenses in files that do not name them."""

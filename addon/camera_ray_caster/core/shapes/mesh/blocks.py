@@ -13,9 +13,9 @@ from ...conventions import gamma
 from ...maths.speed import lazy, taken
 from ...maths.vector import inverse
 from ...mesh import Mesh
-from ..frames import InCamera
 from ..hulls import HullPoints
 from ..kind import PixelBounds
+from ..shape_frames import InCamera
 from ..windows import counted
 
 

@@ -1,4 +1,4 @@
-"""Error bounds of hits on triangles; ``errors.hits`` explains what they bound and how."""
+"""Error bounds of hits on triangles; ``errors.hit_errors`` explains what they bound and how."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import numpy as np
 from ...conventions import EPS, gamma
 from ...maths.speed import lazy
 from ...maths.vector import along, difference, dot, norm
-from ..frames import WorldRays
 from ..kind import ShapeErrors
-from .surface import HitTriangles
+from ..shape_frames import WorldRays
+from .mesh_surface import HitTriangles
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,15 +16,15 @@ from ...maths.speed import merged, taken
 from ...maths.vector import difference, dot, norm
 from ...records import MESH
 from ..cutouts import Cutouts, crossings
-from ..frames import BOUNDS_FACTOR
 from ..kind import Candidates, PixelBounds, ShapeSet
 from ..search_rays import SearchRays
+from ..shape_frames import BOUNDS_FACTOR
 from ..windows import banded, in_tile, pixels_in, union
-from .in_camera import MeshesInView, Triangles
+from .mesh_in_camera import MeshesInView, Triangles
+from .mesh_surface import TRIANGLES, HitTriangles
 from .nearest import NONE, Nearest, SeenTriangles
 from .order import nearest_first, pieces, slabs
 from .spans import RayLattice, spans
-from .surface import TRIANGLES, HitTriangles
 from .triangles import VOLUME_ROUNDING, crossing, crossings_of, edge_vectors, from_origin, plane, signs, volumes
 
 CELLS_ROUNDING = 8

@@ -6,16 +6,16 @@ import numpy as np
 
 from ...records import MESH, Shapes
 from ..cutouts import Cutouts
-from ..follow import Follow
-from ..frames import InCamera, WorldRays
 from ..kind import HitPixels, Kind, PixelNormals, Visible
-from .bodies import TriangleBodies
+from ..shape_frames import InCamera, WorldRays
+from ..surface_points import Follow
 from .errors import TriangleErrors
-from .follow import follow_meshes
-from .in_camera import MeshesInView
+from .mesh_bodies import TriangleBodies
+from .mesh_in_camera import MeshesInView
+from .mesh_normals import TriangleNormals
+from .mesh_points import follow_meshes
 from .mesh_search import MeshSet
-from .normals import TriangleNormals
-from .surface import HitTriangles
+from .mesh_surface import HitTriangles
 
 
 class Meshes(Kind):

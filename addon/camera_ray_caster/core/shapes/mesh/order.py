@@ -9,7 +9,7 @@ import numpy as np
 
 from ... import tuning
 from ..windows import pixels_in
-from .in_camera import Triangles
+from .mesh_in_camera import Triangles
 
 
 def nearest_first(near: np.ndarray, count: np.ndarray, size: int) -> Iterator[np.ndarray]:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.cast import cast
-from camera_ray_caster.core.errors.rays import world_rays
+from camera_ray_caster.core.errors.ray_errors import world_rays
 from camera_ray_caster.core.records import SPHERE
 
 from ..cameras.model_examples import camera, raw_of

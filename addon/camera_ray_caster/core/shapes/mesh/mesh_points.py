@@ -9,8 +9,8 @@ import numpy as np
 from ...conventions import gamma
 from ...maths.vector import difference, matrix_rows, matvec, norm
 from ...records import Shapes
-from ..follow import Follow, Moved
-from .surface import LOST, HitTriangles, places_from_middle
+from ..surface_points import Follow, Moved
+from .mesh_surface import LOST, HitTriangles, places_from_middle
 
 
 def follow_meshes(with_frames: Follow, all_triangles: HitTriangles, point: Any) -> Follow:

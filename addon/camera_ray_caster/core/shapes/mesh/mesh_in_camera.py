@@ -17,9 +17,9 @@ import numpy as np
 from ... import tuning
 from ...maths.speed import Shared, lazy, taken
 from ...memory import require
-from ..frames import InCamera
 from ..hulls import HullPoints
 from ..kind import Visible
+from ..shape_frames import InCamera
 from ..windows import counted
 from .blocks import BlockRows, Blocks, camera_axes, vertex_count
 from .triangles import side

@@ -11,7 +11,7 @@ from ..conventions import gamma
 from ..maths.speed import taken
 from ..maths.vector import components, difference, matrix_rows, matvec, norm
 from ..records import Shapes
-from .frames import InCamera
+from .shape_frames import InCamera
 
 
 class Moved(NamedTuple):

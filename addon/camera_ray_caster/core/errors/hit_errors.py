@@ -16,8 +16,8 @@ import numpy as np
 from ..conventions import EPS, gamma
 from ..maths.speed import lazy
 from ..maths.vector import along, difference, norm
-from ..shapes.frames import InCamera, WorldRays
 from ..shapes.kind import HitPixels, Kind
+from ..shapes.shape_frames import InCamera, WorldRays
 
 
 class HitErrors:

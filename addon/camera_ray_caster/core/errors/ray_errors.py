@@ -13,7 +13,7 @@ import numpy as np
 from ..camera.camera import Camera
 from ..conventions import gamma
 from ..maths.vector import difference, matvec, norm
-from ..shapes.frames import WorldRays
+from ..shapes.shape_frames import WorldRays
 
 STEP = 2.0**-20
 """Move in pixels that measures how fast the rays turn; so small that it stays in the picture next to singular rims."""

@@ -11,8 +11,8 @@ from ...maths.vector import along, cross, difference, dot, norm
 from ...memory import require
 from ..bodies import Bodies, places_of
 from ..cutouts import Cutouts, crossings
-from ..frames import InCamera
-from .surface import TRIANGLES, HitTriangles
+from ..shape_frames import InCamera
+from .mesh_surface import TRIANGLES, HitTriangles
 from .triangles import VOLUME_ROUNDING, crossing, edge_vectors, signs, volumes
 
 BYTES = 192

@@ -11,10 +11,10 @@ from ... import tuning
 from ...maths.speed import taken
 from ...maths.vector import dot, norm
 from ...records import MESH
-from ..frames import InCamera
 from ..kind import HitPixels
+from ..shape_frames import InCamera
+from .mesh_surface import HitTriangles, affine_at
 from .nearest import SeenTriangles
-from .surface import HitTriangles, affine_at
 
 NORMALS = "normals of triangles"
 """Name under which ``SeenTriangles.noted`` has the ``TriangleNormals`` of a tile."""

@@ -17,8 +17,8 @@ from ...maths.speed import lazy, merged, taken
 from ...maths.vector import components, cross, difference, dot, matrix_rows, matvec, norm
 from ...mesh import Mesh
 from ...records import MESH
-from ..frames import InCamera
 from ..kind import HitPixels
+from ..shape_frames import InCamera
 
 TRIANGLES = "triangles"
 """Name under which ``HitPixels.noted`` has the ``HitTriangles`` of the pixels."""

@@ -10,7 +10,7 @@ from ..camera.camera import Camera
 from ..records import InputError
 from ..scene import Scene
 from .passes import PASSES
-from .pictures import Picture
+from .seen_points import Picture
 
 COLORED = {"combined", "albedo"}
 """The passes that show colors of materials."""
