@@ -45,6 +45,14 @@ def test_the_program_of_forty_lines(tmp_path):
     assert {f"{crc.camera_from_json(tmp_path / 'camera.json', camera=name).name}" for name in ("fisheye", "scanner")}
 
 
+def test_a_program_with_every_name(tmp_path):
+    """A type checker reads it in tests/core/camera/test_description.py."""
+    text = PROGRAM.with_name("every_name.py").read_text()
+    assert [name for name in crc.__all__ if f"crc.{name}" not in text] == []
+    said = run(f"exec(compile({text!r}, 'every_name', 'exec'))", tmp_path)
+    assert "<Camera 'Camera', OPENCV_FISHEYE, 64 x 48" in said
+
+
 def test_the_first_program_of_the_readme():
     readme = (ADDON.parent / "README.md").read_text(encoding="utf-8")
     first = re.search(r"^```python\n(.*?)^```$", readme, re.MULTILINE | re.DOTALL)[1]

@@ -1,13 +1,15 @@
 """Reading of a scene's camera and shapes as plain records. The scene is restored afterwards."""
 
+from collections.abc import Callable
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial, wraps
 from numbers import Real
+from typing import Any
 
 import bpy
 
-from ...core.arguments import deprecated, keywords, number, shown, word, words
+from ...core.arguments import P, R, deprecated, keywords, number, shown, word, words
 from ...core.camera.camera import Camera
 from ...core.camera.pixel_time import LAST_FRAME
 from ...core.camera.stereo import eye_record
@@ -23,17 +25,19 @@ from .motion import motion_of, with_other_frames
 from .physics import prepare
 
 
-def _frame_came_second(function):
+def _frame_came_second(function: Callable[P, R]) -> Callable[P, R]:
     """Let a function take its arguments by position as they were before version 0.3, with a DeprecationWarning."""
 
     @wraps(function)
-    def call(scene, *others, **keywords):
+    def call(*args: P.args, **keywords: P.kwargs) -> R:
+        by_name: Any = function
+        others = args[1:]
         if not others or (len(others) == 1 and not isinstance(others[0], Real)):
-            return function(scene, *others, **keywords)
+            return function(*args, **keywords)
         first = ("frame", "camera_object") if isinstance(others[0], Real | None) else ("camera_object", "frame")
         old = dict(zip((*first, "view", "passes"), others, strict=False))
         deprecated(f"{function.__name__} takes all but the scene and the camera as keywords: frame=..., view=...")
-        return function(scene, **old, **keywords)
+        return by_name(args[0], **old, **keywords)
 
     return call
 

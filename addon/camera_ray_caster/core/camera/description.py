@@ -10,6 +10,7 @@ import numpy as np
 from ..arguments import shown
 from ..cameras import find_model
 from ..cameras.model import Model
+from ..cameras.parts.calibration import SIZE
 from ..cameras.parts.parameters import parameters_of, values_of
 from ..conventions import FROM_BLENDER
 from ..maths.vector import inverse
@@ -95,6 +96,7 @@ class Description:
             f"{setting.name}={shown(value)}"
             for setting in kind.SETTINGS
             if not same(value := setting.reported(self.record), values_of([setting], _defaults(setting))[setting.name])
+            and not (setting in SIZE and value in (self.width, self.height))
         ]
         eye = ", ".join(f"{coordinate:.6g}" for coordinate in self.pose.eye)
         words = (repr(self.name), kind.key, f"{self.width} x {self.height}", *changed, f"at ({eye})")
