@@ -194,8 +194,9 @@ MOST_FILES = 3
 
 @cache
 def code_of_files():
-    """The code of each file of the add-on, without docstrings and comments, as text."""
-    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in ADDON.rglob("*.py") if "presets" not in path.parts]
+    """The code of each file of the add-on, without docstrings and comments, as text; but for what users type."""
+    paths = [path for path in ADDON.rglob("*.py") if not {"presets", "other_names.py"} & {*path.parts}]
+    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in paths]
     for tree in trees:
         for node in ast.walk(tree):
             body = getattr(node, "body", None)
