@@ -4,8 +4,9 @@ from collections.abc import Callable
 
 from ...core.camera.build import camera_from
 from ...core.camera.camera import Camera
-from ...core.records import BlenderCamera
+from ...core.records import BlenderCamera, InputError
 from ...core.scene import Scene
+from ..properties.setting_labels import in_labels
 from .camera_fields import camera_record
 from .depsgraph_shapes import shapes_record
 
@@ -21,6 +22,16 @@ def camera_at(camera_object, depsgraph, eye: Eye | None = None) -> tuple[Blender
     raw = camera_record(camera_object, depsgraph)
     raw = raw if eye is None else eye(raw)
     return raw, camera_from(raw)
+
+
+def camera_or_reason(
+    camera_object, depsgraph, eye: Eye | None = None
+) -> tuple[BlenderCamera, Camera, str] | tuple[None, None, str]:
+    """Return what ``camera_at`` does and "", or None twice and why the camera cannot be cast, in one line."""
+    try:
+        return *camera_at(camera_object, depsgraph, eye), ""
+    except InputError as error:
+        return None, None, in_labels(str(error))
 
 
 Read = Callable[..., Scene]

@@ -9,10 +9,9 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ...core.camera.camera import Camera
-from ...core.records import BlenderCamera, InputError, Shapes
-from ..properties.setting_labels import in_labels
+from ...core.records import BlenderCamera, Shapes
 from .depsgraph_shapes import shapes_record
-from .evaluated import camera_at
+from .evaluated import camera_or_reason
 from .frames import frame_of
 from .render_differences import evaluated_otherwise
 
@@ -53,19 +52,12 @@ def cached_scene(context) -> CachedScene:
         shapes, otherwise = _read[0].shapes, _read[0].otherwise
     else:
         shapes, otherwise = shapes_record(depsgraph), evaluated_otherwise(depsgraph)
-    raw, camera, reason = _camera(scene.camera, depsgraph)
+    raw, camera, reason = camera_or_reason(scene.camera, depsgraph)
     messages = tuple(differences(camera, scene))
     camera = camera and replace(camera, pixel_time=None)
     _read[:] = [CachedScene(key, raw, camera, shapes, reason, messages, otherwise)]
     _stale.clear()
     return _read[0]
-
-
-def _camera(camera_object, depsgraph) -> tuple[BlenderCamera | None, Camera | None, str]:
-    try:
-        return *camera_at(camera_object, depsgraph), ""
-    except InputError as error:
-        return None, None, in_labels(str(error))
 
 
 def differences(camera: Camera | None, scene) -> Iterator[str]:

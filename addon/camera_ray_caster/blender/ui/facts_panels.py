@@ -6,20 +6,16 @@ import bpy
 
 from ...core.camera.camera import Camera
 from ...core.camera.facts import camera_facts
-from ...core.records import InputError
 from ..properties.declared import GROUP
-from ..properties.setting_labels import in_labels
-from ..read.evaluated import camera_at
+from ..read.evaluated import camera_or_reason
 from ..read.lengths import length
 from .drawing import Sidebar, draw_message, draw_row
 
 
 def camera_of(context, camera_object) -> tuple[Camera | None, str]:
     """Return a camera as the window shows it and "", or None and the reason in one line."""
-    try:
-        return camera_at(camera_object, context.evaluated_depsgraph_get())[1], ""
-    except InputError as error:
-        return None, in_labels(str(error))
+    _, camera, reason = camera_or_reason(camera_object, context.evaluated_depsgraph_get())
+    return camera, reason
 
 
 def facts_of(context, camera_object) -> tuple[dict[str, object] | None, str]:

@@ -169,7 +169,16 @@ def draw_cameras(path: str, names: list[str], set_frame: bool, menu, context) ->
         entry.filepath, entry.camera, entry.set_frame = path, name, set_frame
 
 
-class SelectLeftOut(bpy.types.Operator):
+class OfReport:
+    """Base of the operators on the latest report."""
+
+    @classmethod
+    def poll(cls, context):
+        """Gray out the operator before the first cast or render."""
+        return can_use(cls, "" if reports.latest(context.scene) else NO_REPORT)
+
+
+class SelectLeftOut(OfReport, bpy.types.Operator):
     """Select the objects that the latest cast left out or simplified for this reason, and make the first one active"""
 
     bl_idname = "camera_ray_caster.select"
@@ -179,12 +188,6 @@ class SelectLeftOut(bpy.types.Operator):
     reason: StringProperty(
         name="Reason", description="Reason for which the report lists the objects as left out", options={"SKIP_SAVE"}
     )
-
-    @classmethod
-    def poll(cls, context):
-        """Gray out the operator before the first cast."""
-        cls.poll_message_set(NO_REPORT)
-        return reports.latest(context.scene) is not None
 
     @reporting
     def execute(self, context):
@@ -196,18 +199,12 @@ class SelectLeftOut(bpy.types.Operator):
         select_alone(context, *users)
 
 
-class WriteReport(bpy.types.Operator):
+class WriteReport(OfReport, bpy.types.Operator):
     """Write the report of the latest render into a text datablock"""
 
     bl_idname = "camera_ray_caster.write_report"
     bl_label = "Report to Text"
     bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context):
-        """Gray out the operator before the first render."""
-        cls.poll_message_set(NO_REPORT)
-        return reports.latest(context.scene) is not None
 
     @reporting
     def execute(self, context):

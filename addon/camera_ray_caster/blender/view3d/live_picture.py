@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any
 
 import gpu
@@ -10,16 +11,13 @@ import numpy as np
 from gpu_extras.presets import draw_texture_2d
 from mathutils import Matrix
 
-from ...core.camera.build import camera_from
 from ...core.camera.camera import Camera
 from ...core.camera.stereo import eye_record
 from ...core.cameras.parts.port_settings import PORT
 from ...core.faces.faces import Face, faces_of, refusal, turn_of
 from ...core.maths.recording import NotRecordable
-from ...core.records import InputError
 from ...core.shaders.ray_map import ray_map
-from ..properties.setting_labels import in_labels
-from ..read.evaluated import camera_at
+from ..read.evaluated import camera_or_reason
 from ..read.scene_cache import differences
 from .live_programs import draw_map, draw_warp, map_texture
 from .overlay import batch_of, draw_batch
@@ -54,10 +52,8 @@ class LiveView:
 
 def why_not(camera_object, depsgraph) -> str:
     """Return why the picture of a camera object cannot be live; "" if it can."""
-    try:
-        return _reason(camera_at(camera_object, depsgraph)[1])
-    except InputError as error:
-        return in_labels(str(error))
+    _, camera, reason = camera_or_reason(camera_object, depsgraph)
+    return _reason(camera) if camera else reason
 
 
 def _reason(camera: Camera) -> str:
@@ -110,15 +106,11 @@ def camera_of(context, view: LiveView) -> Camera | None:
     scene = context.scene
     key = view.changes, _eye(context), scene.camera.as_pointer()
     if view.camera[0] != key:
-        try:
-            raw, camera = camera_at(scene.camera, context.evaluated_depsgraph_get())
-            if key[1]:
-                camera = camera_from(eye_record(raw, key[1]))
-            reason = _reason(camera)
-            view.differences = tuple(differences(camera, scene))
-            view.camera = key, None if reason else replace(camera, pixel_time=None), reason
-        except InputError as error:
-            view.camera = key, None, in_labels(str(error))
+        eye = partial(eye_record, view=key[1])
+        _, camera, reason = camera_or_reason(scene.camera, context.evaluated_depsgraph_get(), eye)
+        view.differences = tuple(differences(camera, scene))
+        reason = _reason(camera) if camera else reason
+        view.camera = key, None if reason else replace(camera, pixel_time=None), reason
     return view.camera[1]
 
 
