@@ -26,8 +26,8 @@ def arrays_of(mesh: Any) -> dict[str, Any]:
     vertices, faces = getattr(mesh, "vertices", None), getattr(mesh, "faces", getattr(mesh, "triangles", None))
     if vertices is None or faces is None:
         raise InputError(
-            f"{shown(type(mesh))} has no vertices and faces: give mesh(vertices, faces), or a mesh of trimesh or Open3D"
-            "; of a scene of trimesh, scene.to_mesh()"
+            f"{shown(type(mesh))} has no vertices and faces: give mesh(vertices, faces), or a mesh of trimesh; "
+            "of a scene of trimesh, scene.to_mesh()"
         )
     uv = getattr(getattr(mesh, "visual", None), "uv", None)
     return {"vertices": np.asarray(vertices), "faces": np.asarray(faces), "uv": None if uv is None else np.asarray(uv)}
