@@ -62,7 +62,7 @@ def test_cameras_bin_says_what_cameras_txt_says(tmp_path):
 def test_a_file_without_a_size_leaves_nothing_to_the_next(tmp_path):
     (tmp_path / "first").write_text('{"camera_angle_x": 0.7, "frames": []}')
     (tmp_path / "second").write_text("fx: 300.\nfy: 301.\ncx: 32.\ncy: 24.\n")
-    chosen_lens(str(tmp_path / "first"), frame=(64, 48))
+    chosen_lens(str(tmp_path / "first"), picture_size=(64, 48))
     lens = chosen_lens(str(tmp_path / "second"), "OPENCV_PINHOLE")
     assert not has_size(lens)
     assert lens.settings["fx"] == 300

@@ -24,17 +24,19 @@ def renew() -> None:
     READING.update({model.key: model.label for model in MODELS if FILE in model.SETTINGS})
 
 
-def set_calibration(camera, path: str, name: str = "", frame: tuple[int, int] | None = None, model: str = "") -> str:
+def set_calibration(
+    camera, path: str, name: str = "", picture_size: tuple[int, int] | None = None, model: str = ""
+) -> str:
     """Set the calibration file and the matching model of a camera's data; return a line about the values read.
 
     A camera of a model that reads calibration files is linked to the file; of any other model, such as a panorama, the
-    settings are set. ``name`` is the name of the camera in a file with several cameras, ``frame`` the size of the
-    scene's pictures, and ``model`` the key of the model that the file has to be for; default: any, and that of the
-    camera if the file does not tell. Raises InputError if the file cannot be read or is for another model, or if it has
-    several cameras and none is chosen; the message names them. Nothing is changed then.
+    settings are set. name: of the camera in a file with several. picture_size: of the scene. model: key of the model
+    that the file has to be for; default: any, and that of the camera if the file does not tell. Raises InputError if
+    the file cannot be read or is for another model, or if none of several cameras is chosen; the message lists them.
+    Nothing is changed then.
     """
     group = getattr(camera, GROUP)
-    lens = chosen_lens(path, model or _key(group), name, frame)
+    lens = chosen_lens(path, model or _key(group), name, picture_size)
     if model not in ("", lens.model):
         label = model_of(lens).label
         raise InputError(f"{path!r} is a calibration for {label}, not {READING[model]}: choose that model")

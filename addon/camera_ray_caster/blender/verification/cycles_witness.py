@@ -56,9 +56,9 @@ def cycles_finding(camera: Camera) -> Finding:
 
 def compared(camera: Camera, shift: tuple[float, float], ends_of) -> Finding:
     """Return the finding on a camera; ``ends_of(center, half, size)`` returns the points where rays hit the box."""
-    frame = np.array(camera.model.size)
-    size = np.maximum(np.rint(frame * (LONGER_SIDE / frame.max())), 1).astype(int)
-    x, y = ((np.arange(count) + 0.5) * (side / count) for count, side in zip(size, frame, strict=True))
+    full_size = np.array(camera.model.size)
+    size = np.maximum(np.rint(full_size * (LONGER_SIDE / full_size.max())), 1).astype(int)
+    x, y = ((np.arange(count) + 0.5) * (side / count) for count, side in zip(size, full_size, strict=True))
     x, y = x[None, :], y[:, None]
     rays, bounds = camera.rays_at(x, y), ray_bounds(camera, x, y, shift)
     eye = camera.pose.eye

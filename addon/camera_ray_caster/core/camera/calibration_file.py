@@ -76,12 +76,12 @@ def model_of(lens: Lens) -> type[Model]:
     return next(model for model in MODELS if model.key == lens.model)
 
 
-def chosen_lens(path: str, key: str = "", name: str = "", frame: tuple[int, int] | None = None) -> Lens:
-    """Return the lens of this name in a calibration file, or its only lens; see ``lenses_of`` for ``key`` and
-    ``frame``. Raises InputError for a file that cannot be read, and for a missing or ambiguous choice; its message
-    names the lenses in the file.
+def chosen_lens(path: str, key: str = "", name: str = "", picture_size: tuple[int, int] | None = None) -> Lens:
+    """Return the lens of this name in a calibration file, or its only lens; key, picture_size: see ``lenses_of``.
+
+    Raises InputError for a file that cannot be read, and without a lens of this name; the message lists the lenses.
     """
-    lenses = lenses_of(path, key, frame)
+    lenses = lenses_of(path, key, picture_size)
     chosen = [lens for lens in lenses if name in ("", lens.name)]
     if len(chosen) != 1:
         names = [repr(lens.name)[1:-1] for lens in lenses]  # what is not printable is escaped

@@ -17,8 +17,8 @@ Settings = Mapping[str, Setting]
 Values = Mapping[str, Any]
 
 
-def completed(model: str, declared: Settings, explicit: Values, frame: tuple[int, int]) -> dict[str, Any]:
-    """Return the settings that follow from those given, by name, for a picture of ``frame`` = (width, height) pixels.
+def completed(model: str, declared: Settings, explicit: Values, picture_size: tuple[int, int]) -> dict[str, Any]:
+    """Return the settings that follow from those given, by name, for a picture of this width and height.
 
     declared: the settings of the model, whose key is ``model``; explicit: values as records hold them. A calibrated
     picture of which no number is given is the declared one, scaled to the frame's longer side, with square pixels.
@@ -46,8 +46,8 @@ def completed(model: str, declared: Settings, explicit: Values, frame: tuple[int
     }
     stated = [name for name in picture if name in explicit]
     if not stated:
-        return _default_lens(picture, frame)
-    size = [explicit.get(side.name) or side_of_frame for side, side_of_frame in zip(SIZE, frame, strict=True)]
+        return _default_lens(picture, picture_size)
+    size = [explicit.get(side.name) or side_of_frame for side, side_of_frame in zip(SIZE, picture_size, strict=True)]
     middles = iter(size)
     for name, setting in picture.items():
         if setting.left_out in (SAME, NEEDED) and name not in explicit and name not in values:
@@ -73,17 +73,17 @@ def _has_effect(declared: Settings, values: Values, setting: Setting) -> bool:
     )
 
 
-def _default_lens(picture: Settings, frame: tuple[int, int]) -> dict[str, Any]:
+def _default_lens(picture: Settings, picture_size: tuple[int, int]) -> dict[str, Any]:
     """Return the declared calibrated picture in a frame of another shape: its longer side is the frame's."""
     declared = [side.default for side in SIZE]
-    if frame[0] * declared[1] == frame[1] * declared[0]:
+    if picture_size[0] * declared[1] == picture_size[1] * declared[0]:
         return {}
-    scale = max(frame) / max(declared)
+    scale = max(picture_size) / max(declared)
     values: dict[str, Any] = {}
-    middles = iter(frame)
+    middles = iter(picture_size)
     for name, setting in picture.items():
         if setting.left_out == OF_FRAME:
-            values[name] = frame[SIZE.index(setting)]
+            values[name] = picture_size[SIZE.index(setting)]
         elif setting.left_out == MIDDLE:
             values[name] = (next(middles) - 1) / 2
         elif isinstance(setting, Coefficients):

@@ -30,7 +30,7 @@ CALLER = 3
 """Levels of functions from the warning up to the user's line."""
 
 
-def pose_in_file(path: str, lens: Lens, model: str, frame: tuple[int, int]) -> np.ndarray | None:
+def pose_in_file(path: str, lens: Lens, model: str, picture_size: tuple[int, int]) -> np.ndarray | None:
     """Return the pose of a lens in a file, (4, 4) from Blender's camera frame to the file's, as the nearest rotation;
     None if the file has none. The world is the file's: of a rig without one, OpenCV's axes of its first camera.
     Warns, and returns None, if the file has several poses of the lens, or bad ones.
@@ -40,7 +40,7 @@ def pose_in_file(path: str, lens: Lens, model: str, frame: tuple[int, int]) -> n
     if document.is_binary or (is_table and (program is None or program.poses is None)):
         return ray_arrays.pose_in(document)
     try:
-        cameras = mounted(path, model, frame, RATE)
+        cameras = mounted(path, model, picture_size, RATE)
     except InputError as error:
         entry = ENTRY.search(document.text)
         if not any(words in str(error) for words in WITHOUT):

@@ -78,25 +78,25 @@ def load_rig(
     size of its pictures. A ``UserWarning`` says which poses of the file are left out.
     """
     file, model = checked_path(path), model and chosen(model, "model", models())
-    frame = None if size is None else pair_of_pixels(size)
+    picture_size = None if size is None else pair_of_pixels(size)
     rate = number(frame_rate, "frame_rate", 1e6)
     if rate <= 0:
         raise InputError(f"frame_rate is {shown(frame_rate)}: it must be above 0")
-    mounted_cameras = mounted(file, model, frame, rate)
+    mounted_cameras = mounted(file, model, picture_size, rate)
     for note in filter(None, (mounted_camera.note for mounted_camera in mounted_cameras)):
         warnings.warn(note, stacklevel=2)
     if not all(mounted_camera.lenses for mounted_camera in mounted_cameras):
         raise InputError(f"file {file!r} is a trajectory, which has no lens: give a file with lenses and poses")
-    return {mounted_camera.name: _of(mounted_camera, frame, rate) for mounted_camera in mounted_cameras}
+    return {mounted_camera.name: _of(mounted_camera, picture_size, rate) for mounted_camera in mounted_cameras}
 
 
-def _of(mounted_camera: Mounted, frame: tuple[int, int] | None, rate: float) -> RigCamera:
+def _of(mounted_camera: Mounted, picture_size: tuple[int, int] | None, rate: float) -> RigCamera:
     by_lens: dict[int, Camera] = {}
     cameras = []
     poses = zip(mounted_camera.poses, mounted_camera.rolling or [None] * len(mounted_camera.poses), strict=True)
     for lens, time, (pose, rolling) in zip(mounted_camera.lenses, mounted_camera.frames, poses, strict=True):
         if id(lens) not in by_lens:
-            size, chosen = frame or size_of(mounted_camera.file, lens), "" if mounted_camera.alone else lens.name
+            size, chosen = picture_size or size_of(mounted_camera.file, lens), "" if mounted_camera.alone else lens.name
             by_lens[id(lens)] = of_lens(mounted_camera.file, lens, chosen, size, None, mounted_camera.name)
         camera = by_lens[id(lens)].with_pose(rigid(pose))
         if time is not None:

@@ -43,7 +43,7 @@ def _pictures(document: Document) -> list[tuple[str, list[float], np.ndarray]]:
 
 
 def _lenses(document: Document) -> list[Lens]:
-    width, height = document.frame or (1, 1)
+    width, height = document.picture_size or (1, 1)
     return once_each(
         Lens(name, "OPENCV_PINHOLE", FRAME_SIZE | matrix(f, f, width / 2, height / 2, 0.5) | {"k1": k1, "k2": k2})
         for name, (f, k1, k2), _ in _pictures(document)

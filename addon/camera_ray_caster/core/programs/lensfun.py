@@ -56,7 +56,7 @@ def _lens(document: Document, distortion: Fields, texts: Fields, name: str, lens
     crop, ratio = texts.number("cropfactor"), _ratio(texts)
     if min(focal, crop, ratio) <= 0:
         raise document.refusal(f"focal, cropfactor and aspect-ratio of {name} must be above 0")
-    width, height = document.frame or (1, 1)
+    width, height = document.picture_size or (1, 1)
     pixels = hypot(width, height) / (FULL_FRAME / crop)
     half = FULL_FRAME / crop / hypot(max(ratio, 1 / ratio), 1) / 2
     model = PROJECTIONS[texts.word("type", PROJECTIONS, "rectilinear")]

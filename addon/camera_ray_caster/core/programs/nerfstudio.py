@@ -117,7 +117,9 @@ def _lens(document: Document, frame: Fields, name: str) -> Lens:
     size = document.size(*sides)
     if kind == SPHERE:
         return Lens(name, SPHERE, size)
-    width, height = (side or frame_side for side, frame_side in zip(sides, document.frame or (1, 1), strict=True))
+    width, height = (
+        side or frame_side for side, frame_side in zip(sides, document.picture_size or (1, 1), strict=True)
+    )
     focal = _focal(entries, "x", width)
     has_y = entries.has("fl_y") or entries.has("camera_angle_y")
     focal_y = _focal(entries, "y", height) if has_y else focal

@@ -45,7 +45,7 @@ def _pictures(document: Document) -> list[tuple[str, list[float]]]:
 
 
 def _lenses(document: Document) -> list[Lens]:
-    width, height = document.frame or (1, 1)
+    width, height = document.picture_size or (1, 1)
     fixed = document.lines()[0].split()
     lenses = []
     for name, (f, *_, radial, _end) in _pictures(document):
@@ -64,7 +64,7 @@ def _distorted(document: Document, name: str, focal_and_center: Sequence[float],
     power series of the third component.
     """
     fx, fy, cx, cy = focal_and_center
-    width, height = document.frame or (1, 1)
+    width, height = document.picture_size or (1, 1)
     share = abs(radial) * ((width / 2) ** 2 + (height / 2) ** 2) / fx**2 if fx > 0 else inf
     if share > STRONGEST or fx != fy:
         raise document.refusal(

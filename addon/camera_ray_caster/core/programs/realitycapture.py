@@ -87,7 +87,7 @@ def _pictures(document: Document) -> list[Fields]:
 
 
 def _lens(document: Document, picture: Fields) -> Lens:
-    width, height = document.frame or (1, 1)
+    width, height = document.picture_size or (1, 1)
     longer = max(width, height)
     if picture.has("f"):
         coefficients = [picture.number(name, 0.0) for name in COEFFICIENTS]

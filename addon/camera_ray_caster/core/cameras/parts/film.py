@@ -253,16 +253,16 @@ class Window:
         """Return the window in which a circle of this radius touches the nearer sides of the frame."""
         return cls.round_pixels(raw, raster, 2 * radius / min(raster.width, raster.height * raster.pixel_aspect))
 
-    def extent(self, frame: tuple[int, int]) -> tuple[float, float, float, float]:
+    def extent(self, size: tuple[int, int]) -> tuple[float, float, float, float]:
         """Return x_low, x_high, y_low, y_high on the image plane of a frame of this width and height in pixels; low <=
         high, also if the window is mirrored.
         """
-        x, y = self.plane_from_pixels(*(np.array([0.0, side]) for side in frame))
+        x, y = self.plane_from_pixels(*(np.array([0.0, side]) for side in size))
         return least(*x), largest(*x), least(*y), largest(*y)
 
-    def corners(self, frame: tuple[int, int]) -> np.ndarray:
+    def corners(self, size: tuple[int, int]) -> np.ndarray:
         """Return the corners of a frame on the image plane, (4, 2), around it."""
-        left, right, low, high = self.extent(frame)
+        left, right, low, high = self.extent(size)
         return np.array([(left, low), (right, low), (right, high), (left, high)], np.float64)
 
     def matrix(self, height: int) -> np.ndarray:
@@ -275,11 +275,11 @@ class Window:
             [0.0, 0.0, 1.0],
         ])  # fmt: skip
 
-    def rounding(self, x, y, frame: tuple[int, int]):
+    def rounding(self, x, y, size: tuple[int, int]):
         """Return the rounding of the few operations from a pixel to the plane, as shifts of the pixel in x and in y. A
         center in the middle of the frame is exact.
         """
-        places = (x, self.center_x, frame[0] / 2), (y, self.center_y, frame[1] / 2)
+        places = (x, self.center_x, size[0] / 2), (y, self.center_y, size[1] / 2)
         across, up = (
             gamma(6) * np.abs(coordinate - center) + gamma(3) * (abs(center) if center != middle else 0.0)
             for coordinate, center, middle in places

@@ -38,25 +38,25 @@ AT_ONCE = 4096
 """Number of points sought together: their working arrays take some 100 MB."""
 
 
-def pixels_of(rays: Callable, frame: tuple[int, int], points, start=None) -> np.ndarray:
+def pixels_of(rays: Callable, size: tuple[int, int], points, start=None) -> np.ndarray:
     """Return the pixel coordinates (..., 2) at which ``rays(x, y)`` pass through points (..., 3); NaN where none does.
 
-    rays: a function like a model's, in the points' frame. frame: width and height in pixels; a pixel beyond it may be
-    found. If several pixels see a point, the result is the one nearest to the frame's middle, or the one to which the
+    rays: a function like a model's, in the points' frame. size: width and height in pixels; a pixel beyond it may be
+    found. If several pixels see a point, the result is the one nearest to the picture's middle, or the one to which the
     search from ``start`` (..., 2) leads. It is right to some EPS of angle over the angle from pixel to pixel.
     """
     points = np.asarray(points, np.float64)
     flat = points.reshape(-1, 3)
     starts = None if start is None else np.asarray(start, np.float64).reshape(-1, 1, 2)
     parts = [slice(first, first + AT_ONCE) for first in range(0, len(flat), AT_ONCE)]
-    pixels = [_sought(rays, frame, flat[block], None if starts is None else starts[block]) for block in parts]
+    pixels = [_sought(rays, size, flat[block], None if starts is None else starts[block]) for block in parts]
     return np.concatenate([np.zeros((0, 2)), *pixels]).reshape(*points.shape[:-1], 2)
 
 
-def _sought(rays, frame, points, start) -> np.ndarray:
+def _sought(rays, size, points, start) -> np.ndarray:
     """Return the pixels (n, 2) of points (n, 3), sought from ``start``: pixels (n, k, 2), or None for the lattice."""
     with np.errstate(all="ignore"):  # NaN and inf are valid results: no ray
-        start = _starts(rays, frame, points) if start is None else start
+        start = _starts(rays, size, points) if start is None else start
         targets = np.repeat(points[:, None], start.shape[1], axis=1)
         off, limit = _off(rays, start, targets)
         for _ in range(GAUSS_NEWTON_STEPS):
@@ -74,16 +74,16 @@ def _sought(rays, frame, points, start) -> np.ndarray:
             if not (_length(moved) > 2 * EPS * _length(start)).any():
                 break
         limit = _off(rays, start, targets)[1]
-        middle = np.array(frame) / 2
+        middle = np.array(size) / 2
         away = np.where(_length(off) <= limit, _length(start - middle), np.inf)
         best = np.argmin(away, axis=1)[:, None]
         pixel = np.take_along_axis(start, best[..., None], axis=1)[:, 0]
         return np.where(np.isfinite(np.take_along_axis(away, best, axis=1)), pixel, np.nan)
 
 
-def _starts(rays, frame, points) -> np.ndarray:
+def _starts(rays, size, points) -> np.ndarray:
     """Return pixels (n, STARTS, 2) of the lattice from which the points are sought."""
-    x, y = np.meshgrid(*(np.linspace(0.5, side - 0.5, LATTICE) for side in frame))
+    x, y = np.meshgrid(*(np.linspace(0.5, side - 0.5, LATTICE) for side in size))
     pixels = np.stack((x, y), axis=-1)
     off = _length(_off(rays, pixels[None], points[:, None, None])[0])
     off = np.where(np.isnan(off), np.inf, off)

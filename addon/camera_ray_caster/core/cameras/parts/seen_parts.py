@@ -69,12 +69,13 @@ class SeenParts:
         return bounds * turn
 
 
-def parts_of(formula: Callable[[], Record], frame: tuple[int, int], central: bool) -> SeenParts:
-    """Return the parts of a frame whose rays are a recorded formula, from pixel coordinates to origin and direction. If
-    it cannot be recorded, all parts may have any ray.
+def parts_of(formula: Callable[[], Record], size: tuple[int, int], central: bool) -> SeenParts:
+    """Return the parts of a picture, by the recorded formula of its rays: pixel coordinates to origin and direction.
+
+    If it cannot be recorded, all parts may have any ray.
     """
-    side = max(2, math.ceil(max(frame) / PARTS))
-    x, y = np.meshgrid(*(np.arange(-1.0, math.ceil(length / side) * side + 1, side) for length in frame))
+    side = max(2, math.ceil(max(size) / PARTS))
+    x, y = np.meshgrid(*(np.arange(-1.0, math.ceil(length / side) * side + 1, side) for length in size))
     try:
         intervals = ranges(
             formula(), ((x - SLOPE_MARGIN, x + side + SLOPE_MARGIN), (y - SLOPE_MARGIN, y + side + SLOPE_MARGIN))

@@ -46,7 +46,7 @@ def lens_of(
     if not (radial[0] > -1 and np.linalg.det(seen) > 0 and seen[2, 2] > 0):
         raise document.refusal("its camera is mirrored or looks away from its axis: check H, V, A, O and R")
     if linearity != 1 or any(pupil):
-        sides = [int(side) for side in size.values()] if all(size.values()) else document.frame
+        sides = [int(side) for side in size.values()] if all(size.values()) else document.picture_size
         if sides is None:
             raise document.refusal("it does not tell the size of its pictures: give size=")
         return sampled(document, sides, _rays(seen, radial, pupil, linearity), "OPENCV"), axes

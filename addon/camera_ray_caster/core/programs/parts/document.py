@@ -16,13 +16,12 @@ from .source import FileSource
 class Document(FileSource):
     """A file, or a part of it. Raises InputError if it cannot be read.
 
-    ``frame``: width and height of the camera's frame, for files that do not tell the size of their pictures, and whose
-    lens depends on it; None if it does not matter. ``model``: key of the chosen model, for files that do not name
-    theirs, or "".
+    ``picture_size``: width and height of the camera's picture, for files whose lens depends on it and that do not tell
+    it; or None. ``model``: key of the chosen model, for files that do not name theirs, or "".
     """
 
-    def __init__(self, path: str, frame: tuple[int, int] | None = None, model: str = ""):
-        self.path, self.frame, self.model = path, frame, model
+    def __init__(self, path: str, picture_size: tuple[int, int] | None = None, model: str = ""):
+        self.path, self.picture_size, self.model = path, picture_size, model
         self.data, self.check = content_of(path), deadline(path)
 
     @property

@@ -27,16 +27,16 @@ KEPT = 8
 _latest: dict[tuple, list[Lens]] = {}
 
 
-def lenses_of(path: str, key: str = "", frame: tuple[int, int] | None = None) -> list[Lens]:
+def lenses_of(path: str, key: str = "", picture_size: tuple[int, int] | None = None) -> list[Lens]:
     """Return the lenses in a calibration file, in the file's order.
 
-    ``key`` is the key of the chosen model, for files that do not name one; "" for none. ``frame``: width and height of
-    the camera's frame, which is the size of the pictures if the file does not tell it; calibration_width and
-    calibration_height of such a lens are 0. Without a frame, such a lens may have another focal length and center.
+    ``key`` is the key of the chosen model, for files that do not name one; "" for none. ``picture_size``: width and
+    height of the camera's picture, for files that do not tell it; calibration_width and calibration_height of such a
+    lens are 0. Without the size, such a lens may have another focal length and center.
     Raises InputError, in one line, for a file that cannot be read, and for missing or invalid entries.
     """
-    document = Document(path, frame, key)
-    asked = (path, key, frame, document.digest)
+    document = Document(path, picture_size, key)
+    asked = (path, key, picture_size, document.digest)
     if asked not in _latest:
         lenses = _known(document)
         if lenses is None:

@@ -57,20 +57,21 @@ class Mounted:
         return (width, height) if width and height else None
 
 
-def mounted(path: str, key: str, frame: tuple[int, int] | None, rate: float, meters: float = 1.0) -> list[Mounted]:
+def mounted(
+    path: str, key: str, picture_size: tuple[int, int] | None, rate: float, meters: float = 1.0
+) -> list[Mounted]:
     """Return the cameras of a file, or of the model in a folder, in the file's order; or one trajectory.
 
-    ``key`` and ``frame`` are those of ``lenses_of``; ``rate`` is the number of frames in a second, for files with
-    times, the first of which is frame 1; ``meters`` the length of the Blender unit in which poses are returned. Images
-    without a frame in their names have the frames 1, 2, 3, ... Images of one name are of several cameras, numbered -1,
-    -2, ..., if their lenses are of several models, or two in one frame. The files of a folder of pictures are its
-    frames. Raises InputError, in one line.
+    key, picture_size: see ``lenses_of``. rate: frames per second, for files with times; the first time is frame 1.
+    meters: length of the Blender unit in which poses are returned. Images without a frame in their names have the
+    frames 1, 2, 3, ... Images with the same name that use different models, or the same frame, are split into cameras
+    NAME-1, NAME-2, ... The files of a folder of pictures are its frames. Raises InputError, in one line.
     """
     pair = pair_of(path)
     if pair is None:
-        return _of_folder(path, key, frame, rate, meters)
+        return _of_folder(path, key, picture_size, rate, meters)
     lens_file, pose_file = pair
-    document = Document(pose_file, frame, key)
+    document = Document(pose_file, picture_size, key)
     placed = placed_in(document, meters)
     if len(placed) > MOST_POSES:
         raise document.refusal(f"it has {len(placed):,} poses: {MOST_POSES:,} are read")
@@ -78,7 +79,7 @@ def mounted(path: str, key: str, frame: tuple[int, int] | None, rate: float, met
         placed, note = _once_each(placed)
         frames, poses = _frames(document, placed, rate), [pose.pose for pose in placed]
         return [Mounted(Path(path).stem, lens_file, True, [], frames, poses, note and f"{path}: {note}")]
-    lenses = {lens.name: lens for lens in lenses_of(lens_file, key, frame)}
+    lenses = {lens.name: lens for lens in lenses_of(lens_file, key, picture_size)}
     named_poses: list[tuple[Placed, str, float | None, Lens]] = []
     for pose, name, number in _named(placed, {name: lens.model for name, lens in lenses.items()}):
         lens = _lens(document, lenses, pose, number)
@@ -125,10 +126,10 @@ def _frames(document: Document, placed: list[Placed], rate: float) -> list[float
     return frames
 
 
-def _of_folder(path: str, key: str, frame: tuple[int, int] | None, rate: float, meters: float) -> list[Mounted]:
+def _of_folder(path: str, key: str, picture_size: tuple[int, int] | None, rate: float, meters: float) -> list[Mounted]:
     """Return the cameras of a folder with a file for each picture; equal lenses are one."""
     pictures = pictures_in(Path(path))
-    moves = [] if pictures.trajectory is None else placed_in(Document(str(pictures.trajectory), frame), meters)
+    moves = [] if pictures.trajectory is None else placed_in(Document(str(pictures.trajectory), picture_size), meters)
     times = np.array([pose.time or 0.0 for pose in moves])
     cameras: dict[str, Mounted] = {}
     lenses: dict[str, Lens] = {}
@@ -136,7 +137,7 @@ def _of_folder(path: str, key: str, frame: tuple[int, int] | None, rate: float, 
         move = nearest(times, number_of(file)) if moves else None
         if moves and move is None:
             continue
-        for camera_of_file in mounted(str(file), key, frame, rate, meters):
+        for camera_of_file in mounted(str(file), key, picture_size, rate, meters):
             if camera_of_file.lens is None:
                 raise InputError(f"file {str(file)!r} of a folder of pictures has no lens: take it out")
             name = camera_of_file.name
