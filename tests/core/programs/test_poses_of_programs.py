@@ -5,9 +5,11 @@ import json
 import numpy as np
 import pytest
 
+from camera_ray_caster.core.programs.parts.placed import FROM_BLENDER
 from camera_ray_caster.core.programs.reading.mounted import mounted
 from camera_ray_caster.core.records import InputError
 
+from .test_contract import SAMPLES
 from .test_more_programs import PROJECT, hot3d, ncamera, sfm
 
 POINTS = np.random.default_rng(5).uniform(-4, 4, (7, 3))
@@ -231,6 +233,25 @@ def test_what_is_no_pose_of_the_format_is_refused(tmp_path, name):
     with pytest.raises(InputError, match=words) as caught:
         read(tmp_path, text)
     assert "\n" not in str(caught.value)
+
+
+def test_woodscape_leads_from_the_camera_to_the_vehicle(tmp_path):
+    """Its camera looks along the vehicle's x, and its right is the vehicle's -y."""
+    (camera,) = read(tmp_path, (SAMPLES / "woodscape.json").read_text())
+    right, up, back, place = camera.poses[0][:3].T
+    axes = [[0, -1, 0], [0, 0, 1], [1, 0, 0]]
+    np.testing.assert_allclose([right, up, -back, place], [*axes, [3, 0.5, 1.25]], rtol=0, atol=1e-15)
+
+
+def test_orb_slam_leads_from_the_second_camera_to_the_first(tmp_path):
+    lens = "{0}.fx: 300\n{0}.fy: 300\n{0}.cx: 320\n{0}.cy: 240\n{0}.k1: 0.1\n{0}.k2: 0.1\n{0}.k3: 0.1\n{0}.k4: 0\n"
+    pair = lens.format("Camera1") + lens.format("Camera2")
+    pose = [[0, 1, 0, 0.5], [-1, 0, 0, 0.25], [0, 0, 1, 2], [0, 0, 0, 1]]
+    first, second = read(tmp_path, f"Camera.type: KannalaBrandt8\n{pair}Stereo.T_c1_c2: {pose}\n")
+    np.testing.assert_array_equal(first.poses[0] @ FROM_BLENDER, np.eye(4))
+    np.testing.assert_array_equal(second.poses[0] @ FROM_BLENDER, pose)
+    assert (first.name, second.name) == ("Camera1", "Camera2")
+    assert second.lens.model == "OPENCV_FISHEYE"
 
 
 def test_numbers_of_pictures_that_are_no_frames_are_none(tmp_path):

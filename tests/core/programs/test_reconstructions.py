@@ -176,6 +176,34 @@ def test_surround360_and_fspy():
     check(matched, [320, 320, 323.5, 247.5, 0, 0], BY_Z @ np.diag((1, -1, -1)), (4, 5, 6))
 
 
+def test_newer_files_of_mrcal_call_their_pose_rt_cam_ref(tmp_path):
+    text = (SAMPLES / "mrcal.cameramodel").read_text()
+    (tmp_path / "new.cameramodel").write_text(text.replace("extrinsics", "rt_cam_ref"))
+    (old,), (new,) = cameras(SAMPLES / "mrcal.cameramodel"), cameras(tmp_path / "new.cameramodel")
+    np.testing.assert_array_equal(new[3], old[3])
+
+
+def test_a_radial_division_of_stella_vslam(tmp_path):
+    """Its point at 0.5 focal lengths is at 0.5 / (1 - 0.2 / 4) when undistorted."""
+    entries = {"model": "radial_division", "fx": 200, "fy": 200, "cx": 320, "cy": 240, "distortion": -0.2}
+    (tmp_path / "a.json").write_text(json.dumps({"Camera": {"name": "a", "cols": 640, "rows": 480, **entries}}))
+    camera = crc.load_calibration(tmp_path / "a.json")
+    np.testing.assert_allclose(camera.project([(0.5 / 0.95, 0, -1)]), [(420.5, 239.5)], rtol=0, atol=1e-9)
+
+
+def test_a_panorama_of_hugin(tmp_path):
+    line = 'i w4000 h1500 f4 v360 r0 p0 y90 a{} b0 c0 d0 e0 n"pano.jpg"\n'
+    file = tmp_path / "a.pto"
+    file.write_text(line.format(0))
+    camera = crc.load_rig(file)["Camera"]
+    rays = camera.rays()
+    np.testing.assert_allclose(rays.directions[750, 2000], (1, 0, 0), atol=2e-3)  # the middle, to the right
+    np.testing.assert_allclose(rays.directions[0, :, 2], -np.sin(0.375 * np.pi * 1499 / 1500), rtol=0, atol=1e-12)
+    file.write_text(line.format(0.01))
+    with pytest.raises(InputError, match="is a panorama of more than the sphere, or corrected"):
+        crc.load_rig(file)
+
+
 def test_mrcal():
     (camera,) = cameras(SAMPLES / "mrcal.cameramodel")
     np.testing.assert_array_equal(camera[3][:3], np.c_[UPRIGHT, (-1, -2, -3)])

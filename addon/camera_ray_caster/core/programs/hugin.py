@@ -9,16 +9,16 @@ Reference: Hugin documentation, Nona: the format of its scripts; Panorama Tools 
 from __future__ import annotations
 
 import re
-from math import radians, tan
+from math import pi, radians, tan
 
 from .parts.document import Document
 from .parts.fields import Fields
-from .parts.lens import Lens, different, one_of_several
+from .parts.lens import ANGLES, Lens, different, one_of_several
 from .parts.panorama_tools import FISHEYE, RECTILINEAR, lens_of, ptlens, turned
 from .parts.placed import Placed
 from .parts.program import ProgramFiles
 
-PROJECTIONS = {"0": RECTILINEAR, "2": FISHEYE, "3": FISHEYE}
+PROJECTIONS = {"0": RECTILINEAR, "2": FISHEYE, "3": FISHEYE, "4": "EQUIRECTANGULAR"}
 MOVED = "TrX", "TrY", "TrZ", "Tpy", "Tpp"
 WORD = re.compile(r'([A-Za-z]+)("[^"]*"|\S+)')
 
@@ -66,6 +66,12 @@ def _lens(picture: Fields) -> Lens:
         raise picture.refusal("v", "a field of view above 0, and of a rectilinear lens below 180")
     if any(picture.number(name, 0.0) for name in "gt"):
         raise document.refusal(f"{picture.label} is sheared (g, t), which is not read")
+    if model == PROJECTIONS["4"]:
+        ends = angle / 2, angle / 2 * height / width
+        if ends[0] > pi or ends[1] > pi / 2 or any(picture.number(name, 0.0) for name in "abcde"):
+            raise document.refusal(f"{picture.label} is a panorama of more than the sphere, or corrected (a to e)")
+        angles = (sign * end for end in ends for sign in (-1, 1))
+        return Lens(picture.label, model, size | dict(zip(ANGLES, angles, strict=True)))
     focal = width / 2 / (tan(angle / 2) if model == RECTILINEAR else angle / 2)
     center = width / 2 + picture.number("d", 0.0), height / 2 + picture.number("e", 0.0)
     terms = ptlens(*(picture.number(name, 0.0) for name in "abc"))
@@ -74,6 +80,6 @@ def _lens(picture: Fields) -> Lens:
 
 PROGRAM = ProgramFiles(
     "Hugin", ".pto of Hugin and Panorama Tools", looks, marks="hugin pto image lines TrX Ra Va",
-    reads="rectilinear and fisheye with a, b, c, d, e", lost="other projections are refused, and moved pictures",
-    read=read, poses=poses,
+    reads="rectilinear and fisheye with a, b, c, d, e; equirectangular",
+    lost="other projections are refused, and moved pictures", read=read, poses=poses,
 )  # fmt: skip

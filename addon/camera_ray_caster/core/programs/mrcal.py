@@ -2,9 +2,9 @@
 
 The center of the first pixel is (0, 0). mrcal's stereographic lens is the unified camera with xi = 1 and twice the
 focal length; its LONLAT is the equirectangular panorama. An entry that stands twice is refused. Older files have the
-model as distortion_model, DISTORTION_OPENCV8, and words as byte strings. extrinsics are the rotation vector and the
-translation from the world to the camera, x right and y down. A CAHVOR or CAHVORE camera is turned to the axis of its
-distortion: see ``parts.cahvor_lens``.
+model as distortion_model, DISTORTION_OPENCV8, and words as byte strings. extrinsics, rt_cam_ref in newer ones, are the
+rotation vector and the translation from the world to the camera, x right and y down. A CAHVOR or CAHVORE camera is
+turned to the axis of its distortion: see ``parts.cahvor_lens``.
 Reference: mrcal documentation, Lens models; The .cameramodel file format.
 """
 
@@ -75,10 +75,11 @@ def read(document: Document) -> list[Lens]:
 def poses(document: Document) -> list[Placed]:
     """See ProgramFiles."""
     entries = _entries(document)
-    if not entries.has("extrinsics"):
+    entry = entries.first("rt_cam_ref", "extrinsics")
+    if not entries.has(entry):
         return []
-    numbers = entries.numbers("extrinsics", 6)
-    pose = inverted(of_rotation(document, numbers[:3], numbers[3:], "extrinsics"))
+    numbers = entries.numbers(entry, 6)
+    pose = inverted(of_rotation(document, numbers[:3], numbers[3:], entry))
     if (cahvor := _cahvor(document, entries)) is not None:
         pose[:3, :3] @= cahvor[1]
     return [Placed("", "", None, pose)]

@@ -1,6 +1,8 @@
-"""The panoramas of stella_vslam and OpenVSLAM: the part Camera of a configuration, with model: equirectangular.
+"""Cameras of stella_vslam and OpenVSLAM that OpenCV does not have: the part Camera of a configuration, with the model
+equirectangular or radial_division.
 
-Their other cameras have the names of OpenCV's, and are read as such. The middle of the picture looks ahead.
+Their other cameras have the names of OpenCV's, and are read as such. The middle of a panorama looks ahead. The center
+of the first pixel is (0, 0).
 Reference: stella_vslam documentation, Parameters.
 """
 
@@ -8,30 +10,37 @@ from __future__ import annotations
 
 from .parts.document import Document
 from .parts.fields import Fields
-from .parts.lens import Lens
+from .parts.lens import MATRIX, Lens, matrix
 from .parts.program import ProgramFiles
 
-MODEL = "equirectangular"
+MODELS = "equirectangular", "radial_division"
 
 
 def _camera(document: Document) -> Fields:
-    return document.entries.part("Camera") if document.entries.has("Camera") else document.entries
+    entries = document.entries
+    if entries.has("Camera"):
+        return entries.part("Camera")
+    names = {name.removeprefix("Camera."): value for name, value in entries.values.items()}
+    return Fields(document, names)
 
 
 def looks(document: Document) -> bool:
     """See ProgramFiles."""
     camera = _camera(document)
-    return any(camera.has(name, size) and camera.text(name) == MODEL
-               for name, size in (("model", "cols"), ("Camera.model", "Camera.cols")))  # fmt: skip
+    return camera.has("model", "cols") and camera.text("model") in MODELS
 
 
 def read(document: Document) -> list[Lens]:
     """See ProgramFiles."""
-    camera, before = _camera(document), "" if document.entries.has("Camera") else "Camera."
-    return [Lens(camera.text(f"{before}name", ""), "EQUIRECTANGULAR", camera.sides(f"{before}cols", f"{before}rows"))]
+    camera = _camera(document)
+    name, size = camera.text("name"), camera.sides("cols", "rows")
+    if camera.text("model") == MODELS[0]:
+        return [Lens(name, "EQUIRECTANGULAR", size)]
+    numbers = matrix(*map(camera.number, MATRIX))
+    return [Lens(name, "DIVISION", size | numbers | {"division_lambda": camera.number("distortion")})]
 
 
 PROGRAM = ProgramFiles(
-    "stella_vslam", "panoramas of a configuration, .yaml", looks, marks="Camera model equirectangular cols rows",
-    reads="equirectangular", read=read,
+    "stella_vslam", "cameras of a configuration, .yaml", looks, marks="Camera model equirectangular cols rows",
+    reads="equirectangular, radial_division", read=read,
 )  # fmt: skip

@@ -1,14 +1,17 @@
 """WoodScape's calibration of a fisheye, as JSON: a polynomial from the angle to the radius, in pixels.
 
 The center of the first pixel is (0, 0); the offsets count from the middle of the picture. The aspect ratio stretches
-the picture along y.
+the picture along y. The extrinsic quaternion x, y, z, w and the translation lead from the camera, x right, y down, z
+ahead, to the vehicle, x ahead, y left, z up, in meters.
 Reference: S. Yogamani et al., WoodScape (2019), and its code, calibration.
 """
 
 from __future__ import annotations
 
+from ..units import METERS
 from .parts.document import Document
 from .parts.lens import Lens
+from .parts.placed import Placed, of_quaternion
 from .parts.program import ProgramFiles
 
 TERMS = "k1", "k2", "k3", "k4"
@@ -34,7 +37,18 @@ def read(document: Document) -> list[Lens]:
     })]  # fmt: skip
 
 
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles."""
+    extrinsic = document.entries.part("extrinsic")
+    if not len(extrinsic):
+        return []
+    *vector, w = extrinsic.numbers("quaternion", 4)
+    pose = of_quaternion(document, (w, *vector), extrinsic.numbers("translation", 3), "extrinsic")
+    return [Placed("", "", None, pose)]
+
+
 PROGRAM = ProgramFiles(
     "WoodScape", "calibration .json", looks,
     marks="intrinsic cx_offset cy_offset poly_order radial_poly aspect_ratio", reads="radial_poly", read=read,
+    poses=poses, unit=METERS,
 )  # fmt: skip

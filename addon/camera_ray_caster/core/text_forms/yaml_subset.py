@@ -17,7 +17,7 @@ DEEPEST = 32
 """Levels of nesting that are read: calibrations have three."""
 
 COLON = re.compile(r":(?=[ \t]|$)")
-CLOSE = re.compile(r"([A-Za-z]\w*\.[\w.]+):([-+.\d]\S*)")
+CLOSE = re.compile(r"""([A-Za-z]\w*\.[\w.]+):([-+.\d]\S*|"[^"]*")""")
 """An entry without a space behind its colon, as in settings of ORB-SLAM, which OpenCV reads."""
 KEY = re.compile(r"""[A-Za-z0-9_/.][\w./+ -]*|"[^"]*"|'[^']*'""")
 COMMENT = re.compile(r"""(?:^|(?<=[ \t]))#|(?:^|(?<=[ \t[{,:]))(?:"[^"]*"?|'[^']*'?)""")

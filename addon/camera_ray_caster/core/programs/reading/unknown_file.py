@@ -12,8 +12,11 @@ from ..parts.document import Document
 from ..parts.lens import numbers_of
 
 WORDS = re.compile(r"[A-Za-z_][\w.]*")
-ENTRIES = ".yaml", ".yml", ".json", ".xml"
+YAML = ".yaml", ".yml"
+ENTRIES = *YAML, ".json", ".xml"
 """Ends of the names of files that have entries."""
+FEWEST = 6
+"""Numbers of a line from which on it may be a pose."""
 READ_UP_TO = 1 << 16
 """Number of characters in which words are looked for: files name their entries at the begin."""
 
@@ -37,7 +40,8 @@ def unknown(document: Document) -> InputError:
         if reason:
             return document.refusal(reason)
         refusal, endings = _of_text(document), {*map(str.lower, Path(document.path).suffixes)}
-        if not document.data.strip() or endings.intersection(ENTRIES) or (near and NO_ENTRY not in str(refusal)):
+        looks = YAML if NO_ENTRY in str(refusal) else ENTRIES
+        if not document.data.strip() or endings.intersection(looks) or (near and looks is ENTRIES):
             return refusal
     return document.refusal(f"it is of no format that is read: these are {READ}{near}")
 
@@ -52,7 +56,7 @@ def _by_name(document: Document) -> str:
 def _by_numbers(document: Document) -> str:
     """Return what is wrong with lines of numbers; "" of any other file."""
     words = next(iter(document.lines()), "").split()
-    if not words or len(words) != len(numbers_of(words)):
+    if len(words) < FEWEST or len(words) != len(numbers_of(words)):
         return ""
     known = ", ".join(f"of {program.name} {program.columns}" for program in PROGRAMS if program.columns)
     return (f"its lines have {len(words)} numbers: those of trajectories have, {known}; or name the columns in the "
