@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -28,9 +28,9 @@ POINTS = 1 << 16
 CELLS = 1 << 19
 """Approximate number of places in a lattice of rays; most places have no ray if the points are sparse."""
 
-LAYERS = 1
-"""Maximum number of rays per pixel in the first lattice; the other rays of fuller pixels go to lattices of twice as
-many. With 2 or 4, which repeat most rows for a few pixels, ``flow_hidden`` takes 1.1 to 1.5 times as long.
+TOGETHER = 1 << 12
+"""Maximum number of points in a lattice of those that share their pixels with others. With 2**10 and 2**14
+``flow_hidden`` takes as long.
 """
 
 
@@ -67,11 +67,14 @@ class _Aim:
         basis = camera.pose.basis
         self.pixels = pixels
         x, y = pixels.T
-        rays = world_rays(camera, x, y)
+        self.from_eye, origin_error = camera.from_eye(sampled=False), np.zeros(())
+        self.origin: Any = (0.0,) * 3
+        if not self.from_eye:
+            origin, direction = camera.camera_rays(x, y)
+            self.origin, origin_error = _whole(origin, len(x)), world_rays(camera, x, y).origin_error
         camera_from_world = inverse(basis)
         local = matvec(camera_from_world, components(points - camera.pose.eye))
-        origin, direction = camera.camera_rays(x, y)
-        self.origin, towards = _whole(origin, len(x)), np.array(difference(local, origin))
+        towards = np.array(difference(local, self.origin))
         distance = norm(matvec(basis, towards))
         self.t = -towards[2] if camera.model.planar else distance
         self.direction = towards / self.t
@@ -80,7 +83,7 @@ class _Aim:
             self.origin = np.array(local) - self.t * self.direction
         self.length = norm(matvec(basis, self.direction))
         size = norm(matvec(basis, self.origin)) + norm(components(points - camera.pose.eye))
-        self.origin_error = rays.origin_error + gamma(8) * size * bool(camera.model.parallel)
+        self.origin_error = origin_error + gamma(8) * size * bool(camera.model.parallel)
         beside = error + self.origin_error + gamma(16) * camera.stretch * size
         self.direction_error = beside / self.t + gamma(16) * camera.stretch * self.length
         self.t_error = beside * np.sqrt((camera_from_world * camera_from_world).sum())
@@ -96,33 +99,34 @@ class _Aim:
 
     def _front(self, indices: np.ndarray, columns: np.ndarray, rows: np.ndarray, cells: tuple) -> np.ndarray:
         """Return upper bounds of the t of the hits in front of points, (k,); inf where nothing is in front."""
-        shape = len(rows), len(columns)
+        shape = rows.shape[-1], columns.shape[-1]
 
         def laid(values, empty=np.nan):
-            values = np.broadcast_to(values, (*np.shape(values)[:-1], len(self.t)))
             lattice = np.full((*values.shape[:-1], *shape), empty)
             lattice[(..., *cells)] = values[..., indices]
             return lattice
 
         camera, plan = self.plan.camera, self.plan.at_pixels(columns, rows)
-        from_eye = camera.from_eye(sampled=False)
-        origin, direction = laid(self.origin, 0.0), laid(self.direction)
+        x, y = (np.atleast_2d(places)[0] + 0.5 for places in (columns, rows))
         rays = TileRays(
-            columns[None] + 0.5, rows[:, None] + 0.5, (0, 0), from_eye, (0.0,) * 3 if from_eye else tuple(origin),
-            tuple(direction), Scratch(), camera,
-        )  # fmt: skip
-        in_world = WorldRays(
-            matvec(camera.pose.basis, rays.origin), matvec(camera.pose.basis, direction), laid(self.length),
-            laid(self.origin_error) if np.ndim(self.origin_error) else self.origin_error, laid(self.direction_error),
+            x[None], y[:, None], (0, 0), self.from_eye, self.origin if self.from_eye else tuple(laid(self.origin, 0.0)),
+            tuple(laid(self.direction)), Scratch(), camera,
         )  # fmt: skip
         hits = nearest_hits(plan, rays, before=laid(self.t - self.t_error, -np.inf))
-        front = np.full(shape, np.inf)
-        values = HitValues(hits)
-        for where, errors in values.by_kind(
-            lambda kind, pixels: HitErrors(plan.target.placed, kind, pixels, in_world.only(pixels.of), True)
+        front, at = np.full(shape, np.inf), np.zeros(shape, np.intp)
+        at[cells] = indices
+        for where, errors in HitValues(hits).by_kind(
+            lambda kind, pixels: HitErrors(plan.target.placed, kind, pixels, self._in_world(at[pixels.where]), True)
         ):
             front[where] = errors.t + errors.t_error
         return front[cells]
+
+    def _in_world(self, at: np.ndarray) -> WorldRays:
+        """Return the rays to some of the points, (k,) indices."""
+        basis = self.plan.camera.pose.basis
+        origin = self.origin if self.from_eye else self.origin[:, at]
+        ahead, errors = matvec(basis, self.direction[:, at]), (self.origin_error[at], self.direction_error[at])
+        return WorldRays(matvec(basis, origin), ahead, self.length[at], *errors)
 
 
 def _whole(vector, count: int) -> np.ndarray:
@@ -131,26 +135,39 @@ def _whole(vector, count: int) -> np.ndarray:
 
 
 def _lattices(pixels: np.ndarray, size: tuple[int, int]) -> Iterator[tuple]:
-    """Yield (points, columns, rows, places) for lattices of rays: the indices (k,) of points, the columns (c,) and rows
-    (r,) of pixels, and the places of the points in the lattice, (k,) rows and columns. Each point has a place of its
-    own: rows are repeated for points that share a pixel.
+    """Yield (points, columns, rows, places) for lattices of rays: the indices (k,) of points, the columns and rows of
+    ``Plan.at_pixels``, and the places of the points in the lattice, (k,) rows and columns. Each point has a place of
+    its own: the first of each pixel in lattices of pixels, the others as in ``_crowded``.
     """
     column, row = (np.minimum(np.floor(x).astype(int), side - 1) for x, side in zip(pixels.T, size, strict=True))
     order = np.lexsort((column, row))
-    is_new = np.append(True, (np.diff(column[order]) != 0) | (np.diff(row[order]) != 0))
-    first = np.flatnonzero(is_new)
-    layer = np.empty(len(order), int)
-    layer[order] = np.arange(len(order)) - np.repeat(first, np.diff(np.append(first, len(order))))
-    start, end = 0, LAYERS
-    while (indices := np.flatnonzero((layer >= start) & (layer < end))).size:
-        columns, at_column = np.unique(column[indices], return_inverse=True)
-        rows, at_row = np.unique(row[indices], return_inverse=True)
-        repeats = np.zeros(len(rows), int)
-        np.maximum.at(repeats, at_row, layer[indices] - start + 1)
-        begin = np.cumsum(repeats) - repeats
-        band = begin // max(1, CELLS // len(columns))
-        for low, high in pairwise([*np.unique(band, return_index=True)[1].tolist(), len(rows)]):
-            in_band = np.flatnonzero((at_row >= low) & (at_row < high))
-            cells = begin[at_row[in_band]] - begin[low] + layer[indices[in_band]] - start, at_column[in_band]
-            yield indices[in_band], columns, np.repeat(rows[low:high], repeats[low:high]), cells
-        start, end = end, 2 * end + LAYERS
+    is_first = np.append(True, (np.diff(column[order]) != 0) | (np.diff(row[order]) != 0))
+    first, others = order[is_first], order[~is_first]
+    columns, at_column = np.unique(column[first], return_inverse=True)
+    rows, at_row = np.unique(row[first], return_inverse=True)
+    step = max(1, CELLS // len(columns))
+    for low in range(0, len(rows), step):
+        band = slice(*np.searchsorted(at_row, (low, low + step)))
+        yield first[band], columns, rows[low : low + step], (at_row[band] - low, at_column[band])
+    for low in range(0, len(others), TOGETHER):
+        yield _crowded(others[low : low + TOGETHER], column, row)
+
+
+def _crowded(points: np.ndarray, column: np.ndarray, row: np.ndarray) -> tuple:
+    """Return a full lattice of points in any pixels: equally many in each of its columns, which follow each other in
+    the picture; in each column the points follow each other by rows.
+    """
+    count, wide, high = len(points), np.ptp(column[points]) + 1, np.ptp(row[points]) + 1
+    across = int(np.clip(np.sqrt(count * wide / high), 1, count))
+    points = points[np.argsort(column[points], kind="stable")]
+    group = np.arange(count) * across // count
+    begin = np.searchsorted(group, np.arange(across))
+    end = np.append(begin[1:], count)
+    columns = column[points[[begin, end - 1]]]
+    points = points[np.lexsort((row[points], group))]
+    place = np.arange(count) - begin[group]
+    rows = np.array([np.full(place.max() + 1, row.max()), np.zeros(place.max() + 1, int)])
+    np.minimum.at(rows[0], place, row[points])
+    np.maximum.at(rows[1], place, row[points])
+    rows[1] = np.maximum.accumulate(rows[1])  # the last of its rows is not in each column
+    return points, columns, rows, (place, group)

@@ -32,19 +32,22 @@ class CameraPixelBounds:
     cull: bool = True
     """Whether bounds are computed; else everything may be seen everywhere."""
     columns: np.ndarray | None = None
-    """(k,) ascending: the columns of the window that the plan has, and in ``rows`` its rows; None for all."""
+    """(2, k), both ascending: the first and the last column of the window that each column of the plan stands for, and
+    in ``rows`` the same for its rows; None for all.
+    """
     rows: np.ndarray | None = None
 
     @property
     def whole(self) -> np.ndarray:
         """(4,) int: all pixels of the plan."""
         height, width = self.camera.raster.shape
-        wide = width if self.columns is None else len(self.columns)
-        high = height if self.rows is None else len(self.rows)
+        wide = width if self.columns is None else self.columns.shape[1]
+        high = height if self.rows is None else self.rows.shape[1]
         return np.array([0, wide, 0, high])
 
     def at(self, columns: np.ndarray, rows: np.ndarray) -> CameraPixelBounds:
-        """Return the bounds for some columns and rows of the render window."""
+        """Return the bounds for some columns and rows of the render window: see ``Plan.at_pixels``."""
+        columns, rows = (np.broadcast_to(places, (2, places.shape[-1])) for places in (columns, rows))
         return replace(self, columns=columns, rows=rows)
 
     def of_balls(self, centers: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -69,9 +72,9 @@ class CameraPixelBounds:
             return bounds
         in_plan = np.empty_like(bounds)
         sides = zip((self.columns, self.rows), self.camera.raster.shape[::-1], strict=True)
-        for k, (places, side) in enumerate(sides):
-            before = np.searchsorted(places, np.arange(side + 1)).astype(in_plan.dtype)  # a table: bounds are many
-            for column in (2 * k, 2 * k + 1):
+        for k, ((first, last), side) in enumerate(sides):
+            for column, ends in ((2 * k, last), (2 * k + 1, first)):
+                before = np.searchsorted(ends, np.arange(side + 1)).astype(in_plan.dtype)  # a table: bounds are many
                 in_plan[:, column] = taken(before, bounds[:, column])
         return in_plan
 

@@ -77,7 +77,9 @@ class Plan:
         return sets
 
     def at_pixels(self, columns: np.ndarray, rows: np.ndarray) -> Plan:
-        """Return the plan for only some of the columns and rows, (k,) and (l,) ascending."""
+        """Return the plan for only some of the columns and rows, (k,) and (l,) ascending; or (2, k) and (2, l): each of
+        its columns and rows stands for those from a first one to a last one, both ascending.
+        """
         pixels = self.pixels.at(columns, rows)
         bounds = pixels.within(self.bounds)
         here = (bounds[:, 0] < bounds[:, 1]) & (bounds[:, 2] < bounds[:, 3])
