@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..maths.speed import Scratch
+from ..maths.speed import Scratch, taken
 from ..maths.vector import inner, norm
 from .tree import BOX_MARGIN
 
@@ -34,3 +34,14 @@ def may_meet(middle: Any, radius: Any, origin: Any, ahead: np.ndarray, scratch: 
     np.multiply(inner(to, to, beyond, spare), 1 - BOX_MARGIN, out=beyond)
     np.subtract(beyond, (1 + BOX_MARGIN) * radius * radius, out=beyond)
     return ~(beyond > along)
+
+
+def pairs_may_meet(
+    middles: np.ndarray, radii: np.ndarray, ball: np.ndarray, origin: np.ndarray, ahead: np.ndarray, ray: np.ndarray,
+    scratch: Scratch,
+) -> np.ndarray:  # fmt: skip
+    """Return what ``may_meet`` does of pairs of balls (3, n), (n,) and rays (3, m), each by index, (k,); ``origin`` may
+    be one of all rays, (3,).
+    """
+    start = origin if origin.ndim == 1 else taken(origin, ray)
+    return may_meet(taken(middles, ball), taken(radii, ball), start, taken(ahead, ray), scratch)

@@ -15,7 +15,7 @@ from ..maths.speed import Scratch, lazy, taken
 from ..records import Shapes
 from ..shapes.bodies import Bodies
 from ..shapes.kinds import by_kind
-from .balls import may_meet, unit_directions
+from .balls import may_meet, pairs_may_meet, unit_directions
 from .bundle import bundle_of
 from .packets import coherent_order, packets_of
 from .ray_bodies import RayBodies, RayHits
@@ -151,22 +151,14 @@ class BodySearch(RayBodies):
                 for body in bodies[self.at[bodies] == shape].tolist():
                     yield close, body
         for ray, body in in_boxes:
-            close = self._close(ray, body, eye, ahead, scratch)
-            yield ray[close], body[close]
-
-    def _close(self, ray: np.ndarray, body: np.ndarray, eye: np.ndarray, ahead: np.ndarray, scratch: Scratch) -> Any:
-        """Return which pairs may meet, by the balls around shapes that are one body each: of a thousand spheres these
-        leave 0.7 of the time.
-        """
-        if self._all_triangles:
-            return slice(None)
-        whole = np.flatnonzero(~taken(self.is_triangle, body))
-        at, whole_ray = taken(self.at, taken(body, whole)), taken(ray, whole)
-        from_ = eye if eye.ndim == 1 else taken(eye, whole_ray)
-        close = np.ones(len(ray), bool)
-        middle, radius = taken(self._middle, at), taken(self.placed.radius, at)
-        close[whole] = may_meet(middle, radius, from_, taken(ahead, whole_ray), scratch)
-        return np.flatnonzero(close)
+            if not self._all_triangles:  # of a thousand spheres the balls leave 0.7 of the time
+                whole = np.flatnonzero(~taken(self.is_triangle, body))
+                balls, close = taken(self.at, taken(body, whole)), np.ones(len(ray), bool)
+                of_pairs = self._middle, self.placed.radius, balls, eye, ahead, taken(ray, whole)
+                close[whole] = pairs_may_meet(*of_pairs, scratch)
+                near = np.flatnonzero(close)
+                ray, body = ray[near], body[near]
+            yield ray, body
 
     @lazy
     def _all_triangles(self) -> bool:
