@@ -25,21 +25,17 @@ def _table(text: str) -> dict[str, list[str]]:
 
 FUNCTIONS = _table("""
 mesh(vertices, faces), or mesh(object of trimesh) <- load_mesh read_mesh read_triangle_mesh load_obj load_ply load_objs
-mesh(vertices, faces), or mesh(object of trimesh) <- TriangleMesh Meshes triangles trimesh icosphere from_pytorch3d
-mesh(object of trimesh) <- from_trimesh from_open3d
-mesh(vertices, faces) <- box cube create_box cylinder cone
+mesh(vertices, faces), or mesh(object of trimesh) <- TriangleMesh triangles from_trimesh trimesh icosphere from_open3d
+mesh(vertices, faces) <- box cube create_box cylinder cone from_pytorch3d
 spheres(centers, radii) <- sphere ball balls uv_sphere create_sphere
 planes(centers, axes) <- plane ground floor quad
 join(shapes, ...) <- merge concatenate concat combine union
-camera("OPENCV_PINHOLE", size, fx=..., k1=...) <- from_opencv from_k from_matrix from_intrinsics camera_from_k
-camera("OPENCV_PINHOLE", size, fx=..., k1=...) <- PinholeCamera PinholeCameraIntrinsic pinhole k intrinsics
+camera("OPENCV_PINHOLE", size, fx=..., k1=...) <- from_opencv from_k from_matrix from_intrinsics camera_from_k k
+camera("OPENCV_PINHOLE", size, fx=..., k1=...) <- PinholeCamera PinholeCameraIntrinsic pinhole intrinsics camera_matrix
 camera("OPENCV_FISHEYE", size, fx=..., k1=...) <- fisheye FisheyeCamera FisheyeCameras kb4 kb8 kannala_brandt
-camera("PERSP", size, lens=..., sensor_width=...) <- perspective PerspectiveCamera PerspectiveCameras fov from_fov
-camera("PERSP", size, lens=..., sensor_width=...) <- FoVPerspectiveCameras
+camera("PERSP", size, lens=..., sensor_width=...) <- perspective PerspectiveCamera FoVPerspectiveCameras fov from_fov
 camera("ORTHO", size, ortho_scale=...) <- orthographic OrthographicCamera FoVOrthographicCameras
-camera(model, size, pose, clip_start=..., clip_end=...) <- near far znear zfar
-camera(model, size, pose, k1=..., k2=...) <- dist dist_coeffs distortion
-camera(model, size, pose) <- create_camera make_camera cameras
+camera(model, size, pose, clip_start=..., k1=...) <- near far znear zfar dist dist_coeffs distortion cameras
 models() <- list_models camera_models available_models camera_model model
 load_calibration(path) <- load_camera read_calibration load_intrinsics from_kalibr from_ros calibration
 load_rig(path) <- load_cameras read_cameras read_model load_colmap from_colmap from_nerfstudio load_transforms rig
@@ -48,20 +44,15 @@ pose_from_opencv(matrix) <- extrinsics from_extrinsics from_w2c rodrigues
 camera(...).project(points) <- project project_points world_to_pixel distort distort_points
 camera(...).rays_at(x, y) <- unproject unproject_points backproject pixel_to_ray undistort_points undistort_point
 camera(...).rays() <- rays generate_rays ray_directions
-cast(camera, shapes, passes="depth") <- depth depth_map render_depth
-cast(camera, shapes, passes="position") <- depth_to_points depth_to_point_cloud
-cast(camera, shapes, passes="normal") <- normals
-cast(camera, shapes, passes="flow_forward") <- flow optical_flow
+cast(camera, shapes, passes=...) <- depth depth_map normals flow optical_flow depth_to_points depth_to_point_cloud
 cast(camera, shapes) <- render rasterize render_image
 cast(camera, shapes), or cast_rays(origins, directions, shapes) <- raycast trace raytrace ray_trace raycaster
-cast_rays(origins, directions, shapes) <- intersect intersects ray_intersect cast_ray intersects_location closest_hit
-cast_rays(origins, directions, shapes) <- RaycastingScene intersects_first
+cast_rays(origins, directions, shapes) <- intersect intersects ray_intersect cast_ray closest_hit RaycastingScene
 occluded(origins, targets, shapes) <- intersects_any test_occlusions occlusion shadow
 visible(camera, shapes, points) <- is_visible visibility
 scan(camera("SCANNER", size), shapes) <- lidar lidar_scan point_cloud scanner
 export(camera, path, format="stmap") <- undistort rectify remap init_undistort_rectify_map undistort_image
-export(cameras, path), or save_points(cloud, path) <- save write
-export(cameras, path, format=...) <- save_cameras write_cameras to_colmap to_nerfstudio to_opencv write_model
+export(cameras, path), or save_points(cloud, path) <- save write save_cameras to_colmap to_nerfstudio to_opencv
 save_points(cloud, path) <- save_ply save_pcd write_ply to_ply write_point_cloud
 camera_from_json(path) <- load_json from_json
 top_down(images) <- flip flipud flip_y
@@ -73,9 +64,8 @@ camera_ray_caster.blender.cycles.to_cycles(scene) <- to_cycles
 """What to use in place of a function that this package does not have."""
 
 ATTRIBUTES = _table("""
-rays_at(x, y) <- unproject unproject_points backproject pixel_to_ray pixel2ray image_to_world pixel_to_world ray
-rays_at(x, y) <- rays_from_pixels undistort_points undistort_point
-rays() <- rays generate_rays ray_directions ray_bundle
+rays_at(x, y) <- unproject unproject_points backproject pixel_to_ray pixel2ray image_to_world undistort_points ray
+rays() <- generate_rays ray_directions ray_bundle
 project(points) <- project_points world_to_pixel world2pixel world_to_image transform_points distort distort_points
 crc.export(camera, path, format="stmap") <- undistort undistort_image rectify
 crc.export(camera, path) <- save export write to_colmap to_opencv to_nerfstudio
@@ -84,24 +74,20 @@ crc.cast(camera, shapes) <- render cast raycast trace depth
 settings, or rays() for the angles <- fov fovx fovy hfov vfov xfov yfov field_of_view
 clip_start <- near znear clip_near near_plane near_clip
 clip_end <- far zfar clip_far far_plane far_clip
+K, or numpy.linalg.inv(camera.K) <- k_inv inv_k
 K <- k intrinsic_matrix intrinsics_matrix camera_matrix calibration_matrix projection_matrix kk
 K and settings <- intrinsics intrinsic calibration
-numpy.linalg.inv(camera.K), or rays_at(x, y) with distortion <- k_inv inv_k
 opencv_from_world <- extrinsics extrinsic extrinsic_matrix world_to_camera camera_from_world cam_from_world w2c rt view
-opencv_from_world <- t_cw tcw view_matrix world_view_transform world_to_view_transform world_to_cam
-opencv_from_world[:3, :3] <- r r_w2c
-opencv_from_world[:3, 3] <- t tvec translation
+opencv_from_world <- t_cw tcw view_matrix world_view_transform world_to_view_transform world_to_cam r t tvec translation
 world_from_camera <- camera_to_world matrix_world c2w cam_to_world world_from_cam t_wc twc matrix transform
 pose.eye <- position location center origin eye camera_center optical_center c
 pose.basis <- rotation rotation_matrix r_c2w
-settings <- dist dist_coeffs distortion distortion_coeffs distortion_params distortion_coefficients params d
+settings <- dist dist_coeffs distortion distortion_coeffs distortion_params params d lens sensor_width sensor_size
 width and height <- size resolution image_size img_size shape w h
 settings["fx"], or K <- fx f focal focal_length fl_x
 settings["fy"], or K <- fy fl_y
 settings["cx"], or K <- cx principal_point
 settings["cy"], or K <- cy
-settings["lens"] <- lens focal_mm
-settings["sensor_width"] <- sensor_width sensor_size
 model.key <- type camera_type camera_model model_name
 with_pose(pose) <- set_pose look_at move
 with_settings(...) <- replace copy clone with_fov

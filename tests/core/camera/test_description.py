@@ -117,7 +117,7 @@ def test_what_cannot_be_changed_is_refused_in_one_line():
 
 
 USES = {
-    "near": "clip_start", "unproject": "rays_at", "fov": "settings", "K_inv": "numpy.linalg.inv",
+    "near": "clip_start", "unproject": "rays_at", "fov": "settings", "K_inv": "K, or numpy",
     "getW2C": "opencv_from_world", "projct": "project",
 }  # fmt: skip
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any, overload
+from typing import Any
 
 import numpy as np
 
@@ -27,14 +27,8 @@ class Visibility(IntEnum):
     SEEN = 2
 
 
-@overload
-def visible(scene: Scene, points: Any, /, *, tolerance: float = 0.0) -> np.ndarray: ...
-@overload
-def visible(
-    camera: Camera | Scene, shapes: Shapes | None = None, points: Any = None, *, tolerance: float = 0.0
-) -> np.ndarray: ...
 @keywords
-def visible(camera, shapes=None, points=None, *, tolerance=0.0):
+def visible(camera: Camera | Scene, shapes: Any = None, points=None, *, tolerance: float = 0.0) -> np.ndarray:
     """Return whether world points (..., 3) are seen, as numbers of ``Visibility``, (...) uint8.
 
     camera, shapes: as in ``cast``; also ``visible(scene, points)``.

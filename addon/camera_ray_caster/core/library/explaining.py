@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, overload
+from typing import Any
 
 import numpy as np
 
@@ -11,25 +11,13 @@ from ..camera.camera import Camera
 from ..casting.request import MATERIAL, SHADINGS
 from ..conventions import BOTTOM, TOP
 from ..lesson.lesson import Lesson, lesson
-from ..records import InputError, Shapes
+from ..records import InputError
 from ..scene import Scene
 
 
-@overload
 def explain(
-    scene: Scene, pixel: Any, /, *, shading: str = MATERIAL, samples: int = 1, rows: str = BOTTOM
-) -> Lesson: ...
-@overload
-def explain(
-    camera: Camera | Scene,
-    shapes: Shapes | None = None,
-    pixel: Any = None,
-    *,
-    shading: str = MATERIAL,
-    samples: int = 1,
-    rows: str = BOTTOM,
-) -> Lesson: ...
-def explain(camera, shapes=None, pixel=None, *, shading: str = MATERIAL, samples: int = 1, rows: str = BOTTOM):
+    camera: Camera | Scene, shapes: Any = None, pixel=None, *, shading: str = MATERIAL, samples=1, rows: str = BOTTOM
+) -> Lesson:
     """Return how a pixel gets its color: raster, view coordinates, the model's formula with its numbers, the ray, each
     shape's equation, the hit, and each lamp's light. ``print`` shows all steps.
 
