@@ -26,9 +26,9 @@ def cast_all(user, scenes):
     bpy.ops.ed.undo_push(message="A dome")
     before = kept(scene)
     yield from user.wait(0.7)
-    user.picture("cameras_closed")
+    user.screenshot("cameras_closed")
     yield from open_list(user)
-    user.picture("cameras_open")
+    user.screenshot("cameras_open")
     yield from user.press(f"{BUTTON}cast_all(")
     folder = user.folder / "all"
     folder.mkdir(exist_ok=True)
@@ -44,7 +44,7 @@ def cast_all(user, scenes):
     check_whole(folder)
     assert kept(scene) == before
     yield from user.wait(0.5)
-    user.picture("cameras_cast")
+    user.screenshot("cameras_cast")
 
     scene.render.resolution_percentage, scene.frame_end = 60, 50
     bpy.ops.ed.undo_push(message="Larger")
@@ -54,7 +54,7 @@ def cast_all(user, scenes):
     yield from into(user, folder)
     yield from user.until(lambda: run.running() and run.running().fraction, "a picture is made")
     yield from user.wait(0.5)
-    user.picture("cameras_casting")
+    user.screenshot("cameras_casting")
     yield from stop(user)
     yield from user.until(lambda: run.latest().startswith("Stopped: "), "it has ended")
     assert 0 < len(list(folder.glob("*.json"))) < 100
@@ -81,7 +81,7 @@ def cast_all_by_cycles(user, scenes):
         yield from user.until(lambda: "Open Shading Language" in run.latest(), "it says why")
         assert not list(folder.iterdir())
         assert kept(scene) == before
-        user.picture("cameras_by_cycles")
+        user.screenshot("cameras_by_cycles")
         return
     yield from user.until(run.running, "the pictures are being made")
     yield from user.until(lambda: run.running() is None, "the pictures are made")
@@ -92,7 +92,7 @@ def cast_all_by_cycles(user, scenes):
     assert made["combined"][..., :3].std() > 0.05  # a picture is there
     assert kept(scene) == before
     yield from user.wait(0.5)
-    user.picture("cameras_by_cycles")
+    user.screenshot("cameras_by_cycles")
 
 
 def export_all(user, scenes):
@@ -116,7 +116,7 @@ def export_all(user, scenes):
     assert [len(one["frames"]) for one in cameras] == [200, 200]
     assert kept(scene) == before
     yield from user.wait(0.5)
-    user.picture("export_all")
+    user.screenshot("export_all")
 
     scene.frame_end, stopped = 100000, user.folder / "export_stopped"
     bpy.ops.ed.undo_push(message="Longer")
@@ -125,7 +125,7 @@ def export_all(user, scenes):
     yield from into(user, stopped)
     yield from user.until(lambda: run.running() and run.running().fraction, "it is exporting")
     yield from user.wait(1)
-    user.picture("exporting_all")
+    user.screenshot("exporting_all")
     yield from stop(user)
     yield from user.until(lambda: run.running() is None, "it has ended")
     assert run.latest() == "Stopped", run.latest()
@@ -193,7 +193,7 @@ def into(user, folder, **options):
     for name, value in options.items():
         setattr(browser.spaces.active.active_operator, name, value)
     yield from user.wait(1)
-    user.picture("cameras_dialog")
+    user.screenshot("cameras_dialog")
     yield from user.point(*middle(browser))
     yield from user.key("Return")
 

@@ -27,13 +27,13 @@ def camera_settings(user, scenes):
     for kind in ("PERSP", "ORTHO", "PANO"):
         camera.type = kind
         yield from user.wait(0.5)
-        user.picture(f"camera_{kind.lower()}")
+        user.screenshot(f"camera_{kind.lower()}")
     camera.type, camera.camera_ray_caster.model = "PERSP", "CROSS_SLIT"
     yield from user.wait(0.5)
-    user.picture("camera_without_slits")
+    user.screenshot("camera_without_slits")
     yield from user.press(f"{BUTTON}add_line(", region)
     yield from user.press(f"{BUTTON}add_line(", region)
-    user.picture("camera_with_slits")
+    user.screenshot("camera_with_slits")
     own = camera.camera_ray_caster
     assert None not in (own.slit_1, own.slit_2)
     assert own.slit_1 != own.slit_2
@@ -71,7 +71,7 @@ def model_gallery(user, scenes):
         assert chosen == key, (key, chosen, steps)
     yield from user.click(user.region().x + 60, button[1])
     yield from user.wait(0.5)
-    user.picture("menu_of_models")
+    user.screenshot("menu_of_models")
     yield from user.key("Escape")
 
 
@@ -93,7 +93,7 @@ def search(user, scenes):
         yield from user.key("F3")
         user.send("type", word)
         yield from user.wait(1)
-        user.picture(f"search_{word}")
+        user.screenshot(f"search_{word}")
         yield from user.key("Return")
         yield from user.until(found, f"{word} has been found and has run")
 
@@ -119,7 +119,7 @@ def told(user, scenes):
         written.clear()
         user.area().tag_redraw()
         yield from user.wait(1)
-        user.picture(f"told_{view}_{shading}_{has_overlays}".lower())
+        user.screenshot(f"told_{view}_{shading}_{has_overlays}".lower())
         if (view, shading, has_overlays) in told:
             *time, blur = written[-1]
             if shading == "SOLID":

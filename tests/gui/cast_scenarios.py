@@ -27,7 +27,7 @@ def stop(user, scenes):
     while times[-1] - times[0] < 2:
         yield
         times.append(time.monotonic())
-    user.picture("casting")
+    user.screenshot("casting")
     assert np.diff(times).max() < PAUSE, np.diff(times)
     assert 0 < addon("ui.cast_operator").fraction() < 1
     yield from user.key("Escape")
@@ -80,11 +80,11 @@ def show_result(user, scenes):
     yield from user.press(f"{BUTTON}cast(")
     yield from user.until(addon("output.reports").latest, "the cast has ended")
     yield from user.wait(0.5)
-    user.picture("cast_without_editor")
+    user.screenshot("cast_without_editor")
     with bpy.context.temp_override(window=user.window, area=view, region=user.region("WINDOW")):
         bpy.ops.camera_ray_caster.show_result(name="Ray Caster depth")
     yield from user.wait(1)
-    user.picture("show_result")
+    user.screenshot("show_result")
     editor = next(area for area in user.window.screen.areas if area.type == "IMAGE_EDITOR")
     assert editor.spaces.active.image.name == addon("output.image_datablocks").VIEW
     yield from user.point(editor.x + editor.width // 2, editor.y + editor.height // 2)

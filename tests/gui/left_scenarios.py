@@ -59,12 +59,12 @@ def own_view(user, scenes):
     yield from user.point(view.x + view.width // 3, view.y + view.height // 2)
     yield from user.key("KP_0")
     yield from user.wait(1)
-    user.picture("own_view")
+    user.screenshot("own_view")
     top = view.height - addon("ui.see_through_here").TOP
     yield from user.click(view.x + (view.width - user.region().width) / 2, view.y + top - 8)
     yield from user.until(lambda: shows_live(space, bpy.context.scene), "it is live")
     yield from user.wait(1)
-    user.picture("own_view_clicked")
+    user.screenshot("own_view_clicked")
     yield from user.press(SEE)
     space.region_3d.view_perspective = "CAMERA"
     yield from user.wait(0.5)
@@ -108,7 +108,7 @@ def live_mishaps(user, scenes):
         if not addon("ui.see_through").is_seen_through(bpy.context):
             bpy.ops.camera_ray_caster.see_through()
     yield from user.wait(1)
-    user.picture("live_two_windows")
+    user.screenshot("live_two_windows")
     with bpy.context.temp_override(window=second):
         bpy.ops.wm.window_close()
     yield from user.wait(0.5)
@@ -124,7 +124,7 @@ def live_mishaps(user, scenes):
     shown = next(iter(live._live[space.as_pointer()].values()))
     yield from user.until(lambda: "no memory for a face" in shown.camera[2], "the line says why")
     yield from user.wait(0.5)
-    user.picture("live_face_failed")
+    user.screenshot("live_face_failed")
     picture._draw_face = draw_face
     yield from draws("faces that no longer fail")
 
@@ -146,13 +146,13 @@ def live_mishaps(user, scenes):
     own = scene.camera
     scene.camera = next(item for item in scene.objects if item.type == "LIGHT")
     yield from user.wait(1)
-    user.picture("live_lamp")
+    user.screenshot("live_lamp")
     assert next(iter(live._live[space.as_pointer()].values())).count == count
     scene.camera = own
     yield from draws("the camera again")
     bpy.data.objects.remove(scene.camera)
     yield from user.wait(1)
-    user.picture("live_without_camera")
+    user.screenshot("live_without_camera")
     assert bpy.context.scene.render.engine == engine
     yield from load(user, scenes, "toys")
     assert not live._live

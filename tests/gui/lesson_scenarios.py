@@ -31,7 +31,7 @@ def step_through(user, scenes):
     user.send("keyup", "shift")
     assert len(lesson.clicked.pixels) == 2
     yield from user.key("Escape")
-    user.picture("step_through")
+    user.screenshot("step_through")
     one = lesson.lessons(bpy.context)[first]
     hit = camera.project(one.point)
     assert np.abs(hit - np.add(first, 0.5)).max() < 1e-9
@@ -62,7 +62,7 @@ def lens_in_view(user, scenes):
     yield from user.point(user.region().x + 60, user.region().y + 60)
     yield from user.scroll(40)
     yield from user.wait(0.5)
-    user.picture("lens_section")
+    user.screenshot("lens_section")
     camera = addon("read.scene_cache").cached_scene(bpy.context).camera
     assert addon("view3d.lens_icon").icon(camera, lesson.clicked.pixels[0])
     space.region_3d.view_perspective = "ORTHO"
@@ -151,7 +151,7 @@ def lesson_frames(user, editor):
             user.send("keyup", "shift")
             assert len(lesson.clicked.pixels) == i, lesson.clicked.pixels
         yield from user.wait(0.3)
-        user.picture(f"lesson_{i:02}", (editor, area))
+        user.screenshot(f"lesson_{i:02}", (editor, area))
     with bpy.context.temp_override(**in_view):
         bpy.ops.image.view_pan(offset=(-sidebar.width, 0))
 
@@ -182,12 +182,12 @@ def examples(user, scenes):
     with bpy.context.temp_override(window=user.window, area=user.area(), region=view):
         bpy.ops.wm.call_menu(name="CAMERA_RAY_CASTER_MT_cameras")
     yield from user.wait(2)
-    user.picture("examples")
+    user.screenshot("examples")
     yield from user.key("Escape")
     bpy.ops.camera_ray_caster.append_camera(name="cross_slit")
     user.area().spaces.active.region_3d.view_perspective = "CAMERA"
     yield from user.wait(1)
-    user.picture("appended")
+    user.screenshot("appended")
     assert bpy.context.scene.camera.data.camera_ray_caster.slit_2 is not None
 
 
@@ -225,7 +225,7 @@ def lecture(user, scenes):
     user.known |= {f"{BUTTON}ray_view(side='{side}'": row - ROW for side in SIDES}  # More Digits is above them
     for side in ("BACK", "OUTSIDE", "SIDE", "ABOVE", "BACK"):
         yield from look_from(user, side)
-        user.picture(f"lecture_{side.lower()}")
+        user.screenshot(f"lecture_{side.lower()}")
         assert lesson.clicked.pixels == [(150, 120)]
     on = user.cut(user.picture("lecture_formula"), user.region("WINDOW"))
     assert np.count_nonzero(np.abs(on - off).max(axis=2) > 0.1) > 5000
@@ -233,10 +233,10 @@ def lecture(user, scenes):
     for key, step in (("Next", 1), ("Next", 2), ("Next", 3), ("Next", 4), ("Prior", 3)):
         yield from user.key(key)
         yield from user.until(lambda step=step: place.step == step, f"{key} shows step {step}")
-    user.picture("lecture_numbers")
+    user.screenshot("lecture_numbers")
     place.all_digits = True
     yield from user.wait(0.5)
-    user.picture("lecture_all_digits")
+    user.screenshot("lecture_all_digits")
     place.lecture, place.all_digits, place.step = False, False, 0
     lesson.forget()
 

@@ -98,11 +98,11 @@ def live_ends(user, scenes):
         assert not any(function in getattr(bpy.app.handlers, name) for name, function in live.HANDLERS)
     yield from user.press(button)
     yield from user.wait(0.5)
-    user.picture("live_toys")
+    user.screenshot("live_toys")
     own.model = "TWISTED_ORTHOGRAPHIC"
     yield from user.until(lambda: now() == ("CAMERA", "RENDERED", False, "CAMERA_RAY_CASTER"), "it is cast")
     yield from user.wait(1)
-    user.picture("live_cast_instead")
+    user.screenshot("live_cast_instead")
     own.model = "DOME_MASTER"
     yield from user.until(lambda: now() == ("CAMERA", "SOLID", True, engine), "it is live again")
     path = str(user.folder / "live.blend")
@@ -111,7 +111,7 @@ def live_ends(user, scenes):
     space.shading.light = "MATCAP"
     yield from user.wait(0.7)
     assert live.MATCAP in list(said(user))
-    user.picture("live_matcap")
+    user.screenshot("live_matcap")
     space.shading.light = "STUDIO"
     bpy.ops.wm.open_mainfile(filepath=path, load_ui=True)
     assert not live._live
@@ -182,11 +182,11 @@ def live_look(user, scenes):
     yield from user.until(lambda: region.count > count, "the outline of what is selected is drawn")
     assert [item.name for item in bpy.context.selected_objects] == [bpy.context.object.name]
     yield from user.wait(1)
-    user.picture("live_look", [user.area()])
+    user.screenshot("live_look", [user.area()])
     (theme,) = (path for folder in bpy.utils.preset_paths("interface_theme") for path in glob(f"{folder}/*Light.xml"))
     bpy.ops.script.execute_preset(filepath=theme, menu_idname="USERPREF_MT_interface_theme_presets")
     yield from user.wait(1)
-    user.picture("live_look_light", [user.area()])
+    user.screenshot("live_look_light", [user.area()])
     bpy.ops.preferences.reset_default_theme()
     yield from user.press(f"{BUTTON}see_through(")
 

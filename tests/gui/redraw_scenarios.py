@@ -117,7 +117,7 @@ def redraws_all_around(user, scenes):
         print(f"street, {kind}: the window stands still for {1e3 * waited:.1f} ms")
         assert waited < STREET, watch.waited
         yield from user.until(lambda: watch.made[-1][0] == 1, "the full picture is there")
-        user.picture(f"street_{kind.lower()}")
+        user.screenshot(f"street_{kind.lower()}")
     watch.end()
     space.shading.type = "SOLID"
 
@@ -197,7 +197,7 @@ def redraws(user, moved, limits):
         )
         assert spent < limits[change.__name__], watch.spent
     watch.end()
-    user.picture(f"redraws_{moved.name.lower().replace(' ', '_')}")
+    user.screenshot(f"redraws_{moved.name.lower().replace(' ', '_')}")
     space.overlay.show_overlays, space.shading.type = True, "SOLID"
 
 

@@ -28,10 +28,10 @@ def saved(user, scenes, *states):
         held = yield from begin(user, scenes)
         path = user.folder / f"{begin.__name__}.blend"
         yield from save(user, path)
-        user.picture(f"saved_{begin.__name__}")
+        user.screenshot(f"saved_{begin.__name__}")
         bpy.ops.wm.open_mainfile(filepath=str(path), load_ui=True)
         yield from user.wait(1)
-        user.picture(f"reopened_{begin.__name__}")
+        user.screenshot(f"reopened_{begin.__name__}")
         held()
         assert every_handler() == handlers
         assert addon("ui.cast_operator").fraction() is None

@@ -46,7 +46,7 @@ def panel(user, scenes):
             if isinstance(kind, type) and issubclass(kind, bpy.types.Panel) and "draw" in vars(kind):
                 timed(kind, timings.setdefault(kind.__name__, []))
     yield from user.wait(0.5)
-    user.picture("panel_before")
+    user.screenshot("panel_before")
     yield from user.press(f"{BUTTON}verify(")
     yield from user.until(addon("output.reports").verified, "the camera is verified")
     assert addon("output.reports").verified().passed
@@ -54,7 +54,7 @@ def panel(user, scenes):
     yield from user.press(f"{BUTTON}cast(")
     yield from user.until(addon("output.reports").latest, "the cast has ended")
     yield from user.wait(0.5)
-    user.picture("panel_after")
+    user.screenshot("panel_after")
     report, scene = addon("output.reports").latest(), bpy.context.scene
     assert report.passed
     assert report.pixels == scene.render.resolution_x * scene.render.resolution_y
@@ -81,7 +81,7 @@ def no_camera(user, scenes):
     yield from load(user, scenes, "empty")
     bpy.context.scene.camera = None
     yield from user.wait(0.5)
-    user.picture("no_camera")
+    user.screenshot("no_camera")
     yield from user.press(f"{BUTTON}cast(")
     assert addon("output.reports").latest() is None
     assert not bpy.data.images
@@ -98,9 +98,9 @@ def left_out(user, scenes):
     yield from user.until(addon("output.reports").latest, "the cast has ended")
     names = addon("output.reports").by_reason(addon("output.reports").latest())
     yield from user.wait(0.5)
-    user.picture("left_out")
+    user.screenshot("left_out")
     yield from open_menu(user, f"{BUTTON}cast(", LEFT_OUT, 0.4)
-    user.picture("left_out_popover")
+    user.screenshot("left_out_popover")
     region, top = user.region(), round(user.known[f"{BUTTON}cast("] - LEFT_OUT * ROW)
     popover = SimpleNamespace(x=region.x, width=region.width, y=top + 20, height=250)  # it opens above
     yield from user.press(f"{BUTTON}select(", popover)
@@ -129,7 +129,7 @@ def overlay(user, scenes):
     scene.camera.data.type = "PANO"
     scene.camera.data.panorama_type = "FISHEYE_EQUIDISTANT"
     yield from user.wait(0.7)
-    user.picture("overlay_fisheye")
+    user.screenshot("overlay_fisheye")
     scene.camera.data.type = "PERSP"
     scene.camera.location.x -= 3
     scene.camera_ray_caster_overlay.show = False
@@ -139,7 +139,7 @@ def overlay(user, scenes):
     yield from user.press(f"{BUTTON}verify(")
     yield from user.until(addon("output.reports").verified, "the camera is verified")
     yield from user.wait(0.7)
-    user.picture("sidebar_and_overlay", [user.area()])
+    user.screenshot("sidebar_and_overlay", [user.area()])
     scene.camera_ray_caster_overlay.show = False
 
 
@@ -156,7 +156,7 @@ def ray_under_mouse(user, scenes):
     yield from user.point(view.x + view.width // 2, view.y + view.height // 2)
     yield from user.until(lambda: told, "the mouse is told")
     yield from user.wait(0.5)
-    user.picture("ray_under_mouse")
+    user.screenshot("ray_under_mouse")
     column, row = map(int, told[-1]["Pixel"].removesuffix(" from the bottom left").split(", "))
     assert abs(column - scene.render.resolution_x / 2) < 10
     assert abs(row - scene.render.resolution_y / 2) < 10
@@ -197,7 +197,7 @@ def viewport(user, scenes):
     for perspective in ("PERSP", "ORTHO"):
         space.region_3d.view_perspective = perspective
         yield from user.wait(1.5)
-        user.picture(f"view_{perspective.lower()}")
+        user.screenshot(f"view_{perspective.lower()}")
     space.overlay.show_overlays = True
     space.shading.type = "SOLID"
 
@@ -214,11 +214,11 @@ def cycles(user, scenes):
     view.ui_type = "PROPERTIES"
     view.spaces.active.context = "DATA"
     yield from user.wait(1)
-    user.picture("cycles_button")
+    user.screenshot("cycles_button")
     properties = next(region for region in view.regions if region.type == "WINDOW")
     yield from user.press(f"{BUTTON}use_in_cycles(", properties)
     yield from user.wait(2)
-    user.picture("cycles_way_back")
+    user.screenshot("cycles_way_back")
     if _cycles.with_osl:
         assert camera.data.type == "CUSTOM"
     else:  # as Debian builds it: the button says so, the camera is as it was, and a dome is Blender's own fisheye
@@ -230,7 +230,7 @@ def cycles(user, scenes):
         user.send("click", 1)
         yield from user.wait(2)
         assert (scene.camera.data.type, scene.camera.parent) == ("PANO", camera)
-        user.picture("cycles_fitted")
+        user.screenshot("cycles_fitted")
     view.ui_type = "VIEW_3D"
     yield from user.wait(0.5)
     space = view.spaces.active
@@ -267,7 +267,7 @@ def disable(user, scenes):
     yield from user.wait(1)
     bpy.ops.preferences.addon_disable(module=MODULE)
     yield from user.wait(1)
-    user.picture("disabled")
+    user.screenshot("disabled")
     assert not hasattr(bpy.types.Scene, "camera_ray_caster_overlay")
 
 

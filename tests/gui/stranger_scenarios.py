@@ -35,7 +35,7 @@ def open_menu(user, command, rows, share):
 def choose(user, command, rows, share, text):
     """Find an entry of a menu by typing: the space bar begins the search."""
     yield from open_menu(user, command, rows, share)
-    user.picture(f"menu_{text}")
+    user.screenshot(f"menu_{text}")
     yield from user.key("space")
     user.send("type", text)
     yield from user.wait(0.7)
@@ -46,7 +46,7 @@ def choose(user, command, rows, share, text):
 def choose_model(user, own, key, label):
     """Open the menu above the button See Through Camera, type the name of a model, and take it."""
     yield from open_menu(user, f"{BUTTON}see_through(", -1, 0.4)
-    user.picture(f"models_{key}")
+    user.screenshot(f"models_{key}")
     user.send("type", label)
     yield from user.wait(0.7)
     yield from user.key("Return")
@@ -57,18 +57,18 @@ def choose_model(user, own, key, label):
 def cast_a_cube(user, scenes):
     """The Cast button is seen without scrolling, and what it made is shown from the menu below it."""
     yield from default_scene(user)
-    user.picture("stranger_sidebar")
+    user.screenshot("stranger_sidebar")
     yield from user.press(f"{BUTTON}cast(")
     yield from user.until(addon("output.reports").latest, "the cast has ended")
     yield from user.wait(0.5)
-    user.picture("stranger_cast")
+    user.screenshot("stranger_cast")
     yield from user.press(f"{BUTTON}verify(")
     yield from user.until(lambda: addon("output.reports").verified().findings, "the camera is verified")
     yield from user.wait(0.5)
-    user.picture("stranger_verified")
+    user.screenshot("stranger_verified")
     yield from choose(user, f"{BUTTON}cast(", 1.4, 0.4, "combined")
     yield from user.until(lambda: any(area.type == "IMAGE_EDITOR" for area in user.window.screen.areas), "it is shown")
-    user.picture("stranger_shown")
+    user.screenshot("stranger_shown")
     editor = user.area("IMAGE_EDITOR")
     assert editor.spaces.active.image == bpy.data.images["Ray Caster combined"]
     yield from user.point(editor.x + editor.width // 2, editor.y + editor.height // 2)
@@ -88,13 +88,13 @@ def see_through(user, scenes):
     seen = user.cut(user.picture("stranger_omnimax"), view)
     assert bpy.context.scene.render.engine == before  # Blender's own drawing, through the model
     yield from choose_model(user, own, "CROSS_SLIT", "Cross-Slit")
-    user.picture("stranger_slits_missing")
+    user.screenshot("stranger_slits_missing")
     yield from user.press(f"{BUTTON}add_line(")
     yield from user.until(lambda: own.slit_1, "the slit is added")
     yield from user.point(*middle(view))
     yield from user.key("ctrl+z")
     yield from user.wait(2)
-    user.picture("stranger_slit_undone")
+    user.screenshot("stranger_slit_undone")
     own, shows = bpy.context.scene.camera.data.camera_ray_caster, addon("ui.see_through").shows_cast
     assert own.slit_1 is None
     assert shows(user.area().spaces.active, bpy.context.scene)
@@ -129,7 +129,7 @@ def ray_of_a_pixel(user, scenes):
     yield from user.click(*place_of(user, 960, 500))
     yield from user.key("Escape")
     yield from user.wait(0.5)
-    user.picture("stranger_ray")
+    user.screenshot("stranger_ray")
     (pixel,) = lesson.clicked.pixels
     hit = lesson.lessons(bpy.context)[pixel].point
     yield from user.press(f"{BUTTON}copy_steps(")
@@ -142,7 +142,7 @@ def ray_of_a_pixel(user, scenes):
     scene.cursor.location = empty.matrix_world.translation
     yield from user.press(f"{BUTTON}pixel_of_point(")
     yield from user.wait(0.5)
-    user.picture("stranger_point")
+    user.screenshot("stranger_point")
     assert lesson.clicked.pixels == [pixel]
 
 
@@ -152,12 +152,12 @@ def export_colmap(user, scenes):
     bpy.ops.wm.save_as_mainfile(filepath=str(user.folder / "stranger.blend"))
     yield from choose(user, f"{BUTTON}see_through(", 1, 0.25, "colmap")
     yield from user.wait(1)
-    user.picture("stranger_export")
+    user.screenshot("stranger_export")
     yield from user.key("Return")
     folder = user.folder / "stranger_colmap"
     yield from user.until(lambda: (folder / "cameras.txt").is_file(), "the camera is exported")
     assert (folder / "cameras.txt").read_text().splitlines()[-1].split()[1:4] == ["PINHOLE", "1920", "1080"]
-    user.picture("stranger_exported")
+    user.screenshot("stranger_exported")
 
 
 def notes_stay(user, scenes):
@@ -188,7 +188,7 @@ def notes_stay(user, scenes):
     yield from user.find(set_frame_button)
     yield from user.click(region.x + region.width // 3, user.known[set_frame_button] + ROW)
     yield from user.wait(1)
-    user.picture("notes_popover")
+    user.screenshot("notes_popover")
     yield from user.key("Escape")
     yield from user.press(set_frame_button)
     yield from user.until(lambda: scene.render.resolution_x == scene.render.resolution_y, "the frame is square")
@@ -223,7 +223,7 @@ def results_stay(user, scenes):
     yield from user.until(lambda: run.running() is None and run.latest(), "the pictures are made")
     yield from user.wait(0.7)
     after = yield from places()
-    user.picture("results_stay")
+    user.screenshot("results_stay")
     assert after == before
 
 

@@ -21,7 +21,7 @@ def slit_scan_preview(user, scenes):
     engine = scene.render.engine
     yield from user.press(f"{BUTTON}see_through(")
     yield from user.until(lambda: times._known.motion, "some frames are evaluated")
-    user.picture("slit_scan_first")
+    user.screenshot("slit_scan_first")
     yield from user.until(lambda: times._known.is_done, "all frames are evaluated")
     yield from shown(user, "slit_scan_shown", space)
     assert (len(bpy.data.scenes), scene.frame_current) == (1, 7)

@@ -85,15 +85,21 @@ class User:
             self.send("click", 5 if down else 4)
             yield
 
-    def picture(self, name, areas=()):
-        """Take a screenshot, (rows, columns, 4) from 0 to 1, row 0 at the bottom: of the window, or of areas side by
-        side.
+    def screenshot(self, name, areas=()):
+        """Take a screenshot of the window, or of areas side by side; return its path.
 
         Blender's own operator gives a black one with software OpenGL.
         """
         path = f"{self.folder}/{name}.png"
-        subprocess.run(["import", "-window", "root", *self.crop(areas), path], check=True, timeout=PATIENCE)
-        image = bpy.data.images.load(path)
+        words = "-window", "root", *self.crop(areas), "-define", "png:compression-level=1", path
+        subprocess.run(["import", *words], check=True, timeout=PATIENCE)
+        return path
+
+    def picture(self, name, areas=()):
+        """Take a screenshot and return it, (rows, columns, 4) from 0 to 1, row 0 at the bottom. This takes Blender half
+        a second: where nobody looks at the numbers, ``screenshot`` is enough.
+        """
+        image = bpy.data.images.load(self.screenshot(name, areas))
         pixels = pixels_of(image)
         bpy.data.images.remove(image)
         return pixels
@@ -164,7 +170,7 @@ class User:
         yield from self.until(lambda: has("IMAGE_EDITOR"), "the render is shown")
         yield from self.wait(0.7)
         if name:
-            self.picture(name)
+            self.screenshot(name)
         editor = self.area("IMAGE_EDITOR")
         yield from self.point(editor.x + editor.width // 2, editor.y + editor.height // 2)
         yield from self.key("Escape")

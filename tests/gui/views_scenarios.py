@@ -47,11 +47,11 @@ def quad_and_local_views(user, scenes):
         own.model = "OMNIMAX"
         yield from user.press(button)
         yield from user.until(lambda: any(one.count for one in live[space.as_pointer()].values()), "it is live")
-        user.picture(f"live_{enter.idname_py().rpartition('.')[2]}")
+        user.screenshot(f"live_{enter.idname_py().rpartition('.')[2]}")
         own.model = "GENERAL_LINEAR"
         yield from user.until(lambda: not any(overlays(space).values()), "they are hidden")
         yield from user.wait(1)
-        user.picture(f"view_{enter.idname_py().rpartition('.')[2]}")
+        user.screenshot(f"view_{enter.idname_py().rpartition('.')[2]}")
         yield from user.press(button)
         yield from user.until(lambda: overlays(space) == before, "they come back")
         with bpy.context.temp_override(**in_view):
@@ -111,7 +111,7 @@ def linked_cameras(user, scenes):
     other = bpy.context.window_manager.windows[-1]
     other.scene = second
     yield from user.wait(1)
-    user.picture("two_windows")
+    user.screenshot("two_windows")
     with bpy.context.temp_override(window=other):
         bpy.ops.wm.window_close()
     yield from user.wait(0.5)
@@ -121,7 +121,7 @@ def linked_cameras(user, scenes):
 
     user.window.scene = second
     yield from user.wait(0.7)
-    user.picture("linked_camera")
+    user.screenshot("linked_camera")
     yield from user.press(f"{BUTTON}verify(")
     yield from user.until(lambda: reports.verified(second), "the second is verified")
     assert reports.verified(second).camera["model"] == "Omnimax"
@@ -133,7 +133,7 @@ def linked_cameras(user, scenes):
     assert (linked.library is None, second.camera.library) == (False, None)
     second.camera.data.camera_ray_caster.model = "CAMERA_OBSCURA"
     yield from user.wait(0.7)
-    user.picture("overridden_camera")
+    user.screenshot("overridden_camera")
     yield from user.press(f"{BUTTON}verify(")
     yield from user.until(lambda: reports.verified(second).camera["model"] == "Camera Obscura", "it is verified")
     assert linked.data.camera_ray_caster.model == "OMNIMAX"

@@ -55,7 +55,7 @@ def tell(user, scenes, results, wanted):
             results[name] = "ok"
         except FAILURES:
             results[name] = traceback.format_exc()
-            user.picture(f"failure_{name}")
+            user.screenshot(f"failure_{name}")
         seconds, used = time.monotonic() - began, time.process_time() - used
         print(f"scenario {name}: {seconds:.0f} s, {used:.0f} s of the processors", flush=True)
 

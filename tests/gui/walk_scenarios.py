@@ -30,15 +30,15 @@ def slit_scan_movie(user, scenes):
     yield from user.key("F3")
     user.send("type", "slit scan, rows")
     yield from user.wait(1)
-    user.picture("walk_search")
+    user.screenshot("walk_search")
     yield from user.key("Return")
     yield from user.until(lambda: own.time_mode == "ROWS", "each row has its own time")
     yield from user.wait(0.7)
-    user.picture("walk_engine")
+    user.screenshot("walk_engine")
     yield from user.press(f"{BUTTON}use_this_engine(")
     yield from user.until(lambda: scene.render.engine == "CAMERA_RAY_CASTER", "the engine is set")
     yield from user.wait(0.7)
-    user.picture("walk_follow")
+    user.screenshot("walk_follow")
     yield from user.press(f"{BUTTON}follow_timeline(")
     yield from user.until(lambda: scene.camera.data.animation_data, "the times go with the timeline")
     scene.frame_set(3)
@@ -54,7 +54,7 @@ def slit_scan_movie(user, scenes):
     yield from user.until(lambda: list(user.folder.glob("movie_*")), "the movie is begun")
     yield from user.until(lambda: not bpy.app.is_job_running("RENDER"), "the movie is made")
     yield from user.wait(1)
-    user.picture("walk_movie")
+    user.screenshot("walk_movie")
     (path,) = user.folder.glob("movie_*")
     clip = bpy.data.movieclips.load(str(path))
     assert clip.frame_duration == MOVIE
@@ -88,7 +88,7 @@ def drag_x_before_a_class(user, scenes):
         yield from user.wait(0.1)
     user.send("mouseup", 1)
     yield from user.wait(0.7)
-    user.picture("walk_dragged")
+    user.screenshot("walk_dragged")
     (last,) = lesson.clicked.pixels
     assert last[0] > first[0] + raster.width / 5
     assert lesson.lessons(context)[last].steps != before
@@ -96,7 +96,7 @@ def drag_x_before_a_class(user, scenes):
     place = context.window_manager.camera_ray_caster_place
     place.x = -0.5
     yield from user.wait(0.7)
-    user.picture("walk_slider")
+    user.screenshot("walk_slider")
     assert lesson.clicked.pixels[0][0] == round(raster.width / 4)
     yield from user.press(f"{BUTTON}copy_steps(")
     assert f"({lesson.clicked.pixels[0][0]}, " in context.window_manager.clipboard
@@ -117,18 +117,18 @@ def dome_movie(user, scenes):
         cube.keyframe_insert("rotation_euler", frame=frame)
     scene.frame_set(1)
     yield from choose_model(user, scene.camera.data.camera_ray_caster, "DOME_MASTER", "Dome Master")
-    user.picture("walk_dome_note")
+    user.screenshot("walk_dome_note")
     scene.render.resolution_x = scene.render.resolution_y = 96
     scene.camera.data.camera_ray_caster.tilt, scene.eevee.taa_render_samples = 1.2, 1
     user.area().spaces.active.shading.color_type = "TEXTURE"
     yield from user.press(f"{BUTTON}see_through(")
     yield from user.wait(1)
-    user.picture("walk_dome_live")
+    user.screenshot("walk_dome_live")
     yield from user.point(*middle(view))
     yield from user.key("F3")
     user.send("type", "render through model")
     yield from user.wait(1)
-    user.picture("walk_dome_search")
+    user.screenshot("walk_dome_search")
     yield from user.key("Return")
     yield from user.see_render("walk_dome_frame")
     scene.frame_end, run, folder = MOVIE, addon("ui.in_process"), user.folder / "dome"

@@ -23,14 +23,14 @@ def shown_camera(user, scenes):
     assert other.data.camera_ray_caster.slit_1 is None
     scene.camera = bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "SUN"))
     yield from user.wait(0.7)
-    user.picture("camera_is_a_light")
+    user.screenshot("camera_is_a_light")
     for command in ("see_through(", "load_calibration(", "cast("):
         yield from user.press(BUTTON + command)
     area = user.area()
     assert area.spaces.active.region_3d.view_perspective == "PERSP"
     area.ui_type = "PROPERTIES"
     yield from user.wait(0.7)
-    user.picture("camera_is_a_light_properties")
+    user.screenshot("camera_is_a_light_properties")
     area.ui_type = "VIEW_3D"
 
 
@@ -44,7 +44,7 @@ def set_frame(user, scenes):
     render.engine, render.resolution_percentage = "CAMERA_RAY_CASTER", 5
     render.resolution_x, render.resolution_y = 1920, 1080
     yield from user.wait(0.7)
-    user.picture("set_frame")
+    user.screenshot("set_frame")
     engine, said = addon("engine.engine"), []
     asked_size = engine.asked_size
     engine.asked_size = lambda raw: said.append(asked_size(raw)) or said[-1]
@@ -65,13 +65,13 @@ def set_frame(user, scenes):
     browser.spaces.active.params.directory = str(user.folder).encode()
     browser.spaces.active.params.filename = path.name
     yield from user.wait(1)
-    user.picture("load_dialog")
+    user.screenshot("load_dialog")
     yield from user.point(*middle(browser))
     yield from user.key("Return")
     yield from user.until(lambda: camera.camera_ray_caster.model == "OPENCV_PINHOLE", "the calibration is loaded")
     assert (render.resolution_x, render.resolution_y) == (1241, 376)
     yield from user.wait(0.5)
-    user.picture("loaded")
+    user.screenshot("loaded")
 
 
 def other_engine(user, scenes):
@@ -89,7 +89,7 @@ def other_engine(user, scenes):
     assert said[0].startswith("Workbench renders a perspective view, not Omnimax"), said
     yield from user.see_render("other_engine_f12")
     yield from user.wait(0.5)
-    user.picture("other_engine")
+    user.screenshot("other_engine")
     yield from user.press(f"{BUTTON}use_this_engine(")
     yield from user.until(lambda: scene.render.engine == "CAMERA_RAY_CASTER", "the engine is set")
     yield from user.until(lambda: None in said, "the status bar is Blender's again")
@@ -155,7 +155,7 @@ def click_seen(user, scenes):
         assert context.object.name == name
         names.append(name)
     assert len(set(names)) > 2, names
-    user.picture("click_seen")
+    user.screenshot("click_seen")
     for keys, expected in (("ctrl+z", names[-2]), ("ctrl+shift+z", name)):
         yield from user.key(keys)
         yield from user.until(lambda expected=expected: [one.name for one in context.selected_objects] == [expected],
@@ -257,7 +257,7 @@ def drag_a_ray(user, scenes):
     place = bpy.context.window_manager.camera_ray_caster_place
     place.x = 0.5
     yield from user.until(lambda: drawn[-1][1][0] == round((0.5 + 1) / 2 * 960), "the view shows the slider's pixel")
-    user.picture("slid")
+    user.screenshot("slid")
     lesson.draw_in_picture = marks
     bpy.ops.camera_ray_caster.clear_steps()
 
