@@ -165,9 +165,9 @@ def _crowded(points: np.ndarray, column: np.ndarray, row: np.ndarray) -> tuple:
     end = np.append(begin[1:], count)
     columns = column[points[[begin, end - 1]]]
     points = points[np.lexsort((row[points], group))]
-    place = np.arange(count) - begin[group]
-    rows = np.array([np.full(place.max() + 1, row.max()), np.zeros(place.max() + 1, int)])
-    np.minimum.at(rows[0], place, row[points])
-    np.maximum.at(rows[1], place, row[points])
+    rank = np.arange(count) - begin[group]
+    rows = np.array([np.full(rank.max() + 1, row.max()), np.zeros(rank.max() + 1, int)])
+    np.minimum.at(rows[0], rank, row[points])
+    np.maximum.at(rows[1], rank, row[points])
     rows[1] = np.maximum.accumulate(rows[1])  # the last of its rows is not in each column
-    return points, columns, rows, (place, group)
+    return points, columns, rows, (rank, group)
