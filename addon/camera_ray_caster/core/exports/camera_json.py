@@ -52,15 +52,12 @@ class CameraJson(Format):
     description = "camera.json: every model with all its settings and poses; crc.camera_from_json computes its rays"
 
     def refusal(self, shot):
-        """See Format."""
         return None
 
     def omissions(self, shot):
-        """See Format."""
         return []
 
     def files(self, shots):
-        """See Format."""
         yield "camera.json", _text(shots)
 
 

@@ -25,7 +25,6 @@ class Npz(Format):
     description = "<camera>_<frame>.npz: the origin and the direction of every pixel's ray, of any camera"
 
     def refusal(self, shot):
-        """See Format."""
         return None
 
     formula = False
@@ -35,7 +34,6 @@ class Npz(Format):
         return super().omissions(shot)[: shot.camera.aperture is not None]
 
     def files(self, shots):
-        """See Format."""
         for shot in shots:
             rays = shot.camera.rays()
             times = {} if rays.time is None else {"time": rays.time}

@@ -31,7 +31,6 @@ class ProgramFormat(Format):
         self.formula = bool(export.models)  # type: ignore[misc]
 
     def refusal(self, shot):
-        """See Format."""
         if shot.camera.pixel_time is not None and not self._rolls(shot.camera):
             return OWN_TIMES
         if not self.table:
@@ -50,7 +49,6 @@ class ProgramFormat(Format):
         return self.export.rolling and MODE.read(camera.record) == ROLLING_SHUTTER
 
     def at_ends(self, shot):
-        """See Format."""
         times = shot.camera.pixel_time
         if not isinstance(times, LinearTime) or not self._rolls(shot.camera):
             return shot
@@ -59,7 +57,6 @@ class ProgramFormat(Format):
         return replace(shot, camera=first, last=last, offsets=offsets)
 
     def omissions(self, shot):
-        """See Format."""
         return super().omissions(shot) if self.table else []
 
     def records(self, shots) -> list[CameraRecord]:
@@ -74,7 +71,6 @@ class ProgramFormat(Format):
         return records
 
     def files(self, shots):
-        """See Format."""
         assert self.export.files is not None
         yield from self.export.files(self.records(shots))
 

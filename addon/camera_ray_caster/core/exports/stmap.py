@@ -33,7 +33,6 @@ class Stmap(Format):
     takes_target = True
 
     def refusal(self, shot):
-        """See Format."""
         for camera in (shot.camera, shot.target or shot.camera):
             of = "" if camera is shot.camera else f"whose target {camera.name!r} is one "
             if camera.pixel_time is not None:

@@ -18,7 +18,6 @@ from .parts.program import ProgramFiles, of_cameras
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return bool(_cameras(document))
 
 

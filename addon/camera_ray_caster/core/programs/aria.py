@@ -24,7 +24,6 @@ MODELS = {
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return document.entries.has("CameraCalibrations") or bool(_cameras(document))
 
 

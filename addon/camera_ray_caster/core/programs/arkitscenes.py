@@ -23,12 +23,10 @@ PINCAM, TRAJECTORY = ".pincam", ".traj"
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return _pincam(document) is not None or bool(_rows(document))
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     words = _pincam(document)
     if words is None:
         raise document.refusal("it is a trajectory, which has no lens")
@@ -67,7 +65,6 @@ def _pincam(document: Document) -> list[str] | None:
 
 
 def hint(document: Document) -> str:
-    """See ProgramFiles."""
     if Path(document.path).suffix.lower() == PINCAM:
         return "it must be one line of six numbers: width, height, fx, fy, cx and cy"
     return "its lines must have seven numbers: a time, axis times angle, and x, y, z"

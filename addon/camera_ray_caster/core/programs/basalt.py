@@ -30,12 +30,10 @@ MODELS = {
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return bool(document.entries.part("value0").parts("intrinsics"))
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     calibration = document.entries.part("value0")
     cameras, sizes = calibration.parts("intrinsics"), calibration.each("resolution")
     if calibration.has("resolution") and len(sizes) != len(cameras):

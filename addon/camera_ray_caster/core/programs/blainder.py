@@ -24,7 +24,6 @@ MOST_BEAMS = 4096
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     presets = document.entries.named().values()
     return any(preset.has("name", "category", "type", "distanceUpper") for preset in presets)
 

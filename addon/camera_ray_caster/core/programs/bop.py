@@ -21,7 +21,6 @@ MODELS = {"pinhole": ("OPENCV_PINHOLE", ())}
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     entries = document.entries
     if entries.has("depth_scale"):
         return has_plain(document)
@@ -36,7 +35,6 @@ def read(document: Document) -> list[Lens] | None:
 
 
 def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
     placed = []
     for number, image in document.entries.named().items():
         document.check()
@@ -47,7 +45,6 @@ def poses(document: Document) -> list[Placed]:
 
 
 def refusal(record: CameraRecord) -> str | None:
-    """See FileWriter."""
     return None if record.frame == int(record.frame) else "whose frame is not a whole number"
 
 

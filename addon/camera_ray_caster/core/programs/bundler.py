@@ -20,7 +20,6 @@ PER_PICTURE = 5
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return document.text.startswith(HEAD)
 
 
@@ -51,7 +50,6 @@ def _lenses(document: Document) -> list[Lens]:
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     return different(_lenses(document))
 
 

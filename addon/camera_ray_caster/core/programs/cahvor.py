@@ -26,7 +26,6 @@ LINEARITY = {"1": 1.0, "2": 0.0}
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return "=" in document.text and "{" not in document.text and _entries(document).has("C", "A", "H", "V")
 
 
@@ -37,7 +36,6 @@ def _entries(document: Document) -> Fields:
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     return [_lens(document)[0]]
 
 

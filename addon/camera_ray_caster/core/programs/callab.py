@@ -20,7 +20,6 @@ RADIAL = "k1", "k2", "k3"
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return "camera." in document.text and bool(_cameras(document))
 
 

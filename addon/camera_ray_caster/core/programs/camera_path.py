@@ -19,7 +19,6 @@ MODELS = {"perspective": "OPENCV_PINHOLE", "fisheye": "OPENCV_FISHEYE", "equirec
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return document.entries.has("camera_path", "render_height", "render_width")
 
 
@@ -48,7 +47,6 @@ def _lens(picture: Fields, model: str, size: dict) -> Lens:
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     return different(_lenses(document))
 
 

@@ -75,12 +75,10 @@ POINTS = """# 3D point list with one line of data per point:
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return _cameras(document) is not None or _images(document) is not None
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     cameras = _cameras(document)
     if cameras is None:
         raise document.refusal("it should have COLMAP's poses: the lenses are in the file cameras beside it")
@@ -186,7 +184,6 @@ def _lens(document: Document, words: list[str]) -> Lens:
 
 
 def refusal(record: CameraRecord) -> str | None:
-    """See FileWriter."""
     if " " in record.image:
         return "whose name has a space, which ends a name in COLMAP: rename it"
     if record.lens.model == SPHERE:

@@ -23,7 +23,6 @@ FIRST = ord("A")
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return bool(_cameras(document))
 
 

@@ -23,7 +23,6 @@ LENSES, POSES = "intri.yml", "extri.yml"
 
 
 def pair(path: Path) -> tuple[Path, Path] | None:
-    """See ProgramFiles."""
     folder = path if path.is_dir() else path.parent if path.name in (LENSES, POSES) else None
     if folder is None or not ((folder / LENSES).is_file() and (folder / POSES).is_file()):
         return None
@@ -31,7 +30,6 @@ def pair(path: Path) -> tuple[Path, Path] | None:
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     names = _names(document)
     return bool(names) and any(all(document.entries.has(f"{kind}_{name}") for name in names) for kind in "KT")
 
@@ -41,7 +39,6 @@ def _names(document: Document) -> list[str]:
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     return [one_of_several(name, _lens, document, name) for name in _names(document)]
 
 
@@ -52,7 +49,6 @@ def _lens(document: Document, name: str) -> Lens:
 
 
 def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
     return [Placed(name, "", None, _pose(document.entries, name)) for name in _names(document)]
 
 

@@ -15,17 +15,14 @@ from .parts.program import ProgramFiles
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return is_camera(document.entries)
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     return [lens_of(document.entries, "")]
 
 
 def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
     return [Placed("", "", None, pose_in(document.entries, "T_BS"))]
 
 

@@ -18,7 +18,6 @@ HEAD = "#timestamp [ns],p_x,p_y,p_z,q_w,q_x,q_y,q_z\n"
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return has_commas_in(document) and columns_of(document) is not None
 
 

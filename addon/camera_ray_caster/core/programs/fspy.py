@@ -25,7 +25,6 @@ MAGIC, VERSION = b"fspy", 1
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return document.data.startswith(MAGIC) or document.entries.has("cameraTransform", "horizontalFieldOfView")
 
 
@@ -43,7 +42,6 @@ def _parameters(document: Document) -> Fields:
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     entries = _parameters(document)
     size = entries.sides("imageWidth", "imageHeight")
     width, height = size.values()
@@ -56,7 +54,6 @@ def read(document: Document) -> list[Lens]:
 
 
 def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
     transform = _parameters(document).part("cameraTransform").labeled("cameraTransform")
     return [Placed("", "", None, pose_in(transform, "rows") @ FROM_BLENDER)]
 

@@ -14,7 +14,6 @@ from .parts.program import ProgramFiles
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     pictures = list(document.entries.named().values())
     return bool(pictures) and all(picture.has("position", "rotation", "fx") for picture in pictures)
 
@@ -33,12 +32,10 @@ def _lens(picture: Fields) -> Lens:
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     return different(map(_lens, _pictures(document)))
 
 
 def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
     pictures = _pictures(document)
     lenses = once_each(map(_lens, pictures))
     placed = []

@@ -19,13 +19,11 @@ STRETCHES = "input_horizontal_stretch", "input_vertical_stretch"
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     entries = document.entries
     return entries.has("calib_dimension") and (entries.has("fisheye_params") or entries.has("calib_params"))
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     entries = document.entries
     plain = entries.text("use_opencv_standard") == "True"
     kind = entries.word("distortion_model", MODELS, "opencv_standard" if plain else "opencv_fisheye")

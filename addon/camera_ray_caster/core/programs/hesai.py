@@ -20,12 +20,10 @@ FEW = 32
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return b"levation" in document.data[:256] and _head(_lines(document)) is not None
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     lines, rows = _lines(document), []
     for line in lines[(_head(lines) or 0) + 1 :]:
         document.check()

@@ -63,7 +63,6 @@ def _lens(document: Document, entries: Fields, names: Mapping[str, str]) -> Lens
 
 
 def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
     streams = document.entries.named()
     in_world = all(stream.has(WORLD) for stream in streams.values())
     placed = []

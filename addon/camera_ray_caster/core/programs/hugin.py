@@ -24,7 +24,6 @@ WORD = re.compile(r'([A-Za-z]+)("[^"]*"|\S+)')
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return any(picture.has("w", "h", "f", "v") for picture in _pictures(document))
 
 
@@ -44,12 +43,10 @@ def _pictures(document: Document) -> list[Fields]:
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     return different(lens for lens, _ in _lenses(document))
 
 
 def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
     return turned(_lenses(document), MOVED, "ypr")
 
 

@@ -34,7 +34,6 @@ TURNS = {"cw": CLOCKWISE, "ccw": "COUNTERCLOCKWISE"}
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return document.entries.part("profile").has("emitterStates", "scanType")
 
 
@@ -60,7 +59,6 @@ def _state(state: Fields) -> tuple[list[float], ...]:
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     profile = _profile(document, ROTARY, "its rays are read by scan(rays=FILE), in Python")
     states = profile.parts("emitterStates")
     if len(states) != 1:
@@ -82,7 +80,6 @@ def read(document: Document) -> list[Lens]:
 
 
 def rays(document: Document) -> ScanPattern:
-    """See ProgramFiles."""
     profile = _profile(document, SOLID, "load it as a calibration of a scanner")
     states, rate = profile.parts("emitterStates"), profile.number("scanRateBaseHz")
     if not states or rate <= 0:

@@ -36,12 +36,10 @@ MODELS = {
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return not is_camera(document.entries) and bool(_chain(document))
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     return [one_of_several(name, lens_of, camera, name) for name, camera in _chain(document).items()]
 
 

@@ -40,12 +40,10 @@ LONGEST = 1000
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return _has_rows(document) or any(map(LENS.fullmatch, _lines(document)))
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     lines = _lines(document)
     if not any(map(LENS.fullmatch, lines)):
         raise document.refusal("it has KITTI's poses, and no lens")

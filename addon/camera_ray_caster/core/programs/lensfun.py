@@ -24,12 +24,10 @@ FULL_FRAME = hypot(36.0, 24.0)
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return document.xml.name == "lensdatabase"
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     lenses = []
     for lens in document.xml.all("lens"):
         texts = Fields(document, dict(lens.texts()), lens.texts().get("model", "lens"))

@@ -15,7 +15,6 @@ NAMES = "time", "azimuth", "zenith"
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return not document.is_binary and set(NAMES) <= set(_head(document))
 
 
@@ -26,7 +25,6 @@ def _head(document: Document) -> list[str]:
 
 
 def rays(document: Document) -> ScanPattern:
-    """See ProgramFiles."""
     columns = [_head(document).index(name) for name in NAMES]
     lines = [line for line in document.text.splitlines()[1:] if line.strip() and not line.lstrip().startswith("#")]
     if not lines:

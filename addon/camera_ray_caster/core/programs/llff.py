@@ -17,7 +17,6 @@ from .parts.program import ProgramFiles
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return ray_arrays.is_poses_bounds(document)
 
 
@@ -36,7 +35,6 @@ def _lenses(document: Document) -> list[Lens]:
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     return different(_lenses(document))
 
 

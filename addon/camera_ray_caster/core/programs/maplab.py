@@ -25,7 +25,6 @@ BENDS = {"fisheye": "fov", "rationalradtan": "radialtangential8", "radtan": "rad
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     cameras = [camera for rig in _rigs(document) for camera in _cameras(rig)]
     return bool(cameras) and all(camera.has("type", "intrinsics") for camera in cameras)
 

@@ -44,7 +44,6 @@ PIXELS = [1.0, 2.0, 5.0]
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     entries = document.entries
     return entries.has("intrinsics") and all(
         intrinsics.has("intrinsicId") for intrinsics in entries.parts("intrinsics")
@@ -52,7 +51,6 @@ def looks(document: Document) -> bool:
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     entries = document.entries
     version = entries.numbers("version", default=PIXELS)
     cameras = [camera.labeled(camera.text("intrinsicId")) for camera in entries.parts("intrinsics")]

@@ -37,12 +37,10 @@ GEOGRAPHIC = "GEOGCS", "PROJCS", "COMPD_CS", "GEOCCS"
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return document.xml.name == "calibration" or bool(_named_sensors(document.xml))
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     root = document.xml
     if root.name == "calibration":
         return [_lens(document, "", root)]

@@ -50,12 +50,10 @@ LONGEST = 1 << 20
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return MARK.search(document.text) is not None and PHOTON_VISION not in document.text
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     entries = _entries(document)
     if (cahvor := _cahvor(document, entries)) is not None:
         return [cahvor[0]]
@@ -73,7 +71,6 @@ def read(document: Document) -> list[Lens]:
 
 
 def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
     entries = _entries(document)
     entry = entries.first("rt_cam_ref", "extrinsics")
     if not entries.has(entry):
@@ -140,7 +137,6 @@ def _edges(document: Document, fx, fy, cx, cy, width, height) -> dict[str, Any]:
 
 
 def refusal(record: CameraRecord) -> str | None:
-    """See FileWriter."""
     stereographic = word_of(MODELS, record.lens) == STEREOGRAPHIC
     return "whose unified_xi is not 1" if stereographic and record.lens.settings["unified_xi"] != 1 else None
 

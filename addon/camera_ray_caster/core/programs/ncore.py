@@ -28,7 +28,6 @@ MODELS: dict[str, tuple[str, dict[str, tuple[str, ...]]]] = {
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return any(sensor.has(KIND) for sensor in _sensors(document).values())
 
 
@@ -37,7 +36,6 @@ def _sensors(document: Document) -> dict[str, Fields]:
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     sensors = {name: sensor for name, sensor in _sensors(document).items() if sensor.has(KIND)}
     return [one_of_several(name, _lens, sensor.labeled(name)) for name, sensor in sensors.items()]
 
@@ -56,7 +54,6 @@ def _lens(sensor: Fields) -> Lens:
 
 
 def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
     sensors = _sensors(document).items()
     return [Placed(name, "", None, pose_in(sensor.labeled(name), POSE)) for name, sensor in sensors if sensor.has(POSE)]
 

@@ -22,7 +22,6 @@ NEAR = 1e-6
 
 
 def refusal(record: CameraRecord) -> str | None:
-    """See FileWriter."""
     fx, fy, cx, cy = matrix_of(record.lens.settings, 0.5)
     width, height = record.lens.size
     middle = max(abs(cx - width / 2), abs(cy - height / 2)) <= NEAR * max(width, height)

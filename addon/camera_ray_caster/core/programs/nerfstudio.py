@@ -49,13 +49,11 @@ SHUTTER = -0.25 / 24, 0.25 / 24
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     entries = document.entries
     return entries.has("frames") and entries.parts("frames") is not None
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     entries, frames = document.entries, document.entries.parts("frames")
     if any(name.startswith("ftheta_p") for name in entries):
         raise document.refusal("it has an f-theta lens of instant-ngp, which is not read: give a file of NVIDIA's")
@@ -72,7 +70,6 @@ def read(document: Document) -> list[Lens]:
 
 
 def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
     frames = document.entries.parts("frames")
     placed = []
     for number, (frame, lens) in enumerate(zip(frames, _of_frames(document, frames), strict=True)):

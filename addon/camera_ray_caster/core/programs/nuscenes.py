@@ -19,7 +19,6 @@ from .parts.program import ProgramFiles, of_cameras
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     sensors = document.entries.named().values()
     return bool(sensors) and all(sensor.has("sensor_token", "camera_intrinsic", "rotation") for sensor in sensors)
 

@@ -35,7 +35,6 @@ FISHEYE, PINHOLE = "fisheyePolynomial", "pinhole"
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     entries = document.entries
     if entries.has("cameraModel", "renderProductResolution") or entries.has("camera_calibrations"):
         return True
@@ -45,7 +44,6 @@ def looks(document: Document) -> bool:
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     entries = document.entries
     if entries.has("cameraModel", "renderProductResolution"):
         return [_of_isaac(entries)]

@@ -25,7 +25,6 @@ PICTURE = re.compile(r'("[^"]*"|\S+)\s+(.*)')
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return document.text.startswith(HEAD)
 
 
@@ -79,12 +78,10 @@ def _distorted(document: Document, name: str, focal_and_center: Sequence[float],
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     return different(_lenses(document))
 
 
 def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
     placed = []
     for (name, (_, w, x, y, z, *center, _radial, _end)), lens in zip(
         _pictures(document), _lenses(document), strict=True

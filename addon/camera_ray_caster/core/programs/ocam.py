@@ -24,7 +24,6 @@ BEGIN, COMMENT = re.compile(r"\d+\s+[-+.\d]"), "#polynomial"
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     if document.text.lstrip()[:1] == "{" or not document.text:
         return document.entries.has("polynomialC2W")
     lines = document.lines()
@@ -34,7 +33,6 @@ def looks(document: Document) -> bool:
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     if document.text.lstrip()[:1] == "{" or not document.text:
         entries = document.entries
         terms, size = entries.numbers("affine", 3, [1.0, 0.0, 0.0]), entries.numbers("size", 2)

@@ -16,7 +16,6 @@ from .parts.program import ProgramFiles, of_cameras
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     cameras = document.entries.parts("cameras")
     return bool(cameras) and all(camera.has("focal_length") for camera in cameras)
 

@@ -23,7 +23,6 @@ ROWS = 5
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     if document.has_entries:
         return document.entries.text("class_name") in (CAMERA, TRAJECTORY)
     lines = [line.split() for line in document.lines()[:ROWS]]
@@ -50,14 +49,12 @@ def _lens(picture: Fields) -> Lens:
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     if not document.has_entries:
         raise document.refusal("it is a trajectory, which has no lens")
     return different(map(_lens, _pictures(document)))
 
 
 def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
     if not document.has_entries:
         return _of_log(document)
     pictures = _pictures(document)

@@ -36,12 +36,10 @@ EXTRA = {"fisheye": "fisheye_model: 1\n", "omnidir": "xi: {unified_xi!r}\n"}
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return has_plain(document) or bool(_pair(document))
 
 
 def read(document: Document) -> list[Lens] | None:
-    """See ProgramFiles."""
     pair = _pair(document)
     if not pair:
         return plain_lenses(document)

@@ -25,7 +25,6 @@ MODELS = (PINHOLE, "pinhole_radial_k1", "pinhole_radial_k3", "pinhole_brown_t2",
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     entries = document.entries
     return entries.has("sfm_data_version") or (
         entries.has("views", "extrinsics")
@@ -34,7 +33,6 @@ def looks(document: Document) -> bool:
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     cameras = {str(camera.whole("key")): camera.part("value") for camera in document.entries.parts("intrinsics")}
     names = dict[str, str]()
     for camera in cameras.values():  # the first camera of a model has its name, the others its number

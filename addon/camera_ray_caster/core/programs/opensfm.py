@@ -30,7 +30,6 @@ MODELS = {
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     parts = document.entries.named()
     if len(parts) < len(document.entries):
         return False
@@ -38,7 +37,6 @@ def looks(document: Document) -> bool:
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     cameras: dict[str, Fields] = {}
     for reconstruction in _reconstructions(document) or [Fields(document, {"cameras": document.entries.values})]:
         cameras |= reconstruction.part("cameras").named()

@@ -23,7 +23,6 @@ STEREO = "Stereo.T_c1_c2", "Tlr"
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     entries = document.entries
     is_camera = any(map(NAME.match, entries)) or entries.part("Camera").has("fx")
     return is_camera and not stella.looks(document) and has_plain(document)

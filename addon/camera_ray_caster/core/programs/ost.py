@@ -16,12 +16,10 @@ NAMES = "width", "height", "camera matrix", "distortion", "rectification", "proj
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return "[image]" in document.text and set(NAMES) <= set(document.lines())
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     sections: dict[str, list[str]] = {}
     name = ""
     for line in document.lines():

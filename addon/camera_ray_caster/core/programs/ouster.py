@@ -32,12 +32,10 @@ OLDEST = 12.163
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return _all(document).has("beam_altitude_angles", "beam_azimuth_angles")
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     entries = _all(document)
     altitudes = entries.numbers("beam_altitude_angles")
     azimuths = entries.numbers("beam_azimuth_angles", len(altitudes))

@@ -17,12 +17,10 @@ ENTRIES = [[f"t_{row}{column}" for column in range(4)] for row in range(3)]
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return document.entries.has("t_00", "fx")
 
 
 def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
     rows = [document.entries.number(name) for row in ENTRIES for name in row]
     return [Placed("", "", None, pose_of(document, rows, "the matrix t_00 to t_23") @ FROM_BLENDER)]
 

@@ -23,17 +23,14 @@ PROJECTIONS = {"rectilinear": RECTILINEAR, "circularfisheye": FISHEYE, "fullfram
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return document.entries.part("project").has("globallenses", "imagegroups")
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     return different(lens for lens, _ in _lenses(document))
 
 
 def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
     return turned(_lenses(document), MOVED)
 
 

@@ -21,17 +21,14 @@ BINARY = {
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return any(kind.looks(document) for kind in READERS)
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     return [next(kind for kind in READERS if kind.looks(document)).lens_of(document)]
 
 
 def hint(document: Document) -> str | None:
-    """See ProgramFiles."""
     ending = Path(document.path).suffix.lower()
     if ending == ".obj":
         lost = [line.strip().decode() for line in ray_mesh.LINES if line not in b"\n" + document.data]

@@ -37,7 +37,6 @@ COEFFICIENTS = ("k1", "k2", "k3", "k4", "t1", "t2")
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     if document.text.lstrip()[:1] == "<":
         return any(
             entries.has("FocalLength35mm") or entries.has("Rotation", "Position") for entries in _of_xmp(document)
@@ -113,7 +112,6 @@ def _lens(document: Document, picture: Fields) -> Lens:
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     return different(_lens(document, picture) for picture in _pictures(document))
 
 

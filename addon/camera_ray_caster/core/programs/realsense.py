@@ -12,7 +12,6 @@ from .parts.program import ProgramFiles
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     entries = document.entries
     return (entries.has("ppx", "ppy") or entries.has("intrinsic_matrix")) and has_plain(document)
 

@@ -23,7 +23,6 @@ RECORD = "record"
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     entries = document.entries
     return _is_camera(entries) or (entries.has(RECORD) and entries.part(RECORD).has("settings"))
 
@@ -33,7 +32,6 @@ def _is_camera(entries: Fields) -> bool:
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     entries = document.entries
     if not _is_camera(entries):
         return [_lens(entries)]
@@ -53,7 +51,6 @@ def read(document: Document) -> list[Lens]:
 
 
 def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
     if not _is_camera(document.entries):
         raise document.refusal("it is a report, which has a lens and no poses that are read: export a camera.json")
     placed = []

@@ -24,7 +24,6 @@ OWN = ("camera_matrix", "projection_matrix"), ("camera_matrix", "rectification_m
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     entries = document.entries
     return entries.has("distortion_model") and any(entries.has(*names) for names in OWN) and has_plain(document)
 

@@ -50,7 +50,6 @@ class Rational(NamedTuple):
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return bool(MARK.search(document.text)) and f"LINENUMCOEFF{TERMS}" in _rational(document).texts
 
 
@@ -79,7 +78,6 @@ def _by_name(entries: Iterable[tuple[str, str]]) -> dict[str, str]:
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     rational = _rational(document)
 
     def number(name: str) -> float:

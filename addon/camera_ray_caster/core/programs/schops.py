@@ -20,12 +20,10 @@ GRIDS = {"CentralGenericModel": ("grid", ""), "NoncentralGenericModel": ("direct
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return document.entries.text("type") in GRIDS
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     entries = document.entries
     wide, high = (entries.whole(f"grid_{side}", 4) for side in ("width", "height"))
     width, height = (entries.whole(side, 1) for side in ("width", "height"))

@@ -25,13 +25,11 @@ def _camera(document: Document) -> Fields:
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     camera = _camera(document)
     return camera.has("model", "cols") and camera.text("model") in MODELS
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     camera = _camera(document)
     name, size = camera.text("name"), camera.sides("cols", "rows")
     if camera.text("model") == MODELS[0]:

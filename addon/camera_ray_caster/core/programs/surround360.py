@@ -23,7 +23,6 @@ MODELS = {
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     cameras = _cameras(document)
     return bool(cameras) and all(camera.has("id", "forward", "right", "up", "focal") for camera in cameras)
 

@@ -19,7 +19,6 @@ HEAD = "# timestamp tx ty tz qx qy qz qw\n"
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return columns_of(document) is not None and not has_commas_in(document)
 
 

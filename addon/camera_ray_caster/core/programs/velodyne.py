@@ -28,13 +28,11 @@ TIMING = {16: VLP_16, 32: HDL_32E, 64: S3, 128: VLS_128}
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     lasers = document.entries.parts("lasers")
     return bool(lasers) and lasers[0].has("vert_correction")
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     entries = document.entries
     numbered = [(laser.number("laser_id"), laser) for laser in entries.parts("lasers")]
     numbered.sort(key=lambda pair: pair[0])

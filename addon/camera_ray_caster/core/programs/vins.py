@@ -34,13 +34,11 @@ PARTS = "projection_parameters", "distortion_parameters", "mirror_parameters"
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     entries = document.entries
     return entries.has(PARTS[0]) or (entries.has("model_type") and entries.text("model_type") == SCARAMUZZA)
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     entries = document.entries
     kind = entries.word("model_type", (*MODELS, SCARAMUZZA))
     if kind == SCARAMUZZA:

@@ -18,12 +18,10 @@ TERMS = "k1", "k2", "k3", "k4"
 
 
 def looks(document: Document) -> bool:
-    """See ProgramFiles."""
     return document.entries.part("intrinsic").has("cx_offset")
 
 
 def read(document: Document) -> list[Lens]:
-    """See ProgramFiles."""
     intrinsics = document.entries.part("intrinsic")
     intrinsics.word("model", ("radial_poly",))
     width, height, across, down = (intrinsics.number(name) for name in ("width", "height", "cx_offset", "cy_offset"))
@@ -38,7 +36,6 @@ def read(document: Document) -> list[Lens]:
 
 
 def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles."""
     extrinsic = document.entries.part("extrinsic")
     if not len(extrinsic):
         return []
