@@ -117,6 +117,9 @@ class Pose:
     basis: np.ndarray
     """(3, 3) float64: the columns are the camera's X, Y and Z axes in the world, each of unit length."""
 
+    def __repr__(self) -> str:
+        return f"<Pose: eye {self.eye.tolist()}, basis {self.basis.tolist()}>"
+
 
 @dataclass(frozen=True, eq=False)
 class Rays:
@@ -130,6 +133,9 @@ class Rays:
     """(rows, columns) bool."""
     time: np.ndarray | None = None
     """(rows, columns) float64: the frame at which each ray is cast; None if the picture has one time."""
+
+    def __repr__(self) -> str:
+        return f"<Rays {np.shape(self.valid)}: {np.count_nonzero(self.valid)} valid>"
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,6 +24,7 @@ def test_equal_cameras_are_equal():
     assert len({fisheye(), fisheye(), fisheye(k1=0.2), fisheye(name="other")}) == 3
     assert fisheye() != fisheye().with_pose(np.eye(4))
     assert fisheye() != "camera"
+    assert fisheye() == fisheye().with_settings() == fisheye(k1=0.2).with_settings(k1=0.1) == fisheye().with_pose(POSE)
     table = np.array([[(0, 0, -1.0), (0.1, 0, -1)], [(0, 0.1, -1), (0.1, 0.1, -1)]])
     first, second, third = (
         crc.camera("RAY_TABLE", (8, 8), ray_directions=rays) for rays in (table, table + 0, table[::-1])
@@ -63,6 +64,11 @@ def test_shapes_scenes_images_and_fits_are_one_line():
     scene = crc.Scene(crc.camera("PERSP", (8, 6)), shapes)
     assert repr(scene) == f"<Scene {scene.camera}, {shapes}>"
     assert repr(crc.cast(scene, passes=("depth", "normal"))) == "<Images: depth (6, 8), normal (6, 8, 3)>"
+    assert repr(crc.cast(scene, passes="depth", rows="top")) == "<TopDown: depth (6, 8)>"
+    assert repr(crc.cast_rays((0, 0, 0), [(0, 0, -1)] * 9, shapes, passes="distance")) == "<RayImages: distance (9,)>"
+    assert repr(scene.camera.rays()) == "<Rays (6, 8): 48 valid>"
+    assert repr(crc.scan(scene)) == f"<PointCloud 'Camera': {len(crc.scan(scene))} points>"
+    assert "\n" not in repr(scene.camera.pose)
     line = repr(crc.fit(fisheye(), "OPENCV_FISHEYE"))
     assert line.startswith("<Fit: OpenCV Fisheye, at most ")
     assert "\n" not in line

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import arguments, memory
+from ..casting.images import Images
 from ..casting.pass_needs import WITHOUT_PIXEL, image_bytes
 from ..casting.passes import PASSES
 from ..conventions import gamma
@@ -47,6 +48,8 @@ class RayImages(dict[str, np.ndarray]):
     shapes: Shapes
     rays: RayPattern | None = None
     """The rays, of whose nearest hits ``scan`` and ``save_points`` make a cloud; None with ``all_hits``."""
+
+    __repr__ = Images.__repr__
 
 
 @arguments.keywords

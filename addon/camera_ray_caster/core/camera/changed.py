@@ -47,4 +47,6 @@ def changed(camera, settings: Mapping[str, Any]) -> BlenderCamera:
             check_effect(lens.key, declared, now, declared[key])
     fields = {key: value for key, value in explicit.items() if key in RECORD_FIELDS}
     values |= {key: value for key, value in explicit.items() if key not in RECORD_FIELDS}
+    if port == PORT.default != raw.settings.get(PORT.name):
+        values.pop(PORT.name)
     return replace(raw, name=name, **fields, settings=values)

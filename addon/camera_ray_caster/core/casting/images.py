@@ -27,7 +27,8 @@ class Images(dict[str, np.ndarray]):
     """Number of rays that were cast, with their samples."""
 
     def __repr__(self) -> str:
-        return f"<Images: {', '.join(f'{name} {np.shape(image)}' for name, image in self.items()) or 'none'}>"
+        passes = ", ".join(f"{name} {np.shape(image)}" for name, image in self.items())
+        return f"<{type(self).__name__}: {passes or 'none'}>"
 
     def keep(self, passes: tuple[str, ...]) -> None:
         """Remove all but some passes, and put these in their order."""

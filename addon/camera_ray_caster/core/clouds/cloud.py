@@ -85,6 +85,9 @@ class PointCloud:
     def __len__(self) -> int:
         return len(self.range)
 
+    def __repr__(self) -> str:
+        return f"<PointCloud {self.name!r}: {len(self)} points>"
+
 
 def scan(
     camera: Camera | Scene | None = None,
