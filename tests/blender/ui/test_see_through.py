@@ -7,7 +7,7 @@ import pytest
 from mathutils import Quaternion
 
 from camera_ray_caster.blender.ui import see_through
-from camera_ray_caster.blender.ui.camera_notes import missing
+from camera_ray_caster.blender.ui.model_settings import missing
 from camera_ray_caster.blender.ui.see_through import BEFORE, shows_picture
 from camera_ray_caster.blender.view3d import notice
 

@@ -5,14 +5,13 @@ from __future__ import annotations
 from functools import partial
 
 from ...core.cameras.parts.settings import Setting
-from ..properties.declared import GROUP
 from ..properties.owners import owner_of
 from ..view3d.shown import drawn_alike
 from .facts_panels import camera_of
 from .follow_timeline import timeline_note
 from .frame import frame_note
-from .model_drawing import draw_add, is_missing, lacks
-from .model_settings import read_settings
+from .model_drawing import draw_add
+from .model_settings import lacks, missing
 from .notes import Note
 from .other_engine import engine_note
 from .see_through import is_seen_through
@@ -51,12 +50,3 @@ def _draw_missing(camera, scene, setting: Setting, row) -> None:
     """Draw the button that adds an object, and a list from which it is chosen."""
     draw_add(row, setting)
     row.prop(owner_of(setting, camera, scene), setting.name, text="")
-
-
-def missing(context, camera) -> list[Setting]:
-    """Return the object settings of a camera object's model whose objects are missing."""
-    if camera is None or camera.type != "CAMERA":
-        return []
-    settings = getattr(camera.data, GROUP)
-    objects = [setting for setting in read_settings(camera.data) if setting.kind == "OBJECT"]
-    return [setting for setting in objects if is_missing(context, settings, setting)]

@@ -4,12 +4,13 @@ import bpy
 
 from ..properties.declared import BLENDERS_OWN, GROUP
 from ..read.movie_clips import clips_of
-from .camera_notes import missing, notes
+from .camera_notes import notes
 from .drawing import Sidebar, put_labels
 from .export_operators import ExportMenu
 from .gallery_operators import ExamplesMenu
 from .gallery_panels import draw_model
 from .model_drawing import PRESETS, draw_cycles, draw_lens, draw_model_settings, draw_port, draw_times
+from .model_settings import missing
 from .notes import Popover, draw_first, draw_notes, widen
 from .operators import LensOfClip, LoadCalibration
 from .rig_operators import AddCameras

@@ -15,7 +15,17 @@ from .add_line import AddGradient, AddLine, SelectLine
 from .cycles_operators import AddProjector, BackToBlender, FitLens, UseInCycles
 from .drawing import draw_field, draw_message
 from .lens_operators import draw_lens_file
-from .model_settings import lengths_in_words, not_used, of_type, port_settings, read_settings, settings_of, shown
+from .model_settings import (
+    is_missing,
+    lacks,
+    lengths_in_words,
+    not_used,
+    of_type,
+    port_settings,
+    read_settings,
+    settings_of,
+    shown,
+)
 
 PRESETS = "CAMERA_RAY_CASTER_PT_presets"
 """Identifier of the presets' panel."""
@@ -122,20 +132,9 @@ def _draw_object(layout, context, owner, setting) -> None:
         draw_add(layout, setting)
 
 
-def lacks(setting: Setting) -> str:
-    """Return a line that says that the object of a setting is missing."""
-    return f"Missing: {setting.text[:1].lower()}{setting.text[1:]}"
-
-
 def draw_add(layout, setting: Setting) -> None:
     """Draw the button that adds the object of a setting."""
     layout.operator(AddLine.bl_idname, text=f"Add {setting.label}", icon="ADD").setting = setting.name
-
-
-def is_missing(context, owner, setting: Setting) -> bool:
-    """Return whether the object of a setting is not set, or not in the view layer, as one that was deleted."""
-    item = getattr(owner, setting.name)
-    return item is None or context.view_layer.objects.get(item.name) != item
 
 
 DRAWN_BY_KIND = {"IMAGE": _draw_image, "VECTOR": _draw_vector, "OBJECT": _draw_object}

@@ -2,6 +2,7 @@
 
 from ...core.cameras import MODELS
 from ...core.cameras.behind_port import takes_port
+from ...core.cameras.model import Model
 from ...core.cameras.parts.calibration import FILE_CAMERA, FROM_FILE, IN_PIXELS, MILLIMETERS, SIZE, UNIT
 from ...core.cameras.parts.film import FILM, LENS
 from ...core.cameras.parts.port_settings import PORT
@@ -19,9 +20,15 @@ def _of_model(key: str) -> tuple[Setting, ...]:
     return next((model.SETTINGS for model in MODELS if model.key == key), ())
 
 
+def model_of(camera) -> type[Model] | None:
+    """Return a camera's model; None for Blender's custom camera."""
+    return next((model for model in MODELS if model.key == key_of(camera)), None)
+
+
 def port_settings(camera) -> tuple[Setting, ...]:
     """Return the settings of the glass before a camera's lens; none for a model that cannot have any."""
-    if not any(takes_port(model) for model in MODELS if model.key == key_of(camera)):
+    model = model_of(camera)
+    if model is None or not takes_port(model):
         return ()
     return PORT, *PORTS.get(getattr(camera, GROUP).port, ())
 
@@ -99,3 +106,23 @@ def lengths_in_words(group) -> str:
         return "In millimeters on Blender's sensor; Shift sets the center"
     sides = [str(getattr(group, side.name) or "the frame's") for side in SIZE]
     return f"In pixels of a picture of {' × '.join(sides)}, scaled to the frame"
+
+
+def missing(context, camera) -> list[Setting]:
+    """Return the object settings of a camera object's model whose objects are missing."""
+    if camera is None or camera.type != "CAMERA":
+        return []
+    settings = getattr(camera.data, GROUP)
+    objects = [setting for setting in read_settings(camera.data) if setting.kind == "OBJECT"]
+    return [setting for setting in objects if is_missing(context, settings, setting)]
+
+
+def is_missing(context, owner, setting: Setting) -> bool:
+    """Return whether the object of a setting is not set, or not in the view layer, as one that was deleted."""
+    item = getattr(owner, setting.name)
+    return item is None or context.view_layer.objects.get(item.name) != item
+
+
+def lacks(setting: Setting) -> str:
+    """Return a line that says that the object of a setting is missing."""
+    return f"Missing: {setting.text[:1].lower()}{setting.text[1:]}"

@@ -10,7 +10,7 @@ from ...core.records import InputError
 from ..properties.setting_labels import in_labels
 from ..read.camera_fields import check_camera
 from .drawing import draw_message
-from .facts_panels import camera_of
+from .model_settings import lacks, missing
 
 LINKED = "The camera is linked from another file: first make it local or a library override"
 
@@ -76,8 +76,9 @@ class OfRays(OfCamera):
 
     @classmethod
     def poll(cls, context):
-        """Gray out the operator also for a camera that cannot be cast, as without a slit."""
-        return super().poll(context) and can_use(cls, camera_of(context, camera_object_of(context))[1])
+        """Gray out the operator also without an object that the model needs, such as a slit."""
+        lacking = missing(context, camera_object_of(context))
+        return super().poll(context) and can_use(cls, lacks(lacking[0]) if lacking else "")
 
 
 class OfFile:

@@ -8,7 +8,7 @@ from ..cycles.renderer import changed
 from ..engine.engine import RenderCall
 from ..faces.engine_picture import EEVEE, NAMES, WORKBENCH, picture_of
 from ..properties.declared import ENGINE
-from ..view3d.live_picture import why_not
+from .model_settings import model_of
 from .needs import OfScene, can_use, reporting
 
 
@@ -27,8 +27,10 @@ class RenderThroughModel(OfScene, bpy.types.Operator):
             return False
         if bpy.app.is_job_running("RENDER"):
             return can_use(cls, "Blender is rendering: wait until it has ended")
-        reason = why_not(context.scene.camera, context.evaluated_depsgraph_get())
-        return can_use(cls, reason and f"{reason}: cast it, or render with Cycles")
+        model = model_of(context.scene.camera.data)
+        if model is None or model.central:
+            return True
+        return can_use(cls, f"{model.label} has no single viewpoint: cast it, or render with Cycles")
 
     @reporting
     def execute(self, context):
