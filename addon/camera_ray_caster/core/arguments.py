@@ -31,14 +31,14 @@ DAMAGED = (
 """What ``np.load`` and its arrays raise for a file that is cut off, damaged or encrypted, or holds no numbers."""
 
 
-LONGEST = 200
+LONGEST_VALUE = 200
 """Number of letters of a value in a message: nested lists are long, though each is shortened."""
 
 
 def shown(value) -> str:
     """Return any value as one short line of text, a scalar of numpy as the number that it is."""
     text = " ".join(shortened(value.item() if isinstance(value, np.generic) else value).split())
-    return text if len(text) <= LONGEST else f"{text[: LONGEST - 3]}..."
+    return text if len(text) <= LONGEST_VALUE else f"{text[: LONGEST_VALUE - 3]}..."
 
 
 def shape_of(array: np.ndarray) -> str:

@@ -27,7 +27,7 @@ PREPARED_PIXELS = 1 << 16
 at a time: 1.2 times the time for 100 spheres and two passes, 1.03 to 1.06 otherwise.
 """
 
-FAR = 1e4
+FAR_SPHERE = 1e4
 """Distance of a sphere in radii. The computed normal of a nearer sphere has unit length to 1e-11, and is not divided by
 its length. Always divided: 1.2 to 1.4 times the time of casts with normals.
 """

@@ -96,7 +96,7 @@ def test_few_tasks_are_with_the_scheduler_at_a_time(monkeypatch):
 
     monkeypatch.setattr(Cluster, "submit", counted)
     farmed(monkeypatch, jobs_of(4000), Cluster(4, 0.05))
-    assert most <= tasks.LEAST + 4 * tasks.PER_WORKER
+    assert most <= tasks.TASKS_AT_ONCE + 4 * tasks.TASKS_PER_THREAD
 
 
 def pictures_a_second(monkeypatch, workers, seconds):

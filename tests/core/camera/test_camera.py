@@ -10,7 +10,7 @@ import pytest
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.errors.ray_errors import world_rays
-from camera_ray_caster.core.maths.panels import FEWEST
+from camera_ray_caster.core.maths.panels import SMALLEST_SIZE
 
 from ..cameras.model_examples import EXAMPLES, camera, raw_of
 from ..truth import truth
@@ -75,7 +75,7 @@ def test_a_picture_has_the_rays_of_its_pixels(key):
     for settings in EXAMPLES[key]:
         cam = camera(key, settings | LARGE)
         rays = cam.rays()
-        assert (rays.valid.shape[0] >= FEWEST[0]) & (rays.valid.shape[1] >= FEWEST[1])
+        assert (rays.valid.shape[0] >= SMALLEST_SIZE[0]) & (rays.valid.shape[1] >= SMALLEST_SIZE[1])
         alone = by_pixel(cam, cam.raster.columns(), cam.raster.rows())
         assert_same(rays, alone, tolerance(key, settings, cam))
         differ |= bool((rays.directions.reshape(-1, 3)[alone.valid] != alone.directions[alone.valid]).any())

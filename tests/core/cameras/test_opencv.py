@@ -9,7 +9,7 @@ import pytest
 import camera_ray_caster as crc
 from camera_ray_caster.core.cameras.parts.radial_tangential import RadialTangential
 from camera_ray_caster.core.conventions import EPS
-from camera_ray_caster.core.maths.panels import FEWEST
+from camera_ray_caster.core.maths.panels import SMALLEST_SIZE
 
 from .model_examples import camera
 
@@ -235,8 +235,8 @@ def test_rays_of_a_picture_are_those_of_its_pixels(name, width):
     """Many go by polynomials, a list of pixels does not; 2000 columns reach out to where the barrel has no rays."""
     eye = pinhole(*LENSES[name], resolution_x=width)
     x, y = eye.raster.columns(), eye.raster.rows()[-160:]
-    assert x.size > FEWEST[1]
-    assert y.size > FEWEST[0]
+    assert x.size > SMALLEST_SIZE[1]
+    assert y.size > SMALLEST_SIZE[0]
     rows = eye.rays_at(x, y)
     pixels = eye.rays_at(*(part.reshape(-1) for part in np.broadcast_arrays(x, y)))
     assert np.array_equal(rows.valid.reshape(-1), pixels.valid)

@@ -10,7 +10,7 @@ import pytest
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.errors.ray_errors import world_rays
 from camera_ray_caster.core.maths.chebyshev import COEFFICIENT_ROUNDING, PIECE, POINTS
-from camera_ray_caster.core.maths.panels import COLUMNS, FEWEST, Disc, on_raster
+from camera_ray_caster.core.maths.panels import COLUMNS, SMALLEST_SIZE, Disc, on_raster
 
 from ..cameras.model_examples import camera, raw_of
 from ..truth import truth
@@ -72,7 +72,7 @@ def test_a_pixel_has_the_same_value_in_whatever_part_of_the_picture():
         (3.5, 7.5),
         (np.arange(999) + 0.5, np.arange(999) + 0.5),
         (np.arange(999)[None] + 0.5, np.array([[4.5]])),
-        (np.arange(FEWEST[1] - 1)[None] + 0.5, np.arange(400)[:, None] + 0.5),
+        (np.arange(SMALLEST_SIZE[1] - 1)[None] + 0.5, np.arange(400)[:, None] + 0.5),
         (np.arange(999)[None] * 2.0 + 0.5, np.arange(400)[:, None] + 0.5),
         (np.arange(999)[None] + 0.25, np.arange(400)[:, None] + 0.5),
     ],

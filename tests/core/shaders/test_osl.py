@@ -6,7 +6,7 @@ import pytest
 from camera_ray_caster.core.maths.recording import DOMAIN, Parameter, record, stop_gradient
 from camera_ray_caster.core.maths.recording.record import COMPARISONS, LOGICAL, NUMERIC
 from camera_ray_caster.core.shaders.osl import Inputs, OslWriter
-from camera_ray_caster.core.shaders.writer import LEAST, MOST, Term
+from camera_ray_caster.core.shaders.writer import LARGEST_CONSTANT, LEAST_CONSTANT, Term
 
 
 def written(function, places=frozenset()):
@@ -58,7 +58,8 @@ def test_a_division_by_a_number_that_is_written_is_always_one():
 )
 def test_numbers_are_written_to_the_last_digit_of_float32(value, text):
     assert OslWriter.literal(value) == text
-    assert np.float32(text.strip("()")) == np.float32(np.clip(abs(value), LEAST, MOST) * np.sign(value))
+    clipped = np.clip(abs(value), LEAST_CONSTANT, LARGEST_CONSTANT) * np.sign(value)
+    assert np.float32(text.strip("()")) == np.float32(clipped)
 
 
 def test_a_helper_comes_with_the_one_that_it_calls():

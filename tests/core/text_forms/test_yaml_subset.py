@@ -171,7 +171,7 @@ def test_a_file_that_takes_too_much_memory_is_refused_before_it_is_read(tmp_path
 
 
 def test_reading_ends_when_its_time_is_over(monkeypatch):
-    monkeypatch.setattr(content, "LONGEST", 0.0)
+    monkeypatch.setattr(content, "LONGEST_READING", 0.0)
     for text in ("a: 1\nb: 2\n", "<opencv_storage><a>1</a></opencv_storage>", "a: [1, 2]"):
         with pytest.raises(InputError, match="'lens' takes longer than 0 s to read: is it a calibration"):
             entries_of(text, "lens")

@@ -39,7 +39,7 @@ BAND_PIXELS = 1 << 18
 3840 x 2160 pixels take 1.5 to 2 s of processor time; all at once 4.5 to 7.2 s, in bands of 2**16 pixels 1.2 to 1.9 s.
 """
 
-LONGEST, POLL = 5.0, 0.01
+LONGEST_WAIT, POLL_INTERVAL = 5.0, 0.01
 """Seconds that an unregistration waits for a render at most, and between two looks at it."""
 _rendering: list[bool] = []
 """One item for each render that is running."""
@@ -249,9 +249,9 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
 def stop() -> None:
     """Stop every render and wait until it has ended: Blender frees the engine when its class is unregistered."""
     _ending.append(True)
-    end = perf_counter() + LONGEST
+    end = perf_counter() + LONGEST_WAIT
     while _rendering and perf_counter() < end:
-        sleep(POLL)
+        sleep(POLL_INTERVAL)
     _ending.clear()
 
 

@@ -68,15 +68,18 @@ def made(
     return {"of": stamp, "files": files | {os.path.relpath(path, folder): path.stat().st_size for path in beside}}
 
 
-OWN = "camera", "frame", "rays"
+OWN_ENTRIES = "camera", "frame", "rays"
 """What the stamps of the pictures of a data set differ in."""
 
 
 def short(stamp: Mapping[str, Any]) -> dict[str, Any]:
     """Return the stamp of a picture of a data set: what is the same for all pictures as a hash."""
-    same = {key: value for key, value in stamp.items() if key not in OWN}
+    same = {key: value for key, value in stamp.items() if key not in OWN_ENTRIES}
     text = json.dumps(same, sort_keys=True)
-    return {"set": hashlib.sha256(text.encode()).hexdigest()[:16], **{key: stamp[key] for key in OWN if key in stamp}}
+    return {
+        "set": hashlib.sha256(text.encode()).hexdigest()[:16],
+        **{key: stamp[key] for key in OWN_ENTRIES if key in stamp},
+    }
 
 
 def finished(report: Path, stamp: Mapping[str, Any]) -> dict[str, Any] | None:

@@ -15,7 +15,7 @@ from .owners import owner_of
 READING = {model.key: model.label for model in MODELS if FILE in model.SETTINGS}
 """Labels of the models that read calibration files, by key."""
 
-KEPT = "FLOAT", "INT", "BOOLEAN", "ENUM", "VECTOR", "TEXT"
+KINDS_IN_FILES = "FLOAT", "INT", "BOOLEAN", "ENUM", "VECTOR", "TEXT"
 """Kinds of settings that a file can give; not objects and images of a .blend."""
 
 
@@ -57,7 +57,7 @@ def set_lens(camera, lens: Lens) -> None:
     """
     model, group = model_of(lens), getattr(camera, GROUP)
     settings = [setting for setting in model.SETTINGS if setting.owner in (OWN, CAMERA) and setting not in FROM_FILE]
-    if others := [setting.label for setting in settings if setting.kind not in KEPT]:
+    if others := [setting.label for setting in settings if setting.kind not in KINDS_IN_FILES]:
         raise InputError(f"{model.label} has objects or images of a .blend ({', '.join(others)}), which no file has")
     if model.number is None:
         is_type = model.key in {item.identifier for item in camera.bl_rna.properties["type"].enum_items}

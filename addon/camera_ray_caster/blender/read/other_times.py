@@ -33,7 +33,7 @@ BUDGET = 0.2
 """Seconds after which the window is drawn before further frames are evaluated, once the first ones are known. Of a room
 of 1,000 objects the first frame takes 0.45 s, and each further one 0.2 s.
 """
-KEYS = 4
+MOST_KEYFRAMES = 4
 """Maximum number of frames with keyframes before the first picture."""
 STEADY = {"OBJECT", "POSE"}
 """Modes of the active object in which the scene can be copied."""
@@ -142,7 +142,7 @@ def _evaluate(copy, layer: str, time) -> None:
     if _known.steps is None:
         prepare(view_layer.depsgraph, span)
         keys = keyed_frames(copy)
-        first_ones = dict.fromkeys((*span, *keys[(keys > span[0]) & (keys < span[1])].tolist()[:KEYS]))
+        first_ones = dict.fromkeys((*span, *keys[(keys > span[0]) & (keys < span[1])].tolist()[:MOST_KEYFRAMES]))
         for frame in first_ones:
             state_at(frame)
         _known.steps = resolving(*span, time.tolerance, time.max_evaluations, keys)

@@ -10,7 +10,7 @@ from ...core.materials.values import DIRECTION, OBJECT, UV, Coordinates, Layer, 
 from .nodes import Node, Nodes, Unread, own_value
 from .texels import Unreadable, image_of
 
-TABLE = 256
+TABLE_ENTRIES = 256
 """Entries of color ramps and curves, as in Cycles."""
 
 GENERATED = "generated"
@@ -151,7 +151,7 @@ def _blended(node: Node, factor: Value, first: Value, second: Value, clamps: boo
 
 def _ramp(nodes: Nodes, node: Node, output) -> Value:
     ramp = node.color_ramp
-    table = np.array([ramp.evaluate(k / (TABLE - 1)) for k in range(TABLE)]).T
+    table = np.array([ramp.evaluate(k / (TABLE_ENTRIES - 1)) for k in range(TABLE_ENTRIES)]).T
     rows = table[3:] if output.name == "Alpha" else table[:3]
     return function_of(partial(do.looked_up, rows, ramp.interpolation != "CONSTANT"), node.input("Fac"))
 
@@ -228,7 +228,7 @@ def _curve(nodes: Nodes, node: Node, output) -> Value:
     ends = [(curve.points[0].location[0], curve.points[-1].location[0]) for curve in mapping.curves]
     low, high = min(first for first, _ in ends), max(last for _, last in ends)
     *channels, combined = mapping.curves
-    between = [mapping.evaluate(combined, x) for x in np.linspace(low, high, TABLE)]
+    between = [mapping.evaluate(combined, x) for x in np.linspace(low, high, TABLE_ENTRIES)]
     tables = [np.array([[mapping.evaluate(curve, x) for x in between]]) for curve in channels]
     goes_on = mapping.extend == "EXTRAPOLATED"
 

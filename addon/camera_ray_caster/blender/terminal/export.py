@@ -32,7 +32,7 @@ RECAST = "depths, masks, boxes and poses are cast anew, with meshes as meshes; p
 WITH_OPTION = {set_format.option: key for key, set_format in SET_FORMATS.items() if set_format.option}
 """The only format that has an option, by the option."""
 
-FEW = 8
+PRINTED_FILES = 8
 """Files whose names are printed."""
 
 
@@ -50,7 +50,7 @@ def run(arguments: Sequence[str], prog: str) -> int:
         "; ".join(f"{key}: {export_format.description}" for key, export_format in formats.items())
         + f". For the folder of a finished data set only: {', '.join(SET_FORMATS)}")  # fmt: skip
     parser.add_argument("--points", type=count, metavar="N", help=
-        f"number of seed points, for {WITH_OPTION['points']} only; default: {sparse.COUNT}")  # fmt: skip
+        f"number of seed points, for {WITH_OPTION['points']} only; default: {sparse.POINT_COUNT}")  # fmt: skip
     parser.add_argument("--models", type=Path, metavar="FILE.blend", help=
         "Blender file of the data set, from which its objects' models are written, for "
         f"{WITH_OPTION['models']} only")  # fmt: skip
@@ -116,7 +116,7 @@ def _part(text: str) -> float:
 
 def _tell(remarks: Sequence[str], paths: Sequence[Path], folder: Path) -> None:
     """Print remarks, and in one line the files that were written."""
-    names = ", ".join(map(str, paths)) if 0 < len(paths) <= FEW else f"{len(paths)} files into {folder}"
+    names = ", ".join(map(str, paths)) if 0 < len(paths) <= PRINTED_FILES else f"{len(paths)} files into {folder}"
     print("\n".join((*remarks, f"Wrote {names}")), flush=True)
 
 

@@ -19,7 +19,7 @@ from .jobs import Outcome
 
 CHUNK = 4
 """Number of pictures per task of a worker."""
-LEAST, PER_WORKER = 16, 4
+TASKS_AT_ONCE, TASKS_PER_THREAD = 16, 4
 """Number of tasks that are with the scheduler at a time, and in addition for each thread of a worker."""
 RESTARTS, AGAIN = 3, 60.0
 """How often a scheduler may end, and the seconds to wait for the next one."""
@@ -78,7 +78,7 @@ class Tasks:
                 seen, gone = time.monotonic(), 0 if self.client.nthreads() else gone + 1
                 if gone > 1:
                     raise InputError(f"all workers have ended; finished pictures are kept; {FEWER}")
-            for _ in range(LEAST + PER_WORKER * _threads(self.client) - len(self.waiting)):
+            for _ in range(TASKS_AT_ONCE + TASKS_PER_THREAD * _threads(self.client) - len(self.waiting)):
                 chunk = yield from self._chunk()
                 if not chunk:
                     break

@@ -20,7 +20,7 @@ FOLDER = Path(__file__).resolve().parents[1]
 """Parent folder of ``presets``."""
 OWNERS = {OWN: "settings", CAMERA: "camera"}
 """Variable names in a preset, by owner of the settings that it stores."""
-KEPT = {"FLOAT", "INT", "BOOLEAN", "ENUM", "VECTOR", "TEXT", "FILE"}
+KINDS_IN_PRESETS = {"FLOAT", "INT", "BOOLEAN", "ENUM", "VECTOR", "TEXT", "FILE"}
 """Kinds of settings that a preset stores; objects and images belong to a .blend file."""
 
 
@@ -82,7 +82,9 @@ class AddModelPreset(AddPresetBase, bpy.types.Operator):
         """The values to store: the model, Blender's camera type for its own models, and the settings of the model."""
         camera = bpy.context.camera
         types = ["camera.type", "camera.panorama_type"] if getattr(camera, GROUP).model == BLENDERS_OWN else []
-        kept = [setting for setting in (*settings_of(camera), *port_settings(camera)) if setting.kind in KEPT]
+        kept = [
+            setting for setting in (*settings_of(camera), *port_settings(camera)) if setting.kind in KINDS_IN_PRESETS
+        ]
         stored = (f"{OWNERS[setting.owner]}.{setting.name}" for setting in kept if setting.owner in OWNERS)
         return [f"settings.{MODEL.name}", *types, *stored]
 

@@ -28,7 +28,7 @@ from .lens_view import draw_lens, forget_lens, parts_of_paths
 from .overlay import batch_of, draw_batch
 from .shown import picture_frame
 
-FAR = 100.0
+LENGTH_OF_MISSES = 100.0
 """Drawn length of a ray that hits nothing, in units of the camera's display size."""
 RAY, OTHERS, SEEN, NORMAL = (1.0, 0.45, 0.1, 1.0), (0.7, 0.7, 0.7, 0.9), (1.0, 0.9, 0.2, 1.0), (0.3, 0.9, 0.95, 1.0)
 GROUND = (0.0, 0.0, 0.0, 1.0)
@@ -87,7 +87,7 @@ def _parts(camera, steps: Lesson, size: float):
     """Yield (kind of shader, points, color, width) of each part drawn for a pixel."""
     yield "POLYLINE", pixel_outline(camera, size, *steps.seen.pixel), RAY, WIDTH
     origin, direction = steps.seen.origin, steps.seen.direction
-    end = steps.seen.distance if np.isfinite(steps.seen.distance) else FAR * size
+    end = steps.seen.distance if np.isfinite(steps.seen.distance) else LENGTH_OF_MISSES * size
     yield "POLYLINE", [origin, origin + end * direction], RAY, WIDTH
     others = [crossing.t for meeting in steps.met for crossing in meeting.places if 0 <= crossing.t != end]
     if others:

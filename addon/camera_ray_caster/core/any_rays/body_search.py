@@ -33,7 +33,7 @@ BUNDLED = 0.125
 long as by a tree, and 0.34 rays half as long.
 """
 
-FEW = 12
+BODIES_WITHOUT_TREE = 12
 """Number of bodies that are tested one after the other at all rays, without a tree."""
 
 PAIRS_WITHOUT_TREE = 1 << 12
@@ -66,7 +66,7 @@ class BodySearch(RayBodies):
             for end in ("low", "high")
         )
         inside = (np.isfinite(low) & np.isfinite(high)).all(axis=0)
-        if rays * len(self.at) <= PAIRS_WITHOUT_TREE or np.count_nonzero(inside) <= FEW:
+        if rays * len(self.at) <= PAIRS_WITHOUT_TREE or np.count_nonzero(inside) <= BODIES_WITHOUT_TREE:
             inside[:] = False
         self._one_by_one, self._in_boxes = np.flatnonzero(~inside), np.flatnonzero(inside)
         self._boxes = enlarged(low[:, self._in_boxes], high[:, self._in_boxes])

@@ -21,13 +21,13 @@ from ..motion.evaluations import Motion
 from ..motion.interpolation import TimeInterval
 from .tree import Tree, tree_of
 
-SLACK = 1e-6
+BOX_MARGIN = 1e-6
 """Fraction by which boxes are enlarged: far more than rounding, and than the rounding of times."""
 
 SLICES = 32
 """Largest number of slices of an interval. Not tuned."""
 
-STEP = 2.0
+MOVED_SIZES = 2.0
 """Number of sizes of triangles by which they may move in a slice."""
 
 
@@ -79,11 +79,11 @@ class Form:
         moved = np.abs(np.diff(points, axis=0)).sum(axis=0).max()
         corners = points[0][:, self.mesh.triangles]
         size = np.median((corners.max(axis=1) - corners.min(axis=1)).max(axis=0))
-        return int(np.clip(np.ceil(moved / max(STEP * size, moved / SLICES)), 1, SLICES)) if moved > 0 else 1
+        return int(np.clip(np.ceil(moved / max(MOVED_SIZES * size, moved / SLICES)), 1, SLICES)) if moved > 0 else 1
 
     def _tree(self, interval: TimeInterval, start: float, end: float) -> Tree:
         points = _bezier(interval, self._row, start, end)
-        low, high = points.min(axis=0) - SLACK * self.reach, points.max(axis=0) + SLACK * self.reach
+        low, high = points.min(axis=0) - BOX_MARGIN * self.reach, points.max(axis=0) + BOX_MARGIN * self.reach
         corners = self.mesh.triangles
         return tree_of(low[:, corners].min(axis=1), high[:, corners].max(axis=1), np.arange(len(self)))
 

@@ -25,7 +25,7 @@ from ..records import MESH, PLANE, SPHERE, Shapes
 from ..shapes.in_camera import in_camera
 from .balls import may_meet, unit_directions
 from .body_search import RAYS, BodySearch, search_of
-from .forms import SLACK, Form
+from .forms import BOX_MARGIN, Form
 from .own_times import OwnTimes, RowsPlaced
 from .ray_bodies import WORLD, RayBodies, RayHits, Span
 
@@ -115,7 +115,7 @@ def _boxes(motion: Motion, forms: dict[int, Form], changes: np.ndarray) -> dict[
             boxes[row] = np.array((mesh.vertices.min(axis=1), mesh.vertices.max(axis=1))) - mesh.middle
     boxes |= {row: form.box.copy() for row, form in forms.items()}
     for corners in boxes.values():
-        corners += np.array((-1, 1))[:, None] * SLACK * np.abs(corners).max()
+        corners += np.array((-1, 1))[:, None] * BOX_MARGIN * np.abs(corners).max()
     return boxes
 
 
@@ -282,7 +282,7 @@ def _by_time(near: list[np.ndarray], times: np.ndarray) -> Iterator[tuple[float,
 def _meets_box(axes: np.ndarray, to: np.ndarray, ahead: np.ndarray, corners: np.ndarray) -> np.ndarray:
     """Return whether rays, given the ways to the middles of boxes and directions, (3, n), meet the boxes ahead."""
     inwards, _, skewness = invert(axes)
-    if not (skewness < 1 / SLACK).all():
+    if not (skewness < 1 / BOX_MARGIN).all():
         return np.ones(len(axes), bool)  # a flat mesh
     start, way = (np.einsum("nij,jn->in", inwards, vector) for vector in (-to, ahead))
     ends = (corners[:, :, None] - start) / way

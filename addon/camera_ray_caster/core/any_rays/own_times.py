@@ -23,7 +23,7 @@ from ..shapes.kind import Kind
 from ..shapes.kinds import by_kind
 from ..shapes.shape_frames import InCamera
 from .body_search import keep_nearest, met
-from .forms import SLACK, Form
+from .forms import BOX_MARGIN, Form
 from .packets import coherent_order, packets_of
 from .ray_bodies import WORLD, RayBodies, RayHits, Span
 from .traversal import Traversal
@@ -133,7 +133,7 @@ class OwnTimes:
         to_mesh, away = placed.shape_from_world, self.origin.T - placed.center
         rounding = 2 * (placed.rounding + gamma(4)) * np.linalg.norm(to_mesh, axis=2).max(axis=1)
         rounding *= np.linalg.norm(away, axis=1) + placed.radius
-        if not (rounding < SLACK / 2 * reach).all():  # flat, or far away
+        if not (rounding < BOX_MARGIN / 2 * reach).all():  # flat, or far away
             for chunk in np.array_split(rays, -(-len(rays) * len(mesh) // PAIRS_AT_ONCE)):
                 yield np.repeat(chunk, len(mesh)), np.tile(np.arange(len(mesh), dtype=np.int32), len(chunk))
             return
@@ -162,7 +162,7 @@ def _tree_of(mesh: Mesh) -> Tree:
     """Return the tree of a mesh's triangles in its own frame, by boxes that are enlarged."""
     if mesh not in _trees:
         ends = [(mesh.vertices - mesh.middle[:, None])[:, corner] for corner in mesh.triangles]
-        slack = SLACK * _reach(mesh)
+        slack = BOX_MARGIN * _reach(mesh)
         low, high = np.minimum.reduce(ends) - slack, np.maximum.reduce(ends) + slack
         _trees[mesh] = tree_of(low, high, np.arange(len(mesh)))
     return _trees[mesh]

@@ -34,7 +34,7 @@ SAMPLED = 201
 GOOD = 0.05
 """Pixels: a perspective that errs by no more is taken, also if a fisheye errs less: more engines render it."""
 
-FAR = 0.05
+WORST_FIT = 0.05
 """Part of the frame: a lens that errs by more is no likeness."""
 
 PARALLEL = 1e-7
@@ -90,7 +90,7 @@ def blender_lens(camera: Camera) -> BlenderLens:
         raise InputError(f"no Blender camera type matches the lens of camera {camera.name!r}, {reason}: {remedy}")
     if parallel and not camera.model.central:
         lens = _orthographic(camera, np.stack((x, y), axis=-1), places + rays)
-        if lens is not None and lens.worst <= FAR * max(width, height):
+        if lens is not None and lens.worst <= WORST_FIT * max(width, height):
             return lens
         raise InputError(f"no Blender camera type matches the lens of camera {camera.name!r}: {remedy}")
     there = np.isfinite(rays).all(axis=-1)
@@ -100,7 +100,7 @@ def blender_lens(camera: Camera) -> BlenderLens:
     candidates = (_judged(raw, settings, pixels, rays) for raw, settings in _nearest(camera, pixels, rays))
     lenses = [lens for lens in candidates if lens]
     nearest = min(lenses, key=lambda lens: lens.worst, default=None)
-    if nearest is None or nearest.worst > FAR * max(width, height):
+    if nearest is None or nearest.worst > WORST_FIT * max(width, height):
         error = "" if nearest is None else f"; the nearest errs by {nearest.worst:.2g} pixels"
         raise InputError(f"no Blender camera type matches the lens of camera {camera.name!r}{error}: {remedy}")
     straight = (lens for lens in lenses if lens.camera.model.key == Perspective.key and lens.worst <= GOOD)

@@ -26,7 +26,7 @@ type that Blender uses.
 PLACES = np.linspace(0, 1, 5)
 """Places along each side of the frame, as fractions, of the pixels whose rays a new camera must find again."""
 
-NEAR = 2.0**-13
+POINT_DISTANCE = 2.0**-13
 """Distance of the points that it must find, over the distance of the rays' origins from the world's origin."""
 
 SAME_PIXEL = 1e-3
@@ -123,7 +123,9 @@ def _check_inverse(raw: BlenderCamera, model: Model, pose: Pose) -> None:
         _check_lengths(model, local_rays[1])
         origin, direction = (vectors @ pose.basis.T for vectors in local_rays)
         origin = origin + pose.eye
-        far = (1 + NEAR * np.linalg.norm(origin, axis=1)) * np.linspace(1, 2, len(x))  # each has a rounding of its own
+        far = (1 + POINT_DISTANCE * np.linalg.norm(origin, axis=1)) * np.linspace(
+            1, 2, len(x)
+        )  # each has a rounding of its own
         points = origin + far[:, None] * direction
         local = (points - pose.eye) @ inverse(pose.basis).T
         back = model.project(local)

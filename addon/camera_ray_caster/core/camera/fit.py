@@ -24,7 +24,7 @@ from ..memory import of_pixels, require
 from ..records import InputError
 from .build import camera_from
 from .camera import Camera
-from .fit_search import LEFT, Search
+from .fit_search import KEPT_IN_ALL, Search
 from .fit_start import guesses
 
 SAMPLED = 61
@@ -115,7 +115,7 @@ def fit_model(
         Search.of(kind, start, camera.raster, _pixels(region_rays), rays[region_rays], free, held) for start in starts
     ]
     search, values, converged, counted = _best(searches)
-    if counted < LEFT:
+    if counted < KEPT_IN_ALL:
         angles, near = _angles(rays[region_rays]), search.near()
         edge = floor(10 * (angles.max() if near.all() else angles[~near].min())) / 10
         remedy = f"fit those within {degrees(edge):.0f} degrees of the viewing direction (within={edge:g}), or fewer"
@@ -179,7 +179,8 @@ def _best(searches: list[Search]) -> tuple[Search, np.ndarray, bool, float]:
             results.append((search, *search.run()))
     offs = [search.residual(values) for search, values, *_ in results]
     best = min(
-        range(len(results)), key=lambda k: (results[k][3] < LEFT, np.isnan(offs[k]).sum(), np.nansum(offs[k] ** 2))
+        range(len(results)),
+        key=lambda k: (results[k][3] < KEPT_IN_ALL, np.isnan(offs[k]).sum(), np.nansum(offs[k] ** 2)),
     )
     return results[best]
 

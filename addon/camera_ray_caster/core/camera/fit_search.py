@@ -35,7 +35,7 @@ the largest pixel coordinate."""
 FLAT = 1e-3
 """Largest cosine of the residuals with what changes of the parameters do, at a minimum for rays that come and go."""
 
-KEPT, LEFT = 0.99, 0.5
+KEPT_IN_STEP, KEPT_IN_ALL = 0.99, 0.5
 """Least part of the rays that a step must keep in view, of those that it had; and of all, or the search gives up."""
 
 PROBE, BENT = 0.1, 0.4
@@ -128,15 +128,15 @@ class Search:
 
     def run(self) -> tuple[np.ndarray, bool, float]:
         """Return the parameters of the least sum of squares, whether the search ended at a minimum, and the part of the
-        rays that counted; below LEFT it has given up.
+        rays that counted; below KEPT_IN_ALL it has given up.
 
         Rays that are not near at the start count once the others have brought the lens nearer to them.
         """
         values, converged, seen = self.values, False, self.near()
-        seen = seen if seen.mean() >= LEFT else self.seen(values)
+        seen = seen if seen.mean() >= KEPT_IN_ALL else self.seen(values)
         for _ in range(MOST_ROUNDS):
             values, converged, counted = self._descended(values, seen)
-            if counted.mean() < LEFT:
+            if counted.mean() < KEPT_IN_ALL:
                 return values, False, counted.mean()
             seen = self.seen(values)
             if (seen == counted).all():
@@ -167,7 +167,7 @@ class Search:
         off = self.residual(values)[seen].ravel()
         exact = EXACT * max(self.raster.size) * np.sqrt(len(off))
         for _ in range(MOST_STEPS):
-            if seen.mean() < LEFT:
+            if seen.mean() < KEPT_IN_ALL:
                 break
             slopes = self.derivatives(values, seen)
             largest = np.maximum(largest, np.linalg.norm(slopes, axis=0))
@@ -184,7 +184,7 @@ class Search:
                     step = step + bend
                 new = self.residual(values + step / size)[seen].ravel()
                 kept = np.isfinite(new)
-                if kept.mean() > KEPT and new[kept] @ new[kept] < off[kept] @ off[kept]:
+                if kept.mean() > KEPT_IN_STEP and new[kept] @ new[kept] < off[kept] @ off[kept]:
                     values, off, damping = values + step / size, new[kept], max(damping / 10, LEAST)
                     seen = seen.copy()
                     seen[seen] = kept[::2]

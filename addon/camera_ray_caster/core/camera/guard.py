@@ -15,7 +15,7 @@ from ..maths.vector import along, components, difference, dot, norm
 from ..records import Pose
 from .jacobian import RayDerivatives
 
-SLACK = 256 * EPS
+MISS_DISTANCE = 256 * EPS
 """Distance by which a ray may miss a point, over the point's distance from the ray's origin: rounding of the point and
 of the direction, and of the inverse, which amplifies it.
 """
@@ -39,7 +39,7 @@ def checked(model: Model, points: np.ndarray, pixels: np.ndarray, always: bool =
     if not (model.guarded or always):
         return pixels
     off, distance, _ = _miss(model, points, *pixels.T)
-    doubtful = ~(off <= SLACK * SLACK * distance)
+    doubtful = ~(off <= MISS_DISTANCE * MISS_DISTANCE * distance)
     if doubtful.any():
         doubtful = np.flatnonzero(doubtful & ~np.isnan(pixels[:, 0]))
         point, pixel = points[doubtful], pixels[doubtful]
@@ -77,7 +77,7 @@ def _is_within_rounding(model: Model, points, x, y):
     turned = np.fmax.reduce([np.abs(other - np.sqrt(off)) for other in beside])
     moved, bent = model.formula_rounding(x, y)
     turned = 2 * turned + MOVES * (moved + bent * distance)
-    return np.sqrt(off) <= SLACK * (distance + norm(origin)) + np.fmin(turned, LARGEST_ANGLE * distance)
+    return np.sqrt(off) <= MISS_DISTANCE * (distance + norm(origin)) + np.fmin(turned, LARGEST_ANGLE * distance)
 
 
 def _nearer(model: Model, points, pixels):

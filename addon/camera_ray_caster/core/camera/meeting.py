@@ -27,7 +27,7 @@ PLACES = np.linspace(-1, 1, 65)
 RESOLVED = 1e-10, 1e-13
 """Bound of the last coefficients of a resolved piece: in pixels, plus a fraction of the largest coordinate."""
 
-LONGEST = 1 / 6
+LONGEST_PIECE = 1 / 6
 """Fraction of the time range: longer unresolved pieces are halved even if no sign of an agreement is seen in them."""
 
 SHORTEST = 2.0**-14
@@ -100,7 +100,7 @@ class _Search:
             result[at] = (1 - share) * pixels[k, at] + share * pixels[k + 1, at]
             return result
         unclear = ~clear
-        if b - a <= LONGEST * self.length:
+        if b - a <= LONGEST_PIECE * self.length:
             unclear &= (np.fmin.reduce(late) <= 0) & (np.fmax.reduce(late) >= 0)
         for ends in ((a, middle), (middle, b)):
             left = np.flatnonzero(unclear & np.isnan(result[:, 0]))

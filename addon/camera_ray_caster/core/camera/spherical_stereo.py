@@ -60,7 +60,7 @@ that converges within its offset multiplies it.
 SHORTEST = 1e-300
 """Range of altitudes, radians, in place of an empty one: the offset jumps there."""
 
-STEP = 2.0**-10
+RAY_SPACING = 2.0**-10
 """Distance in pixels between the rays that measure how far a move of the pixel turns a ray."""
 
 Matrix = tuple[tuple[float, ...], ...]
@@ -192,8 +192,10 @@ class SphericalStereo(Model):
     def pixel_rounding(self, x, y):
         """See Model: the rounding of the lens, plus that of D in pixels, since ``side`` turns fast near a pole."""
         here = self.lens.rays(x, y)[1]
-        moves = [norm(difference(self.lens.rays(*near)[1], here)) for near in ((x + STEP, y), (x, y + STEP))]
-        rounding = self._amplified * gamma(32) * norm(here) * STEP / np.maximum(*moves)
+        moves = [
+            norm(difference(self.lens.rays(*near)[1], here)) for near in ((x + RAY_SPACING, y), (x, y + RAY_SPACING))
+        ]
+        rounding = self._amplified * gamma(32) * norm(here) * RAY_SPACING / np.maximum(*moves)
         return tuple(of_lens + rounding for of_lens in self.lens.pixel_rounding(x, y))
 
     @property

@@ -13,7 +13,7 @@ from .evaluation import rays_through
 from .pixel_coordinates import in_blocks
 from .times import SweepTime
 
-BLOCK = 1 << 14
+RAYS_AT_ONCE = 1 << 14
 """Number of rays computed at once."""
 
 
@@ -40,7 +40,7 @@ def rays_in_sweep(camera: Any, time: SweepTime, x, y, shape: tuple[int, ...]) ->
             ahead[np.isnan(each[block])] = np.nan
             directions[block], origins[block] = ahead, eyes + _turned(bases, origin)
 
-    in_blocks(put, (len(each), 1), BLOCK)
+    in_blocks(put, (len(each), 1), RAYS_AT_ONCE)
     lost = ~np.isfinite(directions).all(axis=-1)
     directions[lost] = np.nan
     origins, directions = (vectors.reshape(*shape, 3) for vectors in (origins, directions))

@@ -30,7 +30,7 @@ from .parts.silhouette import everywhere
 from .parts.traced_aperture import TracedAperture, lines
 
 EYE = 0.0, 0.0, 0.0
-SAMPLES = 9
+BLUR_SAMPLES = 9
 """Pixels across and up, and points of the aperture, at which the blur is measured."""
 CONVERGED, SHARP = 1.05, 1e-6
 """Where twice as many pixels across and up find a blur that is larger by this factor and angle, as they do close to
@@ -124,8 +124,8 @@ class BehindPort(Model):
         thin = self.lens.aperture(raw, pose)
         if thin is None:
             return None
-        fine = self._traced(thin, 2 * SAMPLES - 1)
-        coarse = fine[:, ::2, ::2]  # of the first SAMPLES in each direction
+        fine = self._traced(thin, 2 * BLUR_SAMPLES - 1)
+        coarse = fine[:, ::2, ::2]  # of the first BLUR_SAMPLES in each direction
         bounded = np.isfinite(fine).all() and fine[0].max() <= CONVERGED * coarse[0].max()
         bounded = bounded and fine[2].max() <= CONVERGED * coarse[2].max() + SHARP
         apart, sharp, spread = fine.reshape(3, -1) if bounded else np.array([[np.inf], [0.0], [0.0]])
@@ -139,7 +139,7 @@ class BehindPort(Model):
         """
         x, y = (np.linspace(0.0, side, count) for side in self.size)
         x, y = (np.ravel(each)[:, None] for each in np.meshgrid(x, y))
-        share = (np.arange(SAMPLES) + 0.5) / SAMPLES
+        share = (np.arange(BLUR_SAMPLES) + 0.5) / BLUR_SAMPLES
         point = thin.points(*(np.ravel(each) for each in np.meshgrid(share, share)))
         with np.errstate(all="ignore"):
             chief = self.lens.rays(x, y)

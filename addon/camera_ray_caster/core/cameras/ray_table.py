@@ -31,7 +31,7 @@ from ..maths.vector import is_grid, norm
 from ..records import BlenderCamera, InputError, Raster
 from .model import Model, Step
 from .parts.calibration import FROM_FILE
-from .parts.ray_grid import AROUND, LINEAR, NONE, SPLINE, RayGrid, weights_of
+from .parts.ray_grid import BORDER_ENTRIES, LINEAR, NONE, SPLINE, RayGrid, weights_of
 from .parts.ray_search import entries_of, places_of
 from .parts.ray_settings import AREA, AXES, BLOCK_COLUMNS, BLOCK_ROWS, DIRECTIONS, INTERPOLATION, OPENCV, ORIGINS, SLIDE
 from .parts.silhouette import PIXEL_MARGIN
@@ -39,7 +39,7 @@ from .parts.silhouette import PIXEL_MARGIN
 BESIDE = 1e-9
 """Fraction of an entry by which a place may lie beyond the table: rounding must not lose the frame's edges."""
 
-KEPT = 4
+TABLES_KEPT = 4
 """Number of tables that are kept: an animated camera reads its table for every frame."""
 
 _latest: dict[tuple, tuple] = {}
@@ -154,15 +154,15 @@ class RayTable(Model):
             inside = inside & (look_up(grid.has_ray, _whole(near_v * columns + near_u)) > 0)
         if self.is_by_entry:
             u, v = u + 0.5, v + 0.5
-        (rows, columns), wide = grid.blocks.size, grid.blocks.size[1] + 2 * AROUND
-        between_blocks = wide * (rows + 2 * AROUND)
+        (rows, columns), wide = grid.blocks.size, grid.blocks.size[1] + 2 * BORDER_ENTRIES
+        between_blocks = wide * (rows + 2 * BORDER_ENTRIES)
         s, column = _cell(u, columns, grid.blocks.per_axis[1], 1, between_blocks)
         t, row = _cell(v, rows, grid.blocks.per_axis[0], wide, between_blocks * grid.blocks.per_axis[1])
         across, up = weights_of(s, grid.kind), weights_of(t, grid.kind)
         column, spread = _shared(column, row)
-        first, taps = AROUND - (len(across) == 4), range(len(across))
+        first, taps = BORDER_ENTRIES - (len(across) == 4), range(len(across))
         corner = _whole(row + column + first * (wide + 1))
-        index = corner + (AROUND - first) * (wide + 1)
+        index = corner + (BORDER_ENTRIES - first) * (wide + 1)
         total = []
         for entries in grid.columns:
             base = look_up(entries, index)
@@ -266,7 +266,7 @@ def _grid(directions, origins, kind: str, axes: str, slide: bool, block: tuple[i
     if asked not in _latest:
         flip = FROM_BLENDER.diagonal()[:3] if axes == OPENCV else 1.0
         grid = RayGrid(directions * flip, None if origins is None else origins * flip, kind, block)
-        if len(_latest) >= KEPT:
+        if len(_latest) >= TABLES_KEPT:
             _latest.clear()
         _latest[asked] = directions, origins, grid.slid() if slide else grid
     return _latest[asked][-1]

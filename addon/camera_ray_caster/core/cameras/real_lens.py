@@ -50,7 +50,7 @@ RIM_SLACK = 2.0**-30
 ROUNDED = 0.034
 """A tenth of a stop, as a share of the f-number: a lens that is called f/2 may open to 2.03."""
 
-SAMPLES = 9
+BLUR_SAMPLES = 9
 """Places of a tilted film across and up, at which its blur is measured."""
 
 TRACED = LENS, FOCUS_DISTANCE, F_STOP, STATE, WAVELENGTH
@@ -210,7 +210,7 @@ class RealLens(WindowModel):
         wide = float(self.radius * abs(self.optics.entrance_pupil[1]) * self.unit)
         pupil = Pupil(wide, thin.focus, thin.blades, thin.rotation, thin.ratio)
         numbers = float(self.radius), float(self.unit), self._corner, float(self.film)
-        grid = np.meshgrid(*(np.linspace(0.0, side, SAMPLES) for side in self.size))
+        grid = np.meshgrid(*(np.linspace(0.0, side, BLUR_SAMPLES) for side in self.size))
         places = self.on_film(*map(np.ravel, grid)) if self.tilted else None
         pupil = measured(self.optics, self.chief, pupil, *numbers, places)
         return replace(pupil, colors=self._colors) if COLOR.read(raw) else pupil

@@ -9,7 +9,7 @@ from ..records import MESH, Shapes
 from ..shapes.search_rays import Crossings
 from .hits import Hits
 
-SAME = 8 * EPS32
+SAME_DEPTH = 8 * EPS32
 """Difference of t, over t, up to which two surfaces are in the same place: vertices and matrices are float32, and each
 of them may be off by a rounding or two.
 """
@@ -25,7 +25,7 @@ def coincident(hits: Hits, met: list[Crossings]) -> tuple[np.ndarray, np.ndarray
         return np.zeros(0, np.intp), np.zeros(0, np.intp)
     pixel, t, at, triangle = (np.concatenate(parts) for parts in zip(*met, strict=True))
     nearest, index = hits.t.reshape(-1)[pixel], hits.index.reshape(-1)[pixel]
-    same = (index >= 0) & (np.abs(t - nearest) <= SAME * np.abs(nearest))
+    same = (index >= 0) & (np.abs(t - nearest) <= SAME_DEPTH * np.abs(nearest))
     pixel, at, triangle, index = pixel[same], at[same], triangle[same], index[same]
     others = index != at
     seen = hits.known.get(MESH)

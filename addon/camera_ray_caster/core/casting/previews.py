@@ -30,7 +30,7 @@ TIMES = 64
 DELAY = 0.4
 """Processor seconds after which coarse pictures begin: a faster cast needs none."""
 
-SHARE, FIRST_SHARE = 0.02, 0.04
+PREVIEW_SHARE, FIRST_PREVIEW_SHARE = 0.02, 0.04
 """Part of the cast's expected processor time that coarse pictures may take, and the first one if no tile has a sample
 yet. The first one takes 0.03 s of 0.8 (perspective), 0.08 of 1.5 (fisheye) and 0.15 of 8.5 (cross-slit) for one sample
 of a room at 1920 x 1080. With 16 samples it takes 0.3 % of the time, and means 0 to 2 %.
@@ -77,8 +77,8 @@ class Previews:
         for tile in tiles:
             self._is_cast[tile.rows, tile.columns] |= True if tile.where is None else tile.where
         used = process_time() - self._began - self._spent
-        if self._is_cast.all() or used < max(DELAY, self._last / SHARE):
-            return  # from one picture to the next the times double: all pictures together cost no more than SHARE
+        if self._is_cast.all() or used < max(DELAY, self._last / PREVIEW_SHARE):
+            return  # the times double: all pictures together cost no more than PREVIEW_SHARE
         began, combined = thread_time(), self._of_times(images["combined"])
         self._show(combined, slice(0, len(combined)), 0)
         self._last = thread_time() - began
@@ -103,7 +103,7 @@ class Previews:
         used = process_time() - self._began - self._spent
         if self._show is None or not self._steps or used < DELAY:
             return
-        share = FIRST_SHARE if effort.fraction == 0 else SHARE
+        share = FIRST_PREVIEW_SHARE if effort.fraction == 0 else PREVIEW_SHARE
         allowed = share * used / effort.expected(workers / 2) - self._spent
         if allowed < 4 * self._last:  # each picture has four times the pixels of the one before
             return

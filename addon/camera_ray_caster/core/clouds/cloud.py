@@ -38,7 +38,7 @@ AXES = SENSOR, WORLD
 LARGEST = 1e12
 """Largest noise, in Blender units."""
 
-LEAST = 1 / LARGEST
+LEAST_STEP = 1 / LARGEST
 """Least step of ranges; smaller steps have no effect."""
 
 OF_DEVICE = "DEVICE"
@@ -146,7 +146,7 @@ def scan(
         check_rows(shapes)
         beams = CameraBeams.of(scene.camera, shapes)
     else:
-        (step, behind), rate = _steps(None, quantum), arguments.number(fps, "fps", LARGEST, LEAST)
+        (step, behind), rate = _steps(None, quantum), arguments.number(fps, "fps", LARGEST, LEAST_STEP)
         rays = pattern_in(os.fspath(rays), pose, rate) if isinstance(rays, str | os.PathLike) else rays
         pattern, shapes = _given(rays, times, rings, camera, shapes)
         check_rows(shapes)
@@ -216,7 +216,7 @@ def _steps(camera: Camera | None, quantum) -> tuple[float, float]:
     """Return the step of ranges, and how far behind the origins of beams these begin."""
     if not (isinstance(quantum, str) and quantum.upper() == OF_DEVICE):
         step = arguments.number(quantum, "quantum", LARGEST, 0.0)
-        return (step if step >= LEAST else 0.0), 0.0
+        return (step if step >= LEAST_STEP else 0.0), 0.0
     if camera is None:
         raise InputError("the quantum of rays is not known: give a length")
     device = camera.model.device if isinstance(camera.model, Scanner) else None

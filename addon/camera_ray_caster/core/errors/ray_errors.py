@@ -15,7 +15,7 @@ from ..conventions import gamma
 from ..maths.vector import difference, matvec, norm
 from ..shapes.shape_frames import WorldRays
 
-STEP = 2.0**-20
+RAY_SPACING = 2.0**-20
 """Move in pixels that measures how fast the rays turn; so small that it stays in the picture next to singular rims."""
 
 
@@ -23,12 +23,12 @@ def world_rays(camera: Camera, x: np.ndarray, y: np.ndarray) -> WorldRays:
     """Return the rays at pixel coordinates with error bounds: a model's rounding acts as a small move of the pixel.
 
     The effect of such a move on the ray is measured, for every model: near a singular place, such as the rim of a
-    mirror ball, rays turn fast and errors grow. Within STEP of a rim the effect of a move is taken to grow with its
+    mirror ball, rays turn fast and errors grow. Within RAY_SPACING of a rim the effect is taken to grow with the move's
     square root, as at the rim of an orthographic fisheye, and to be the same along the rim as across it.
     """
     x, y = np.asarray(x), np.asarray(y)
     here = camera.camera_rays(x, y)
-    sides = STEP, -STEP
+    sides = RAY_SPACING, -RAY_SPACING
     beside = camera.camera_rays(np.add.outer(sides, x), y[None]), camera.camera_rays(x[None], np.add.outer(sides, y))
     pixels = camera.model.pixel_rounding(x, y)
     further = camera.model.formula_rounding(x, y)
@@ -41,7 +41,7 @@ def world_rays(camera: Camera, x: np.ndarray, y: np.ndarray) -> WorldRays:
         rounded = rounded + camera.stretch * further[index] * (length if index else 1.0)
         moves = [_lengths(difference(there[index], here[index])) for there in beside]
         farthest = [np.fmax.reduce(lengths, axis=0) if np.ndim(lengths) else lengths for lengths in moves]
-        shares = [rounding / STEP for rounding in pixels]
+        shares = [rounding / RAY_SPACING for rounding in pixels]
         error = rounded + camera.stretch * sum(share * length for share, length in zip(shares, farthest, strict=True))
         at_rim = reduce(np.logical_or, (np.isnan(lengths).any(axis=0) for lengths in moves if np.ndim(lengths)), False)
         if np.any(at_rim):  # there a ray may turn with the square root of a move, and an axis may have no neighbor

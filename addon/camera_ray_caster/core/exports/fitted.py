@@ -21,7 +21,7 @@ from ..programs.parts.lens import MATRIX
 from ..records import InputError
 from .format import Content, Format, Shot
 
-FAR = 0.05
+WORST_FIT = 0.05
 """Part of the frame: a lens that errs by more is no likeness."""
 
 FIT, FIT_WITHIN = "Fit Nearest Lens", "Within"
@@ -85,7 +85,7 @@ def _nearest(chosen: Format, shot: Shot, within: Any, refusal: Refusal) -> Fit:
             f"({FIT_WITHIN}, --fit DEGREES), or choose another format"
         )
     best = min(fits, key=lambda fit: (fit.unseen, fit.mean))
-    if best.worst > FAR * max(camera.raster.size):
+    if best.worst > WORST_FIT * max(camera.raster.size):
         raise InputError(
             f"no lens of {chosen.label} is like the {lens}: the nearest one, {best.summary}; fit less of the picture "
             f"({FIT_WITHIN}, --fit DEGREES), or choose another format"

@@ -21,7 +21,7 @@ from .lens_points import LensPoint
 
 WIDEST = tan(np.radians(50.0))
 """Half the width of the widest face, on the plane one unit ahead."""
-SAMPLES = 64
+SIDE_PARTS = 64
 """Parts along each side of the frame at whose ends rays are looked at."""
 FINEST = 0.02
 """Share of a face's pixels that may be finer than its texels: single rays at a kink make no face larger."""
@@ -29,7 +29,7 @@ FLATTEST = 0.5
 """Least s2 / s1 that texels follow."""
 TEXEL_MARGIN = 2.0
 """Texels of a face beyond what is seen, for its filter."""
-LEAST = 8
+LEAST_SIDE = 8
 """Least side of a face in texels."""
 Part = tuple[float, float, float, float]
 
@@ -108,12 +108,14 @@ def faces_of(
     if reason := refusal(camera):
         raise InputError(f"{reason}: its picture is not a warp of perspective pictures")
     left, bottom, right, top = region or (0.0, 0.0, *camera.raster.size)
-    directions, by_x, by_y = _seen(camera, np.linspace(left, right, SAMPLES + 1), np.linspace(bottom, top, SAMPLES + 1))
+    directions, by_x, by_y = _seen(
+        camera, np.linspace(left, right, SIDE_PARTS + 1), np.linspace(bottom, top, SIDE_PARTS + 1)
+    )
     if not len(directions):
         return ()
     if lens is not None:
         directions = lens.directions(directions)
-    steps = (right - left) / SAMPLES, (top - bottom) / SAMPLES
+    steps = (right - left) / SIDE_PARTS, (top - bottom) / SIDE_PARTS
     reach = np.hypot(*(np.linalg.norm(by, axis=-1) * step for by, step in zip((by_x, by_y), steps, strict=True)))
     only = _face(AHEAD, directions, by_x, by_y, reach, pixel, largest, WIDEST)
     if only is not None and _holds_all(directions, reach):
@@ -168,7 +170,7 @@ def _face(axes, directions, by_x, by_y, reach, pixel: float, largest: int, wides
     (a, c), (b, d) = (((move[:, :2] + slopes * move[:, 2:]) / ahead[:, None]).T for move in moves)
     texel = pixel * _needed(a, b, c, d)
     low, high = np.maximum(low - TEXEL_MARGIN * texel, -WIDEST), np.minimum(high + TEXEL_MARGIN * texel, WIDEST)
-    size = [int(side) for side in np.clip(np.ceil((high - low) / texel), LEAST, largest)]
+    size = [int(side) for side in np.clip(np.ceil((high - low) / texel), LEAST_SIDE, largest)]
     return Face(axes, (float(low[0]), float(high[0]), float(low[1]), float(high[1])), (size[0], size[1]))
 
 

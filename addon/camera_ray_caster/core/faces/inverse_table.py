@@ -18,11 +18,11 @@ from .faces import refusal, turn_of
 
 GOAL = 0.05
 """Pixels of error at which a table is fine enough."""
-SIDES = 128, 256, 512
+TABLE_SIDES = 128, 256, 512
 """Texels along a square, tried in this order."""
 BREAK = 0.5
 """Pixels of error from which a place is not interpolated: a picture's seam or a pole."""
-GRID = 65
+GRID_POINTS = 65
 """Directions along a side of the frame that tell how much of a square is seen."""
 RIM = 1.02
 """What is mapped beyond the directions that are seen."""
@@ -56,13 +56,13 @@ def inverse_table(camera: Camera) -> InverseTable:
         raise InputError(f"{reason}: a lamp, which shines from one point, cannot project its picture")
     width, height = camera.raster.size
     camera = replace(camera, pixel_time=None)
-    rays = camera.rays_at(np.linspace(0, width, GRID), np.linspace(0, height, GRID)[:, None])
+    rays = camera.rays_at(np.linspace(0, width, GRID_POINTS), np.linspace(0, height, GRID_POINTS)[:, None])
     seen = rays.directions[rays.valid] @ turn_of(camera)
     if not len(seen):
         raise InputError(f"no pixel of camera {camera.name!r} has a ray: nothing can be projected")
     has_behind = bool((seen[:, 2] > 0).any())
     reach = RIM if has_behind else min(RIM, RIM * float((np.abs(seen[:, :2]).max(axis=1) / (1 - seen[:, 2])).max()))
-    for side in SIDES:
+    for side in TABLE_SIDES:
         table = _table(camera, side, reach, has_behind)
         if table.error <= GOAL:
             break

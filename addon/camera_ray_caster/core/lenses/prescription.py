@@ -14,7 +14,7 @@ from ..records import InputError
 D_LINE, F_LINE, C_LINE = 587.5618, 486.1327, 656.2725
 """Wavelengths in nm: of the refractive index, and of the dispersion in Abbe's number (n_d - 1) / (n_F - n_C)."""
 
-LONGEST = 1e7
+LONGEST_LENGTH = 1e7
 """Largest length of a prescription in mm."""
 
 
@@ -113,7 +113,7 @@ def checked(lens: Prescription) -> Prescription:
         numbers = {"gap": row.gap, "curvature": row.curvature, "conic constant": row.conic, "index": row.index}
         numbers |= {f"coefficient of r^{power}": value for power, value in row.asphere}
         for quantity, value in numbers.items():
-            if not (isfinite(value) and abs(value) <= LONGEST):
+            if not (isfinite(value) and abs(value) <= LONGEST_LENGTH):
                 raise InputError(f"{name} has the {quantity} {value:g}: it must be a finite number")
         if not 1 <= row.index <= 5:
             raise InputError(f"{name} has the index of refraction {row.index:g}: it must be from 1 to 5")

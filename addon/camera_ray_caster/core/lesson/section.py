@@ -11,7 +11,7 @@ from .lens_diagram import GlassPath, chief_path, fan_of, film_line, sections, st
 
 SIDE = 360
 """Rows and columns of the picture."""
-MARGIN, BEFORE = 0.04, 0.25
+PICTURE_MARGIN, LENGTH_BEFORE_LENS = 0.04, 0.25
 """Parts of the picture left free on each side, and of the lens's length in which rays are drawn before it."""
 GROUND = 0.11, 0.11, 0.12, 1.0
 AXIS, GLASS, STOP, FILM = (0.35, 0.35, 0.35), (0.55, 0.8, 1.0), (0.95, 0.95, 0.95), (0.75, 0.75, 0.75)
@@ -29,7 +29,7 @@ def section(model: RealLens, x: float, y: float) -> np.ndarray:
     glass, stop, film = list(sections(model, 0.0)), stop_lines(model), film_line(model, up, float(radius))
     all_glass = np.concatenate([*glass, *stop, film])
     length = np.ptp(all_glass[:, 2])
-    front = all_glass[:, 2].min() - BEFORE * length
+    front = all_glass[:, 2].min() - LENGTH_BEFORE_LENS * length
     parts = [(np.array([(front, 0.0), (film[0, 2], 0.0)]), AXIS, 1.0)]
     parts += [(line[:, [2, 1]], GLASS, 1.4) for line in glass]
     parts += [(line[:, [2, 1]], STOP, 3.0) for line in stop]
@@ -52,7 +52,7 @@ def _flat(path: GlassPath, up: np.ndarray, front: float) -> np.ndarray:
 def _drawn(parts, across: np.ndarray, high: float) -> np.ndarray:
     """Return the picture of lines (n, 2) with their colors and widths in pixels."""
     image = np.tile(np.array(GROUND, np.float32), (SIDE, SIDE, 1))
-    scale = SIDE * (1 - 2 * MARGIN) / max(np.ptp(across), 2 * high)
+    scale = SIDE * (1 - 2 * PICTURE_MARGIN) / max(np.ptp(across), 2 * high)
     for line, color, width in parts:
         places = (line - (across.mean(), 0.0)) * scale + SIDE / 2
         for start, end in pairwise(places):

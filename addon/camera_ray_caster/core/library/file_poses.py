@@ -23,7 +23,7 @@ ENTRY = re.compile(
 )
 """Names of entries in which files have poses."""
 
-RATE = 24.0
+FRAME_RATE = 24.0
 """Frames in a second, by which the times of a file become frames; only their number counts here."""
 
 CALLER = 3
@@ -40,7 +40,7 @@ def pose_in_file(path: str, lens: Lens, model: str, picture_size: tuple[int, int
     if document.is_binary or (is_table and (program is None or program.poses is None)):
         return ray_arrays.pose_in(document)
     try:
-        cameras = mounted(path, model, picture_size, RATE)
+        cameras = mounted(path, model, picture_size, FRAME_RATE)
     except InputError as error:
         entry = ENTRY.search(document.text)
         if not any(words in str(error) for words in WITHOUT):

@@ -17,7 +17,7 @@ TABLES = "names", "meshes", "surfaces", "left_out", "unread", "exact", "notes"
 INDICES = {"name_index": "names", "mesh": "meshes", "surface": "surfaces"}
 """Arrays with an index into a table for each shape; empty where the table is."""
 LIGHTS = "position", "is_sun", "color"
-SAME = np.eye(2, 3)
+SAME_UV = np.eye(2, 3)
 """The UV map of ``Shapes.uv`` that changes nothing."""
 
 
@@ -41,7 +41,7 @@ def join(*shapes: Shapes) -> Shapes:
         moved = _moved(columns, [getattr(record, table) for record in shapes])
         rows[name] = moved if tables[table] else np.zeros(0, np.int32)
     shared = [record.shared if len(record.shared) else np.zeros(len(record), bool) for record in shapes]
-    maps = [np.tile(SAME, (len(record.names), 1, 1)) if record.uv is None else record.uv for record in shapes]
+    maps = [np.tile(SAME_UV, (len(record.names), 1, 1)) if record.uv is None else record.uv for record in shapes]
     return Shapes(
         **rows,
         **tables,

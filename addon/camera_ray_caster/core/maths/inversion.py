@@ -22,7 +22,7 @@ SPARSE, ORDINARY = 64, 0.9
 its end entries may be far apart.
 """
 
-NEAR = 1e-8
+LAST_STEP = 1e-8
 """Square root of rounding: after a step below this fraction of x, the error is less than the function's rounding."""
 
 MOST_STEPS = 400
@@ -70,7 +70,7 @@ class Inverse:
         with np.errstate(divide="ignore", invalid="ignore"):
             step = (self.function(x) - target) / self.derivative(x)
         x -= step
-        slow = within & np.logical_not(np.abs(step) <= NEAR * x)
+        slow = within & np.logical_not(np.abs(step) <= LAST_STEP * x)
         x = np.where(within, np.clip(x, self.low, self.high), np.nan)
         if slow.any():
             goal = np.clip(target[slow], values[0], values[-1])

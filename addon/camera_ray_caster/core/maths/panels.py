@@ -27,12 +27,12 @@ eyes of spherical stereo took 0.95 to 1.3 times the time.
 
 ROWS, COLUMNS = SIZES[0]
 
-AT_ONCE = 8
+PANELS_AT_ONCE = 8
 """Number of neighboring panels evaluated at each pixel in one call. 16: 1.0 to 1.25 times the time in a process that
 has not used much memory yet, since C's malloc returns the working arrays to the system; later within 5 %.
 """
 
-FEWEST = STRIP, 256
+SMALLEST_SIZE = STRIP, 256
 """Smallest rows and columns for which polynomials pay; in smaller parts of a picture each pixel is evaluated."""
 
 
@@ -55,8 +55,13 @@ class Disc:
 
 
 def is_raster(x, y) -> bool:
-    """Return whether x and y are a row and a column of neighboring pixel centers, with at least FEWEST of them."""
-    return is_grid(x, y) and x.ndim == 2 and _are_centers(y[:, 0], FEWEST[0]) and _are_centers(x[0], FEWEST[1])
+    """Return whether x and y are a row and a column of neighboring pixel centers, at least SMALLEST_SIZE."""
+    return (
+        is_grid(x, y)
+        and x.ndim == 2
+        and _are_centers(y[:, 0], SMALLEST_SIZE[0])
+        and _are_centers(x[0], SMALLEST_SIZE[1])
+    )
 
 
 def _are_centers(places, fewest: int) -> bool:
@@ -131,7 +136,7 @@ def _write(function, pictures, wanted, corner, rows: tuple[int, int], disc: Disc
             wanted = wanted.repeat(2, axis=0).repeat(2, axis=1)
             _write(function, pictures, wanted, (2 * corner[0], 2 * corner[1]), rows, disc, smaller)
         return
-    for run in _runs(band, panel, remaining, AT_ONCE):
+    for run in _runs(band, panel, remaining, PANELS_AT_ONCE):
         low, high = spans[run.start]
         column, row = np.arange((run.stop - run.start) * size[1]), np.arange(low, high)[:, None]
         with whole_rows(column.size):

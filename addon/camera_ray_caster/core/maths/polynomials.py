@@ -11,7 +11,7 @@ from numpy.polynomial import Polynomial
 REAL = 1e-9
 """Largest imaginary part that counts as rounding, over the magnitude of the root."""
 
-LEAST = 1e-250
+LEAST_LEADING = 1e-250
 """Leading coefficients up to this fraction of the largest are dropped: the roots are useless, quotients overflow."""
 
 
@@ -36,7 +36,7 @@ def with_slope(x, coefficients):
 def positive_roots(polynomial: Polynomial) -> np.ndarray:
     """Return the positive real roots, (n,) float64, in ascending order; a constant has none."""
     size = np.abs(polynomial.coef)
-    last = np.flatnonzero(size > LEAST * size.max())
+    last = np.flatnonzero(size > LEAST_LEADING * size.max())
     roots = Polynomial(polynomial.coef[: last[-1] + 1]).roots() if last.size else np.zeros(0)
     return np.sort(roots.real[(np.abs(roots.imag) <= REAL * np.abs(roots)) & (roots.real > 0)])
 

@@ -8,7 +8,7 @@ from math import prod
 
 import numpy as np
 
-LEAST = 1 << 17
+LEAST_BYTES = 1 << 17
 """Minimum number of bytes of a block that is kept."""
 
 MOST_BYTES = 1 << 26
@@ -60,6 +60,6 @@ def empty(shape: tuple[int, ...], dtype) -> np.ndarray:
     """
     dtype = np.dtype(dtype)
     size = prod(shape) * dtype.itemsize
-    if not LEAST <= size <= MOST_BYTES:
+    if not LEAST_BYTES <= size <= MOST_BYTES:
         return np.empty(shape, dtype)
     return np.asarray(_Block(_memory(size))).view(dtype).reshape(shape)

@@ -24,7 +24,7 @@ PIXELS = 4096
 MOMENTS = 64
 """Maximum number of sampled moments if pixels have their own times: the shapes are placed anew at each moment."""
 
-FEW = 1e-3
+UNNOTED_SHARE = 1e-3
 """Share of the pixels up to which coincident surfaces are not noted."""
 
 COINCIDENT = (
@@ -88,9 +88,9 @@ class Accuracy:
 
     def notes(self, pixels: int) -> tuple[tuple[str, str], ...]:
         """Return the notes on surfaces in the same place, each with its object's name, given the pixels of the picture.
-        There are none below FEW: where two surfaces only touch, single pixels may see both.
+        There are none below UNNOTED_SHARE: where two surfaces only touch, single pixels may see both.
         """
-        if self.coincident <= FEW * self.pixels:
+        if self.coincident <= UNNOTED_SHARE * self.pixels:
             return ()
         whole = pixels <= self.pixels
         count = self.coincident if whole else round(self.coincident * pixels / self.pixels)

@@ -20,10 +20,10 @@ from ..records import Finding
 from .sample import CameraRays, Sample, angles_between, finding, largest, length_of
 from .witness import Witness, findings_of
 
-GRID = 9
+GRID_PIXELS = 9
 """Number of pixels per side at which rays are compared, spread evenly from edge to edge of the window."""
 
-STEP = 2.0**-4
+RAY_SPACING = 2.0**-4
 """Distance in pixels between neighboring rays, whose angle converts an error in pixels to radians."""
 
 ENLARGED = 2.0**15
@@ -36,7 +36,7 @@ PART = 0.38
 """Fraction of the way to another pixel with the same point. At a simple fraction, rays might be a full turn apart."""
 
 
-def verify(camera: CameraRays, witness: Witness | None = None, grid: int = GRID) -> list[Finding]:
+def verify(camera: CameraRays, witness: Witness | None = None, grid: int = GRID_PIXELS) -> list[Finding]:
     """Return one finding per reference on the camera's rays, at ``grid`` x ``grid`` pixels of the render window.
 
     ``witness`` has Blender's answers, or is None if Blender has none: an object with ``size``, ``matrix_world``,
@@ -69,9 +69,9 @@ def _round_trip(camera: CameraRays, sample: Sample) -> tuple[tuple[Any, Any], Fi
             step = (times * moved)[:, None] * side
             slips += [length_of(camera.project(points + near) - back) / times for near in (step, -step)]
         bound += np.fmax.reduce(slips)  # at the picture's rim some points have no pixel
-    steps = STEP * np.concatenate((np.eye(2), -np.eye(2)))
+    steps = RAY_SPACING * np.concatenate((np.eye(2), -np.eye(2)))
     turns = [angles_between(camera.rays_at(*(pixels + step).T).directions, directions) for step in steps]
-    turned = np.fmax.reduce(turns) / STEP * bound + gamma(32)
+    turned = np.fmax.reduce(turns) / RAY_SPACING * bound + gamma(32)
     near = ENLARGED * moved + sample.distance * np.nan_to_num(turned)
     turned[np.isnan(turned)] = np.pi  # no neighbor has a ray: only the error in pixels counts
     margin = largest(bound), largest(turned)

@@ -33,7 +33,7 @@ from .sample import CameraRays, Sample, angles_between, finding, length_of, not_
 
 NOT_CARRIED = "Blender's own float32 arithmetic cannot represent these numbers"
 
-LEAST = float(np.finfo(np.float32).tiny)
+LEAST_NORMAL = float(np.finfo(np.float32).tiny)
 """Smallest normal float32; smaller numbers have fewer digits."""
 FRAME, MATRIX, VIEW = "view_frame", "calc_matrix_camera", "world_to_camera_view"
 
@@ -102,7 +102,7 @@ class _Local:
     def is_carried(self) -> bool:
         """Whether frame and matrices are finite, and the frame is large enough for float32's full precision."""
         answers = self.witness.frame, self.witness.matrix, self.witness.matrix_world
-        return all(np.isfinite(answer).all() for answer in answers) and bool((self.reach >= LEAST).all())
+        return all(np.isfinite(answer).all() for answer in answers) and bool((self.reach >= LEAST_NORMAL).all())
 
     @property
     def condition(self) -> float:

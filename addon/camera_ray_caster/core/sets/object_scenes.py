@@ -28,7 +28,7 @@ from .set_formats import SetFormat
 from .streams import Waiting
 
 MOST_16_BITS = 65535
-STEP = 0.1
+DEPTH_STEP = 0.1
 """Millimeters of a step of depth, if the farthest hit is then within 16 bits; else as coarse as needed."""
 
 
@@ -72,7 +72,7 @@ def _scene(folder: str, views: list[View], numbers: dict[str, int]) -> Files:
     for view in views:
         number = f"{int(view.frame):06}"
         depth = view.planar_depth() * factor(MILLIMETERS, view.meters)
-        step = STEP if depth.max(initial=0) <= MOST_16_BITS * STEP else float(depth.max()) / MOST_16_BITS
+        step = DEPTH_STEP if depth.max(initial=0) <= MOST_16_BITS * DEPTH_STEP else float(depth.max()) / MOST_16_BITS
         yield f"{folder}/depth/{number}.png", png(np.round(depth / step).astype(np.uint16)[::-1])
         if (picture := view.picture) is not None:
             yield f"{folder}/rgb/{number}.png", picture

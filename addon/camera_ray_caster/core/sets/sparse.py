@@ -21,14 +21,14 @@ from .png import srgb
 from .set_formats import SetFormat
 from .streams import Records, Tracks, Waiting
 
-COUNT = 10_000
+POINT_COUNT = 10_000
 """Number of points of a set."""
 
 BESIDE = 1.5
 """Pixels by which the neighbors of a hit tell how far its distance may differ from the one that a view has there."""
 
 
-def files(views: list[View], count: int = COUNT) -> Files:
+def files(views: list[View], count: int = POINT_COUNT) -> Files:
     """Yield the files of a model; see the package. Raises InputError for cameras that COLMAP cannot represent."""
     cameras, images = texts(Records("colmap", views))
     head = remarks("colmap", [views[0].shot])

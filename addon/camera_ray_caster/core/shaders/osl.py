@@ -14,7 +14,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..maths.recording import Entries, Operation
-from .table_textures import FIRST, MOST_IN_TEXT, WIDE, texture_of
+from .table_textures import FIRST_ROW, MOST_IN_TEXT, WIDE, texture_of
 from .writer import C_ABSENT, C_FUNCTIONS, C_HELPERS, Term, Writer, in_range
 
 LITERALS = frozenset((0.0, 0.5, 1.0, 2.0, 3.0, 4.0, math.pi / 2, math.pi, 2 * math.pi, math.inf))
@@ -71,8 +71,8 @@ class OslWriter(Writer):
             self._names[key], self._files[name], self.textures[path] = name, (path, high), image
             self.tables += [
                 f'    color {name} = texture("{path}", {0.5 / WIDE}, {0.5 / high}, "interp", "closest");',
-                f"    int {name}_none = fabs({name}[1] - {FIRST[1]}) > 0.01;",
-                f"    float {name}_turned = {name}[0] > {FIRST[1]} ? 1.0 : 0.0;",
+                f"    int {name}_none = fabs({name}[1] - {FIRST_ROW[1]}) > 0.01;",
+                f"    float {name}_turned = {name}[0] > {FIRST_ROW[1]} ? 1.0 : 0.0;",
             ]
         return self._names[key]
 

@@ -17,7 +17,7 @@ from .glsl import GlslWriter
 from .osl import LITERALS
 from .writer import METHODS, Term, in_range
 
-LONGEST = 1024
+LONGEST_TABLE = 1024
 """Entries of the longest table that is written into a text."""
 
 
@@ -57,7 +57,7 @@ class _MapWriter(GlslWriter):
 
     def table(self, entries) -> str:
         """See Writer."""
-        if len(entries) > LONGEST:
+        if len(entries) > LONGEST_TABLE:
             raise NotRecordable(f"a table of {len(entries)} entries is too long for a shader")
         return super().table(entries)
 

@@ -18,7 +18,7 @@ from ..conventions import EPS32
 from ..maths.recording import NUMPY, Record
 from ..maths.recording.derivatives import SLOPES
 from ..maths.recording.record import COMPARISONS, LOGICAL, NUMERIC, Arithmetic, repeat_body
-from .writer import LEAST
+from .writer import LEAST_CONSTANT
 
 
 class Rounded(NamedTuple):
@@ -84,7 +84,7 @@ def _operation(name: str) -> Callable[..., Rounded]:
     def apply(*operands: Rounded) -> Rounded:
         values = [operand.value for operand in operands]
         value = function(*values)
-        error = np.maximum(rounding(value, *values), LEAST)
+        error = np.maximum(rounding(value, *values), LEAST_CONSTANT)
         for operand, slope in zip(operands, slopes, strict=False):
             moved = np.abs(slope(value, *values)) * operand.error
             error = error + np.where(np.equal(operand.error, 0), 0.0, moved)

@@ -23,7 +23,7 @@ WIDE = 2048
 MOST_ROWS = 8190
 """Rows of the largest texture, without its marks: 2**24, up to which float32 has all whole numbers, over WIDE."""
 
-FIRST, LAST = (0.25, 0.5, 0.75), (0.75, 0.5, 0.25)
+FIRST_ROW, LAST_ROW = (0.25, 0.5, 0.75), (0.75, 0.5, 0.25)
 """Colors of the first and the last row, from the top. Cycles gives (1, 0, 1) for a file that is missing."""
 
 
@@ -41,6 +41,6 @@ def texture_of(entries: Entries) -> tuple[str, np.ndarray]:
         )
     high = 1 << (rows + 1).bit_length()
     texels = np.zeros((high, WIDE, 3), np.float32)
-    texels[0], texels[-1] = FIRST, LAST
+    texels[0], texels[-1] = FIRST_ROW, LAST_ROW
     texels[1:-1].reshape(-1, 3)[: len(columns), : columns.shape[1]] = columns
     return f"rays_{sha256(texels.tobytes()).hexdigest()[:16]}.exr", texels[::-1]

@@ -70,7 +70,7 @@ float log1p(float x)
 Taylor's, to 6e-8. ``log1p`` is W. Kahan's: it compensates the rounding of 1 + x.
 """
 
-LEAST, MOST = 1e-30, 3e38
+LEAST_CONSTANT, LARGEST_CONSTANT = 1e-30, 3e38
 """Range of the magnitudes of float32 constants, within its full precision; others are clipped to it."""
 
 
@@ -277,5 +277,5 @@ def _inputs_of(body: Record, count: int) -> list[Operation]:
 
 def in_range(value: float) -> float:
     """Return a number clipped to a magnitude that float32 rounds neither to zero nor to infinity; 0 stays 0."""
-    size = min(max(abs(value), LEAST), MOST) if value else 0.0
+    size = min(max(abs(value), LEAST_CONSTANT), LARGEST_CONSTANT) if value else 0.0
     return math.copysign(size, value)

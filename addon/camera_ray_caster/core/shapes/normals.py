@@ -48,4 +48,4 @@ def normal_table(shapes: InCamera, seen: np.ndarray) -> NormalTable:
     table[np.isnan(table)] = 0.0
     far = np.abs(table[1:]).max(initial=0.0)
     gain = table[0] if table[0].any() else None
-    return NormalTable(gain, table[1:], bool(far < tuning.FAR), tuple(others))
+    return NormalTable(gain, table[1:], bool(far < tuning.FAR_SPHERE), tuple(others))

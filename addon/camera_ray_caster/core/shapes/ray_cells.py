@@ -23,7 +23,7 @@ LEVEL = 1 / 64
 that, and its doubt is raised by what this adds in a cell.
 """
 
-LEAST = 1e-280
+LEAST_DOUBT = 1e-280
 """Least doubt of a volume: divisions by it do not overflow."""
 
 
@@ -162,7 +162,7 @@ class _Rows:
 def _rows(parts: _Parts) -> _Rows:
     """Return the rows in which parts may be hit."""
     volume, across, up, doubt = parts.volumes.swapaxes(0, 1)
-    doubt = np.maximum(doubt, LEAST)
+    doubt = np.maximum(doubt, LEAST_DOUBT)
     is_level = np.abs(across) < LEVEL * doubt
     across = np.where(is_level, LEVEL * doubt, across)
     doubt = np.where(is_level, (1 + 2 * LEVEL * tuning.RAY_CELL) * doubt, doubt)

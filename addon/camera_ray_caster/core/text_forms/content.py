@@ -29,7 +29,7 @@ LARGEST = 1 << 28
 PER_BYTE = 25
 """Bytes of memory that a byte of a file takes when it is read: lists of short numbers take the most."""
 
-LONGEST = 2.0
+LONGEST_READING = 2.0
 """Processor time in seconds that reading YAML, XML or a file's lenses may take: some 4 MB of YAML."""
 
 JSON_TOKEN = re.compile(r'"(?:\\.|[^"\\])*"?|//[^\n]*|-?\.(?:Nan|Inf)')
@@ -37,11 +37,11 @@ JSON_WORDS = {"//": "", ".N": "NaN", ".I": "Infinity", "-.": "-Infinity"}
 BEYOND_JSON = "//", ".Nan", ".Inf"
 LIST_OF_NUMBERS = re.compile(r"\s*\[[\s\[]*[-+.\d]")
 """How a list of numbers begins, or one of lists of numbers."""
-TABLE = re.compile(r"(?:\s*#[^\n]*\n)*\s*\[[A-Za-z_][\w.\-]*\][^\S\n]*(?:#[^\n]*)?\n")
+TOML_TABLE = re.compile(r"(?:\s*#[^\n]*\n)*\s*\[[A-Za-z_][\w.\-]*\][^\S\n]*(?:#[^\n]*)?\n")
 """How TOML begins, with the name of its first table."""
 MOST_LISTED = 1 << 18
-"""Largest number of entries of a file that is a list: more take readers longer than LONGEST."""
-HALF = re.compile(r"\\u[dD][89a-fA-F]")
+"""Largest number of entries of a file that is a list: more take readers longer than LONGEST_READING."""
+SURROGATE = re.compile(r"\\u[dD][89a-fA-F]")
 """How JSON begins the halves of characters beyond 16 bits."""
 
 GZIP = b"\x1f\x8b"
@@ -51,14 +51,14 @@ Check = Callable[[], None]
 
 
 def deadline(path: str) -> Check:
-    """Return a function that raises InputError, with the path, once LONGEST has passed in this thread."""
-    end = thread_time() + LONGEST
+    """Return a function that raises InputError, with the path, once LONGEST_READING has passed in this thread."""
+    end = thread_time() + LONGEST_READING
 
     def check() -> None:
         if thread_time() > end:
             raise InputError(
-                f"calibration file {path!r} takes longer than {LONGEST:g} s to read: is it a calibration? A part of it "
-                "with fewer cameras or frames may be read"
+                f"calibration file {path!r} takes longer than {LONGEST_READING:g} s to read: is it a calibration? "
+                "A part of it with fewer cameras or frames may be read"
             )
 
     return check
@@ -75,7 +75,7 @@ def entries_of(text: str, path: str, check: Check | None = None) -> dict:
     begin = text.lstrip()[:1]
     if LIST_OF_NUMBERS.match(text):
         raise InputError(f"calibration file {path!r} is a list of numbers without names: choose another file")
-    if TABLE.match(text):
+    if TOML_TABLE.match(text):
         entries = _toml(text, path, check)
     elif begin in ("{", "["):
         entries = _json(text, path, check)
@@ -148,7 +148,7 @@ def _json(text: str, path: str, check: Check) -> dict | list:
 
 def _loaded(text: str) -> Any:
     value = json.loads(text, parse_int=float, object_pairs_hook=_once)  # integers may have any number of digits
-    if HALF.search(text):
+    if SURROGATE.search(text):
         try:
             json.dumps(value, ensure_ascii=False).encode()
         except UnicodeEncodeError as error:

@@ -28,7 +28,7 @@ Names = tuple[tuple[str, int], ...]
 WIDEST = 100.0
 """Largest range of a setting that a slider has, too."""
 
-SAMPLES = 60
+TRIED_SETTINGS = 60
 """Settings that are tried for further variants, for each choice: with 200, no model gets another one."""
 MOST_VARIANTS = 12
 """Variants for each choice."""
@@ -163,7 +163,7 @@ def _variants(camera: Camera, chosen: Mapping[str, Any], knobs: tuple[Knob, ...]
     """Return the variants for some choices."""
     generator = np.random.default_rng(len(knobs))
     variants: list[Variant] = []
-    for sample in range(1 + SAMPLES):
+    for sample in range(1 + TRIED_SETTINGS):
         shares = generator.uniform(size=len(knobs))
         values = {
             knob.name: knob.value if sample == 0 else float(knob.low + share * (knob.high - knob.low))

@@ -18,8 +18,8 @@ MOST_FACETS = 20_000
 """Maximum number of triangles: the tree then takes 1.4 MB of text, and a picture in software a few seconds."""
 MOST_BALLS, MOST_PLANES = 32, 16
 """Number of exact balls and planes: each takes places of which graphics cards have 224. Further ones are facets."""
-FEW, GRIDS = 36, (256, 128, 64, 32, 22, 16, 11, 8, 6, 4, 3, 2)
-"""Meshes of at most FEW triangles stay as they are; numbers of cells along each side of a mesh that is thinned out."""
+SMALL_MESH, GRIDS = 36, (256, 128, 64, 32, 22, 16, 11, 8, 6, 4, 3, 2)
+"""Meshes of at most SMALL_MESH triangles stay as they are; cells along each side of a mesh that is thinned out."""
 LEAF = 4
 """Maximum number of triangles of a leaf."""
 ENDLESS = 1e4
@@ -114,7 +114,7 @@ def _coarse(meshes: list[Facets]) -> tuple[list[Facets], list[int]]:
     for cells in GRIDS:
         thinner, coarser = [], []
         for triangles, color, k in meshes:
-            if len(triangles) > FEW:
+            if len(triangles) > SMALL_MESH:
                 kept, corners = _thinned(triangles, cells)
                 if kept.sum() < len(triangles):
                     triangles, color = corners[kept], color[kept]

@@ -8,12 +8,12 @@ from math import pi
 
 import numpy as np
 
-COUNT = 4096
+CURVE_POINTS = 4096
 """Number of points of the curve. In a thin prism fisheye of 1920 x 1080 pixels, a share of 0.11 lies beyond the curve.
 With a test of the radius alone, Newton's method took all its steps for many of these, and rays took 7 times as long.
 """
 
-SLACK = 1e-8
+RADIUS_MARGIN = 1e-8
 """Margin relative to a radius: larger than rounding, also if terms of a lens cancel each other."""
 
 
@@ -29,7 +29,7 @@ class Edge:
     @classmethod
     def circle(cls, radius: float) -> Edge:
         """Return the edge that is a circle; a radius of inf excludes nothing."""
-        return cls(np.array([-pi]), np.array([radius * (1 + SLACK)]))
+        return cls(np.array([-pi]), np.array([radius * (1 + RADIUS_MARGIN)]))
 
     @classmethod
     def around(cls, curve: Callable, second: float) -> Edge | None:
@@ -38,14 +38,14 @@ class Edge:
         second: a bound on the curve's second derivative by the angle on the circle. Between two points at angles h
         apart, the curve departs from their chord by at most second h^2 / 8.
         """
-        around = np.arange(COUNT) * (2 * pi / COUNT)
+        around = np.arange(CURVE_POINTS) * (2 * pi / CURVE_POINTS)
         x, y = curve(np.cos(around), np.sin(around))
         angle = np.unwrap(np.arctan2(y, x))
         if not (np.diff(angle, append=angle[0] + 2 * pi) > 0).all():
             return None
         radius = np.hypot(x, y)
         radius = np.maximum.reduce([np.roll(radius, shift) for shift in (1, 0, -1, -2)])
-        radius = (radius + second * (2 * pi / COUNT) ** 2 / 8) * (1 + SLACK)
+        radius = (radius + second * (2 * pi / CURVE_POINTS) ** 2 / 8) * (1 + RADIUS_MARGIN)
         angle = np.arctan2(y, x)
         first = int(np.argmin(angle))
         return cls(np.roll(angle, -first), np.roll(radius, -first))

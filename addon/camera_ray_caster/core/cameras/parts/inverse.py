@@ -20,8 +20,8 @@ LATTICE = 33
 STARTS = 3
 """Number of lattice pixels from which each point is sought: the best of the local minima of the angle."""
 
-STEP = 2.0**-12
-"""Offset in pixels of the finite differences: derivatives are right to about EPS / STEP and STEP squared."""
+DIFFERENCE_STEP = 2.0**-12
+"""Offset in pixels of the finite differences: derivatives are right to about EPS over it, and its square."""
 
 GAUSS_NEWTON_STEPS = 40
 """Maximum number of Gauss-Newton steps. A smooth model takes about six."""
@@ -29,7 +29,7 @@ GAUSS_NEWTON_STEPS = 40
 HALVINGS = 12
 """Maximum number of halvings of a step that does not bring the ray nearer, or leads to a pixel without a ray."""
 
-SLACK = 64
+MEETING_ANGLE = 64
 """Angle within which a ray meets a point, in units of EPS (1 + s): s is the sum of the distances of point and ray
 origin from the frame's origin, over the distance between the two.
 """
@@ -105,16 +105,18 @@ def _off(rays, pixels, points):
     distance = _length(towards)[..., None]
     off = direction / _length(direction)[..., None] - towards / distance
     size = (_length(points) + _length(origin)) / distance[..., 0]
-    return off, SLACK * EPS * (1 + size)
+    return off, MEETING_ANGLE * EPS * (1 + size)
 
 
 def _step(rays, pixels, points, off):
     """Return the Gauss-Newton step (..., 2)."""
     slopes = []
     for axis in np.eye(2):
-        ahead, behind = (_off(rays, pixels + side * STEP * axis, points)[0] for side in (1, -1))
-        central = (ahead - behind) / (2 * STEP)
-        one_sided = np.where(np.isnan(ahead), off - behind, ahead - off) / STEP  # at the rim only one side has rays
+        ahead, behind = (_off(rays, pixels + side * DIFFERENCE_STEP * axis, points)[0] for side in (1, -1))
+        central = (ahead - behind) / (2 * DIFFERENCE_STEP)
+        one_sided = (
+            np.where(np.isnan(ahead), off - behind, ahead - off) / DIFFERENCE_STEP
+        )  # at the rim only one side has rays
         slopes.append(np.where(np.isnan(central), one_sided, central))
     (a, b), d = ([_dot(slope, slopes[0]) for slope in slopes]), _dot(slopes[1], slopes[1])
     right = [_dot(slope, off) for slope in slopes]

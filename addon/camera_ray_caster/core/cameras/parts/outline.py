@@ -7,7 +7,7 @@ import numpy as np
 AROUND = np.array([(0, 0), (0.5, 0), (1, 0), (0, 0.5), (1, 0.5), (0, 1), (0.5, 1), (1, 1)])
 """Ends of the lines: corners and middles of the sides, as fractions of the frame."""
 
-PARTS, PASSES = 32, 5
+LINE_PARTS, REFINEMENTS = 32, 5
 """Parts of a line among which the end of the picture is looked for, and how often: 32**-5 is 3e-8."""
 
 
@@ -29,13 +29,13 @@ def outline_of(model) -> np.ndarray:
         if not has_ray(start[None]):
             ahead = np.clip(model.project(np.array([[0.0, 0.0, -1.0]]))[0], 0, size)
             start = np.where(np.isnan(ahead), start, ahead)
-        way, parts = AROUND * size - start, np.arange(PARTS + 1)[:, None] / PARTS
+        way, parts = AROUND * size - start, np.arange(LINE_PARTS + 1)[:, None] / LINE_PARTS
         end, length = np.zeros(len(way)), np.ones(len(way))
-        for _ in range(PASSES):
+        for _ in range(REFINEMENTS):
             seen = np.logical_and.accumulate(has_ray(start + (end + length * parts)[..., None] * way))
             last = np.maximum(seen.sum(axis=0) - 1, 0)
-            end = end + length * last / PARTS
-            length = np.where(last == PARTS, 0.0, length / PARTS)
+            end = end + length * last / LINE_PARTS
+            length = np.where(last == LINE_PARTS, 0.0, length / LINE_PARTS)
             if not length.any():
                 break
     return np.concatenate((start[None], start + end[:, None] * way))

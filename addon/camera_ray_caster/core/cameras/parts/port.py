@@ -23,11 +23,11 @@ from .port_settings import DECENTER, DISTANCE, DOME, FLAT, GLASS, INSIDE, MEDIUM
 
 MILLIMETER = 1e-3
 """In Blender units, as for a thin lens."""
-STEPS, SETTLED = 200, 4e-16
+NEWTON_STEPS, SETTLED_CHANGE = 200, 4e-16
 """Steps of the inverse at most, and the relative change at which it has settled. Most points take five; with the eye on
 the plate more, as the direction nears the plate's own.
 """
-SLACK = 1e-9
+ANGLE_MARGIN = 1e-9
 """Angle, rad, by which bounds are larger: far more than rounding."""
 APART = 0.7
 """Share of the distance from the center at which a dome reflects totally, up to which an eye sees no point twice: of
@@ -115,7 +115,7 @@ class FlatPort:
         least = min(1.0, self.glass, self.medium)
         layers = (self.distance, 1 / least), (self.thickness, self.glass / least), (behind, self.medium / least)
         q = np.zeros(np.shape(across))
-        for _ in range(STEPS):
+        for _ in range(NEWTON_STEPS):
             square = q * q
             rho, slope = np.zeros_like(q), np.zeros_like(q)
             for depth, index in layers:
@@ -124,7 +124,7 @@ class FlatPort:
                 rho, slope = rho + weight * q, slope + weight * (index * index) / root
             step = np.where(across > 0, (across - rho) / slope, 0.0)
             q = q + np.maximum(step, 0.0)
-            if not (step > SETTLED * q).any():
+            if not (step > SETTLED_CHANGE * q).any():
                 break
         inside = np.arctan(q * least / np.sqrt(1 + (1 - least * least) * q * q))
         return np.where(np.isfinite(q), inside, np.pi / 2)
@@ -227,7 +227,7 @@ class DomePort:
         last = self.medium * (self.outer + behind)
         low, high = np.zeros(np.shape(around)), np.full(np.shape(around), np.pi)
         theta = np.array(around, np.float64)
-        for _ in range(STEPS):
+        for _ in range(NEWTON_STEPS):
             p, turn = self.away * np.sin(theta), self.away * np.cos(theta)
             off, slope = theta - around, np.ones(np.shape(theta))
             for sign, reach in zip((-1, 1, -1, 1, -1), (*radii, last), strict=True):
@@ -236,7 +236,7 @@ class DomePort:
             low, high = np.where(off <= 0, theta, low), np.where(off >= 0, theta, high)
             moved = theta - off / slope
             moved = np.where((moved >= low) & (moved <= high), moved, (low + high) / 2)
-            settled = ~(np.abs(moved - theta) > SETTLED * theta)
+            settled = ~(np.abs(moved - theta) > SETTLED_CHANGE * theta)
             theta = moved
             if settled.all():
                 break
@@ -272,7 +272,7 @@ def balls_inside(port: Port, centers: np.ndarray, radii: np.ndarray) -> tuple[np
 
     on_axis = around > np.pi / 2
     middle = np.where(on_axis, 0.0, middle)
-    angle = np.where(on_axis, largest, np.maximum(away(smallest), away(largest))) + SLACK
+    angle = np.where(on_axis, largest, np.maximum(away(smallest), away(largest))) + ANGLE_MARGIN
     seen = behind + radii > 0
     grown = np.where(angle < np.pi / 2, np.sin(angle), 2.0)
     return _turned(port, centers, middle), np.where(seen, np.where(np.isnan(angle), 2.0, grown), np.nan)

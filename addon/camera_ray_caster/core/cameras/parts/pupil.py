@@ -22,19 +22,19 @@ from .traced_aperture import TracedAperture, lines
 RADII = 25
 """Radii on the film, from the axis to the end of the picture, at which the disc is tried."""
 
-GRID = 65
+GRID_POINTS = 65
 """Points along the side of a square in which the disc is tried."""
 
 TRIED = 1.5
 """Half the side of that square over the radius of the paraxial exit pupil: six lenses need 0.98 to 1.1."""
 
-SLACK = 2.0 * TRIED / (GRID - 1)
+DISC_MARGIN = 2.0 * TRIED / (GRID_POINTS - 1)
 """What the disc is wider than the farthest point that passes, in paraxial radii: the grid's step."""
 
 NARROWED = 8
 """Largest number of times that the picture's end is moved to where light ends, if that is less than half of it."""
 
-FEWEST = 1 / 64
+LEAST_SHARE = 1 / 64
 """Smallest share of passing rays by which light is divided, where vignetting is switched off."""
 
 
@@ -122,10 +122,10 @@ def measured(
     paraxial = abs(optics.exit_pupil[1]) * radius
     is_round = pupil.blades < 3 and pupil.ratio == 1
     if is_round:
-        side = np.linspace(-TRIED, TRIED, GRID)
+        side = np.linspace(-TRIED, TRIED, GRID_POINTS)
         point = side[None, :], side[:, None]
     else:
-        side = (np.arange(GRID) + 0.5) / GRID
+        side = (np.arange(GRID_POINTS) + 0.5) / GRID_POINTS
         point = tuple(coordinate / pupil.radius for coordinate in pupil.points(side[None, :], side[:, None]))
     squared = point[0] ** 2 + point[1] ** 2
     plane = optics.exit_pupil[0]
@@ -148,7 +148,7 @@ def measured(
             origin, direction = from_film(optics, chief, pupil, film_point, upright, point)
             passes = np.isfinite(direction[0]) & np.isfinite(origin[0])
         widest = max(float(np.where(each, squared, 0.0).max(initial=0.0)) for each in (share, passes))
-        disc = float(np.sqrt(widest)) + SLACK if is_round else 1.0
+        disc = float(np.sqrt(widest)) + DISC_MARGIN if is_round else 1.0
         within = squared <= disc * disc if is_round else np.full(squared.shape, True)
         share = (share & within).sum(axis=(1, 2)) / within.sum()
         wide = (paraxial / (film - plane)) ** 2
@@ -213,8 +213,8 @@ def light_of(chief: ChiefRays, pupil: Pupil, film_point, upright, point, normal,
     if falls_off:
         value = _falloff(pupil, film_point, _in_pupil(chief, pupil, upright, point), normal) / pupil.cosine
     if vignetting:
-        return value / max(pupil.passing[0], FEWEST)
-    table = np.maximum(np.array(pupil.passing), FEWEST)
+        return value / max(pupil.passing[0], LEAST_SHARE)
+    table = np.maximum(np.array(pupil.passing), LEAST_SHARE)
     squared = upright[0] * upright[0] + upright[1] * upright[1]
     row = np.minimum(np.sqrt(squared) * ((RADII - 1) / pupil.corner), RADII - 1 - 1e-6)
     first = np.floor(row)

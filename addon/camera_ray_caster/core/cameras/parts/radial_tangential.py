@@ -32,7 +32,7 @@ STEEPEST = tan(radians(89.9))
 FAST_STEPS = 5
 """Maximum number of Newton's steps from the radial guess, whose error is about a hundredth; each squares the error."""
 
-NEAR = 1e-8
+LAST_STEP = 1e-8
 """Fraction of the guessed radius: after a step shorter than this, the remaining error is below rounding."""
 
 NEWTON_STEPS = 200
@@ -181,7 +181,7 @@ class RadialTangential:
             for _ in range(FAST_STEPS):
                 step_x, step_y = self._step(x, y, u, v)
                 x, y = x - step_x, y - step_y
-                slow = ~(np.abs(step_x) + np.abs(step_y) <= NEAR * r)
+                slow = ~(np.abs(step_x) + np.abs(step_y) <= LAST_STEP * r)
                 if not slow.any():
                     break
         slow |= ~(np.hypot(x, y) <= self.limit)

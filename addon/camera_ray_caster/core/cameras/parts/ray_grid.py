@@ -24,7 +24,7 @@ CUBIC, LINEAR, SPLINE, NONE = "CUBIC", "LINEAR", "SPLINE", "NONE"
 control points the entries are, and none: the ray of the nearest entry, whatever its neighbors are.
 """
 
-AROUND = 2
+BORDER_ENTRIES = 2
 """Entries beyond the outermost ones that the interpolation reads."""
 
 CONTINUED_AT_ONCE = 1 << 20
@@ -60,7 +60,7 @@ class RayGrid:
         if self.blocks.many > 1 and (kind == SPLINE or min(self.blocks.size) < least):
             raise InputError("control points have no blocks: give a table for each, or set the blocks to 0"
                              if kind == SPLINE else f"blocks have {least} or more rows and columns")  # fmt: skip
-        padded = self.blocks.many * math.prod(side + 2 * AROUND for side in self.blocks.size)
+        padded = self.blocks.many * math.prod(side + 2 * BORDER_ENTRIES for side in self.blocks.size)
         require(BYTES_PER_NUMBER * count * padded, f"the rays of a table of {sides}",
                 "give a coarser table: rays between its entries are interpolated")  # fmt: skip
         if np.isinf(directions).any() or (origins is not None and np.isinf(origins).any()):
@@ -216,14 +216,14 @@ def nodes_of(values: np.ndarray, known: np.ndarray, kind: str) -> np.ndarray:
     """Return what the interpolation of blocks (rows, columns, blocks, k) sums with weights, (rows + 4, columns + 4,
     blocks, k); 0 for blocks without rays.
     """
-    around = (AROUND, AROUND), (AROUND, AROUND), (0, 0), (0, 0)
+    around = (BORDER_ENTRIES, BORDER_ENTRIES), (BORDER_ENTRIES, BORDER_ENTRIES), (0, 0), (0, 0)
     nodes = np.pad(np.nan_to_num(values), around, mode="edge")
     if kind == NONE:
         return nodes
     alike: dict[bytes, list[int]] = {}
     for block in np.flatnonzero(known.any(axis=(0, 1))).tolist():
         alike.setdefault(known[:, :, block].tobytes(), []).append(block)
-    kept, (rows, columns, _, count) = slice(WIDE - AROUND, AROUND - WIDE), values.shape
+    kept, (rows, columns, _, count) = slice(WIDE - BORDER_ENTRIES, BORDER_ENTRIES - WIDE), values.shape
     step = max(1, CONTINUED_AT_ONCE // ((rows + 2 * WIDE) * (columns + 2 * WIDE)))
     for chosen in (blocks[first : first + step] for blocks in alike.values() for first in range(0, len(blocks), step)):
         entries = values[:, :, chosen].reshape(rows, columns, -1)
@@ -272,7 +272,7 @@ def between(nodes: np.ndarray, row: np.ndarray, column: np.ndarray, kind: str) -
     """Return the interpolated vectors (rows, columns, blocks, k) of ``nodes_of`` at places (rows, 1) and (columns,)."""
     for positions in (row[:, 0], column):
         cell = np.floor(positions).astype(int)
-        first = cell + AROUND - (kind != LINEAR)
+        first = cell + BORDER_ENTRIES - (kind != LINEAR)
         weights = weights_of(positions - cell, kind)
         nodes = sum(nodes[first + k] * weight[:, None, None, None] for k, weight in enumerate(weights)).swapaxes(0, 1)
     return nodes

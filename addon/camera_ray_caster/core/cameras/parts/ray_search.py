@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...conventions import EPS
-from .ray_grid import AROUND, LINEAR, RayGrid, weights_of
+from .ray_grid import BORDER_ENTRIES, LINEAR, RayGrid, weights_of
 
 STARTS = 32
 """Entries on each axis among which the search begins."""
@@ -27,12 +27,12 @@ NEWTON_STEPS, FULL = 24, 8
 between the cells of a table with kinks.
 """
 
-SLACK = 64
+MEETING_ANGLE = 64
 """A ray meets a point within this many times EPS (1 + s), as an angle: s is the sum of the distances of the point and
 of the ray's origin from the eye, over the distance between the two.
 """
 
-HALF = 0.7072
+HALF_DIAGONAL = 0.7072
 """Half of the diagonal of a square of entries, with a margin: no point between four rays is lost."""
 
 PRODUCTS = 1 << 20
@@ -72,8 +72,8 @@ def places_of(grid: RayGrid, points: np.ndarray) -> np.ndarray:
 
 def entries_of(grid: RayGrid, points: np.ndarray) -> np.ndarray:
     """Return the places u, v (n, 2) of the entries of a table without interpolation that see points (n, 3): those whose
-    rays pass nearest, of several the first; NaN where the point is farther from this ray than HALF of the way to the
-    nearest of the entries beside it. Each point is held against each entry.
+    rays pass nearest, of several the first; NaN where the point is farther from this ray than this share of the way to
+    the nearest entry beside it. Each point is held against each entry.
     """
     row, column = np.nonzero(grid.known)
     ahead = grid.directions[row, column]
@@ -87,8 +87,8 @@ def entries_of(grid: RayGrid, points: np.ndarray) -> np.ndarray:
         missed = np.where(t > 0, np.einsum("nmk,nmk->nm", away, away), np.inf)
         best = missed.argmin(axis=1)
         indices = np.arange(len(best))
-        reach = HALF * _beside(grid, row[best], column[best], t[indices, best])
-        rounding = SLACK * EPS * (np.sqrt(_dot(block, block)) + grid.farthest)
+        reach = HALF_DIAGONAL * _beside(grid, row[best], column[best], t[indices, best])
+        rounding = MEETING_ANGLE * EPS * (np.sqrt(_dot(block, block)) + grid.farthest)
         sees = np.flatnonzero(missed[indices, best] <= np.maximum(reach, rounding) ** 2)
         places[first + sees] = np.stack((column[best], row[best]), axis=1)[sees]
     return places
@@ -127,7 +127,7 @@ def _search(grid: RayGrid, points: np.ndarray, places: np.ndarray) -> np.ndarray
     beside, _, missed = _missed(grid, points, places, block)
     reach = np.sqrt((points * points).sum(axis=1)) + grid.farthest
     distance = np.sqrt((beside * beside).sum(axis=1))
-    meets = missed <= SLACK * EPS * (distance + reach)
+    meets = missed <= MEETING_ANGLE * EPS * (distance + reach)
     if grid.blocks.many > 1:
         inside = np.clip(places, -INSIDE, ends - 1 + INSIDE)
         column, row = np.floor(first + inside + 0.5).astype(np.intp).T
@@ -161,7 +161,7 @@ def _derivatives(grid: RayGrid, places: np.ndarray, block: np.ndarray) -> list[n
     """
     cell = np.clip(np.floor(places), -1, np.array(grid.blocks.size[::-1]) - 1)
     (across, across_by), (up, up_by) = (_weights(places[:, k] - cell[:, k], grid.kind) for k in (0, 1))
-    first, taps = cell.astype(np.intp) + AROUND - (grid.kind != LINEAR), np.arange(across.shape[1])
+    first, taps = cell.astype(np.intp) + BORDER_ENTRIES - (grid.kind != LINEAR), np.arange(across.shape[1])
     read = grid.nodes[first[:, 1, None, None] + taps[:, None], first[:, 0, None, None] + taps, block[:, None, None]]
     rows, rows_by = ((read * weights[:, :, None, None]).sum(axis=1) for weights in (up, up_by))
     pairs = (rows, across), (rows, across_by), (rows_by, across)

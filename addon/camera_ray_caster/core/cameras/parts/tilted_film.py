@@ -27,7 +27,7 @@ from .calibration import TAU_X, TAU_Y
 from .film import Window
 from .tilt import Tilt
 
-STEPS = 4
+NEWTON_STEPS = 4
 """Of Newton's method: for the lenses of the library, tilted by 40 degrees, 3 leave 3e-9 of k, 4 its rounding."""
 LEAST_GROWTH = 0.05
 """Smallest growth of a point's distance from the axis with its chief ray's r, over that of the axis."""
@@ -74,7 +74,7 @@ class TiltedFilm:
     def _factor(self, chief: ChiefRays, squared, share):
         """Return k of points of the film, of X^2 + Y^2 and Z / D. It can be recorded."""
         k = 1 / (1 + share)
-        for _ in range(STEPS):
+        for _ in range(NEWTON_STEPS):
             crossing, slope = chief.crossing_with_slope(k * k * squared)
             scale = 1 + share * (1 - crossing)
             k = k - (k * scale - 1) / (scale - 2 * share * k * k * squared * slope)

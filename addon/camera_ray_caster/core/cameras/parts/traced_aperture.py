@@ -10,7 +10,7 @@ import numpy as np
 from ...maths.vector import norm
 from .aperture import Aperture
 
-MARGIN = 1.25
+GROWTH = 1.25
 """What the largest measured values are multiplied by: a step of a lens's grid at the rim changes third-order
 aberrations by 1.15.
 """
@@ -68,5 +68,5 @@ def lines(chief, origin, direction, passes):
     total = (lines * lines).sum(axis=others)
     sharp = -(lines * turned).sum(axis=others) / np.where(total > 0, total, 1.0)
     beside = turned + lines * sharp.reshape(-1, *(1 for _ in others[1:]))
-    apart, spread = (MARGIN * norm(each).max(axis=tuple(axis - 1 for axis in others[1:])) for each in (lines, beside))
+    apart, spread = (GROWTH * norm(each).max(axis=tuple(axis - 1 for axis in others[1:])) for each in (lines, beside))
     return apart, sharp, spread

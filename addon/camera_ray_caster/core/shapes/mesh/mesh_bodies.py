@@ -15,7 +15,7 @@ from ..shape_frames import InCamera
 from .mesh_surface import TRIANGLES, HitTriangles
 from .triangles import VOLUME_ROUNDING, crossing, edge_vectors, signs, volumes
 
-BYTES = 192
+TRIANGLE_BYTES = 192
 """Upper bound of the memory of each triangle, with its boxes and its share of the tree."""
 
 PREPARED = 0.25
@@ -49,7 +49,7 @@ class TriangleBodies(Bodies):
         shapes = self._shapes
         meshes = [shapes.shapes.meshes[k] for k in shapes.shapes.mesh[at].tolist()]
         count = np.array([len(mesh) for mesh in meshes])
-        require(BYTES * int(count.sum()), f"{int(count.sum()):,} triangles", FEWER)
+        require(TRIANGLE_BYTES * int(count.sum()), f"{int(count.sum()):,} triangles", FEWER)
         self.at = np.repeat(at, count)
         self.number = np.concatenate([np.arange(number, dtype=np.int32) for number in count.tolist()])
         start = np.cumsum([0, *(mesh.vertices.shape[1] for mesh in meshes)])
