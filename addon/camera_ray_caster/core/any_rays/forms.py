@@ -16,7 +16,8 @@ import numpy as np
 
 from ..maths.speed import lazy
 from ..mesh import LooseTriangles, Mesh
-from ..motion.bending_triangles import mesh_of, triangles_at
+from ..motion.apart import mesh_of
+from ..motion.bending_triangles import triangles_at
 from ..motion.evaluations import Motion
 from ..motion.interpolation import TimeInterval
 from .tree import Tree, tree_of

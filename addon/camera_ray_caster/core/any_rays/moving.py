@@ -17,8 +17,7 @@ import numpy as np
 
 from ..maths.exact import invert
 from ..maths.speed import Scratch
-from ..motion.apart import BY_SHAPE, centers_at, light_changes, moving, of_rows, place_at, rows_of
-from ..motion.bending_triangles import bends, mesh_of
+from ..motion.apart import BY_SHAPE, bends, centers_at, light_changes, mesh_of, moving, of_rows, place_at, rows_of
 from ..motion.evaluations import Motion
 from ..motion.interpolation import PLACE
 from ..records import MESH, PLANE, SPHERE, Shapes
@@ -85,12 +84,11 @@ def _divided(motion: Motion) -> Moving | None:
     bent = [row for row in np.flatnonzero(unlike & ~looks[rows]).tolist()
             if bends([mesh_of(shapes, row) for shapes in states])]  # fmt: skip
     unlike[bent] = False
+    first, light = next(iter(motion.states.values()))[1], light_changes(motion)
+    at_rest, changing = rows_of(first, still), of_rows(moved, np.flatnonzero(unlike))
     forms = {row: Form(moved, row) for row in bent}
-    first = next(iter(motion.states.values()))[1]
-    return Moving(
-        rows_of(first, still), still, rows, moved, light_changes(motion), ~unlike, forms,
-        of_rows(moved, np.flatnonzero(unlike)), _radius(moved), _boxes(moved, forms, meshes[rows]),
-    )  # fmt: skip
+    radius, boxes = _radius(moved), _boxes(moved, forms, meshes[rows])
+    return Moving(at_rest, still, rows, moved, light, ~unlike, forms, changing, radius, boxes)
 
 
 def _radius(motion: Motion) -> np.ndarray:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from ..mesh import Mesh
 from ..records import Shapes
+from .deformation import alike
 from .evaluations import Motion
 from .interpolation import TimeInterval, matched
 from .means import same
@@ -23,6 +25,9 @@ OF_ALL = "slots", "surfaces", "uv"
 
 LIGHT = "lights", "world"
 """What lights all shapes and stands behind them: in the combined pass alone."""
+
+LOOPS = "normals", "uv"
+"""Values at the loops of a mesh that may change as it bends."""
 
 
 def rows_of(shapes: Shapes, rows: np.ndarray) -> Shapes:
@@ -61,6 +66,26 @@ def light_changes(motion: Motion) -> bool:
     """Whether lights or the background differ between evaluations."""
     first, *others = (shapes for _, shapes in motion.states.values())
     return not all(same(getattr(first, name), getattr(other, name)) for other in others for name in LIGHT)
+
+
+def bends(forms: Sequence[Mesh]) -> bool:
+    """Whether the evaluations of a mesh differ in its vertices, normals and maps alone."""
+    first, *others = forms
+    return all(
+        alike([first], [other])
+        and [name for name, _ in other.layers] == [name for name, _ in first.layers]
+        and all(
+            np.array_equal(layer, other_layer)
+            for (_, layer), (_, other_layer) in zip(first.layers, other.layers, strict=True)
+        )
+        and all(np.shape(getattr(first, name)) == np.shape(getattr(other, name)) for name in LOOPS)
+        for other in others
+    )
+
+
+def mesh_of(shapes, row: int) -> Mesh:
+    """Return the mesh of a shape."""
+    return shapes.meshes[shapes.mesh[row]]
 
 
 def of_rows(motion: Motion, rows: np.ndarray) -> Motion:

@@ -2,32 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
-from ..mesh import LooseTriangles, Mesh
-from .deformation import alike, unit
+from ..mesh import LooseTriangles
+from .apart import LOOPS, mesh_of
+from .deformation import unit
 from .evaluations import Motion
 from .means import mean
-
-LOOPS = "normals", "uv"
-"""Values at the loops of a mesh that may change as it bends."""
-
-
-def bends(forms: Sequence[Mesh]) -> bool:
-    """Whether the evaluations of a mesh differ in its vertices, normals and maps alone."""
-    first, *others = forms
-    return all(
-        alike([first], [other])
-        and [name for name, _ in other.layers] == [name for name, _ in first.layers]
-        and all(
-            np.array_equal(layer, other_layer)
-            for (_, layer), (_, other_layer) in zip(first.layers, other.layers, strict=True)
-        )
-        and all(np.shape(getattr(first, name)) == np.shape(getattr(other, name)) for name in LOOPS)
-        for other in others
-    )
 
 
 def triangles_at(motion: Motion, row: int, number: np.ndarray, frames: np.ndarray) -> LooseTriangles:
@@ -63,8 +44,3 @@ def triangles_at(motion: Motion, row: int, number: np.ndarray, frames: np.ndarra
         layers=tuple((name, values[:, number]) for name, values in mesh.layers),
         middle_of=middle, outer=mesh.is_outer[:, number],
     )  # fmt: skip
-
-
-def mesh_of(shapes, row: int) -> Mesh:
-    """Return the mesh of a shape."""
-    return shapes.meshes[shapes.mesh[row]]
