@@ -122,7 +122,7 @@ UNITS = {
     "COLMAP": "", "nerfstudio": "", "Kalibr": "m", "EuRoC": "m", "OKVIS": "m", "Basalt": "m", "BOP": "mm",
     "Project Aria": "m", "maplab": "m", "HOT3D": "m", "Metashape": "", "Meshroom": "", "Polycam": "m",
     "NVIDIA NCore": "m", "CAHVOR": "m", "DepthAI": "cm", "Anipose": "", "EasyMocap": "m", "CMU Panoptic": "cm",
-    "nuScenes": "m",
+    "nuScenes": "m", "ORB-SLAM": "m", "WoodScape": "m",
     "ARKitScenes": "m", "OpenCV": "", "mrcal": "", "OpenSfM": "m", "RealityCapture": "", "openMVG": "",
     "Bundler": "", "NVM": "", "Gaussian splatting": "", "ns-render camera paths": "", "LLFF": "",
     "Surround360": "", "fSpy": "", "Hugin": "", "PTGui": "", "Open3D": "m",
