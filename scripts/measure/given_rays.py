@@ -21,8 +21,8 @@ from .mesh_contest import merged
 WIDTH = 724
 """Directions of a panorama of 2 : 1 with this width are 262,088 rays."""
 
-BUMPS = 158
-"""Cells along a side of each wall of the room: six walls of two triangles a cell."""
+BUMPS = 112
+"""Cells along a side of each wall of the room: six walls of two triangles a cell, 150,528 in all."""
 
 
 def run(rounds: int, quick: bool) -> list[dict]:
@@ -76,7 +76,7 @@ def _rays(eye: np.ndarray, width: int) -> dict[str, tuple[np.ndarray, np.ndarray
     ahead = picture.rays().directions.reshape(-1, 3)
     near = eye + rng.uniform(-0.0075, 0.0075, ahead.shape)
     mixed = rng.permutation(len(ahead))
-    sweep = crc.camera("SCANNER", (width, 128), pose, scanner_device="OS1_128").rays()
+    sweep = crc.camera("SCANNER", (1024 * width // WIDTH, 128), pose, scanner_device="OS1_128").rays()
     anywhere = rng.normal(size=ahead.shape)
     return {
         "one point": (np.broadcast_to(eye, ahead.shape), ahead),
