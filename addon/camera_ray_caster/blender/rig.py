@@ -90,7 +90,7 @@ def _in_words(camera: Mounted) -> str:
 
 
 def files_of(path: str) -> list[Path]:
-    """Return the files that the path of a rig stands for."""
+    """Return the files at the path of a rig."""
     return list(map(Path, dict.fromkeys(beside(path))))
 
 

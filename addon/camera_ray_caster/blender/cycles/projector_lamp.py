@@ -19,7 +19,7 @@ from ..read.scene_reader import evaluated_camera
 POWER = 1000.0
 """Watts of the lamp, as if it shone white in every direction."""
 KNOWN = 0.9999
-"""Least share of the texels around a direction that must be known: all of them, but for rounding."""
+"""Least share of the texels around a direction that must be known: all, within rounding."""
 
 
 def add_projector(scene, camera_object=None, image=None) -> tuple[bpy.types.Object, float]:

@@ -49,7 +49,7 @@ _ending: list[bool] = []
 
 @dataclass(eq=False)
 class RenderCall:
-    """What is handed to the engine for one render, and what it hands back. A render that Blender starts has none."""
+    """Input and result of one render that the add-on starts."""
 
     picture: CyclesPicture | FacesPicture | None = None
     """Another engine's picture, which replaces the combined pass; None for our own."""

@@ -13,7 +13,7 @@ HOW = "install Mesa's software OpenGL (libegl1, libgl1-mesa-dri), or cast with a
 
 
 def check_driver(engine: str) -> None:
-    """Raise InputError if an engine cannot render since there is no driver of graphics: in background on Linux, where
+    """Raise InputError if an engine cannot render without a graphics driver: in background on Linux, where
     EGL is missing or has no display.
     """
     if not (bpy.app.background and sys.platform.startswith("linux")):

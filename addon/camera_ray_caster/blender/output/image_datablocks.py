@@ -116,7 +116,7 @@ def pack(*_) -> None:
 
 @persistent
 def hold(*_) -> None:
-    """Hold the images before an undo or a redo, which may remove them or lose their pixels: they are no part of it."""
+    """Keep the images over an undo or a redo, which may remove them or lose their pixels."""
     _held.clear()
     for name, key in results().items():
         image = bpy.data.images[name]

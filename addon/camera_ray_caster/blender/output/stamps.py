@@ -69,7 +69,7 @@ def made(
 
 
 OWN_ENTRIES = "camera", "frame", "rays"
-"""What the stamps of the pictures of a data set differ in."""
+"""The entries in which the stamps of a data set's pictures differ."""
 
 
 def short(stamp: Mapping[str, Any]) -> dict[str, Any]:

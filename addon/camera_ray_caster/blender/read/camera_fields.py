@@ -141,7 +141,7 @@ def find_camera(scene, name):
 
 
 ALL = "ALL"
-"""Word that stands for all cameras of a scene in place of names."""
+"""Word that selects all cameras of a scene."""
 
 
 def find_cameras(scene, names: Sequence[str]) -> list:

@@ -32,7 +32,7 @@ REMEMBERED = 1024
 """Maximum number of meshes whose recognized shapes are cached: few meshes change between evaluations of a scene."""
 
 NOTHING = None, ""
-"""Result for data of which a render shows nothing."""
+"""Result for data that a render does not show."""
 
 
 def shapes_of(item, setting: str, layers: Collection[str] = (), moves: Sequence[Displacement | None] = ()) -> Found:

@@ -191,7 +191,7 @@ def _castable(there: list[tuple[Group, Placings]], left_out: Counter) -> Iterato
 
 
 def _slots(groups, column, surfaces_of) -> Slots | None:
-    """Return the looks of the groups that have several looks; None if there are no such groups."""
+    """Return the looks of the groups with several; None if no group has several."""
     several = [group.looks if len(group.looks) > 1 else () for group in groups]
     looks = [look for looks in several for look in looks]
     if not looks:

@@ -23,9 +23,9 @@ class CachedScene:
     key: tuple
     """Pointers of the scene, the view layer and the camera."""
     raw: BlenderCamera | None
-    """The record from which the camera was made; None if there is no camera that can be cast."""
+    """The record of the camera; None without a camera that can be cast."""
     camera: Camera | None
-    """The camera at the current frame, without pixel times; None if there is no camera that can be cast."""
+    """The camera at the current frame, without pixel times; None without a camera that can be cast."""
     shapes: Shapes
     reason: str = ""
     """Why the camera cannot be cast."""

@@ -1,4 +1,4 @@
-"""The nodes of materials that give shaders: what they let through, and the colors of what they do not.
+"""The shader nodes of materials: their transparency and their colors.
 
 A shader is a sum of parts with weights: Mix Shader weights two by its factor, Add Shader adds. Transparency is the sum
 of the weighted colors of Transparent BSDFs and of what the alpha of Principled BSDFs leaves; alpha is 1 less its mean,
@@ -118,7 +118,7 @@ def shaders(kind: str) -> tuple[int, int]:
 
 
 def _combined(node: Node, first: Value | None, second: Value | None) -> Value:
-    """Return the sum of two parts, weighted by the factor of a Mix Shader; None stands for 0."""
+    """Return the sum of two values, weighted by the factor of a Mix Shader; None counts as 0."""
     first, second = first or constant(0), second or constant(0)
     if node.bl_idname == ADD:
         return function_of(lambda a, b: a + b, first, second)

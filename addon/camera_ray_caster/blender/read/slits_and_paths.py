@@ -8,7 +8,7 @@ X_AXIS = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
 
 
 def line_record(setting: Line, item, depsgraph):
-    """Return the line that an object stands for, as the depsgraph evaluated it; see ``core.cameras.parts.lines``.
+    """Return the line of an object, as the depsgraph evaluated it; see ``core.cameras.parts.lines``.
 
     The line is (points, matrix_world), with the first and the last control point of a curve's first spline, or the ends
     of any other object's X axis. For a ``sampled`` setting it is (points, matrix_world, edges), as Blender samples the

@@ -22,7 +22,7 @@ class SidebarCast(Sidebar, bpy.types.Panel):
     bl_label = "Cast"
 
     def draw(self, context):
-        """Draw the button or the progress, a menu of the images, and rows about the latest cast and what it omitted."""
+        """Draw the button or the progress, a menu of the images, and the result and omissions of the latest cast."""
         layout, fraction = self.layout, cast_operator.fraction()
         row = layout.row()
         row.scale_y = 1.4

@@ -30,7 +30,7 @@ TIMES = {
     pixel_time.IMAGE: "time_displacement", pixel_time.ROLLING_SHUTTER: "rolling_shutter",
     pixel_time.SWEEP: "street_scanner",
 }  # fmt: skip
-"""Scene of each time of the pixels, but for one time."""
+"""Scene of each mode of pixel times except One Time."""
 SHORT = {
     "EQUIRECTANGULAR": "Equirect.", "EQUIANGULAR_CUBEMAP_FACE": "Cube Face", "FISHEYE_EQUIDISTANT": "Equidistant",
     "FISHEYE_EQUISOLID": "Equisolid", "FISHEYE_LENS_POLYNOMIAL": "Fisheye Poly", "CENTRAL_CYLINDRICAL": "Central Cyl.",

@@ -103,7 +103,7 @@ def mark(screen) -> None:
 
 
 def draw() -> None:
-    """Have the views updated after this drawing if what they show has changed; called by Blender for each 3D View."""
+    """Update the views after this drawing if their content has changed; called by Blender for each 3D View."""
     if _is_stale(bpy.context.space_data, bpy.context.scene) and not bpy.app.timers.is_registered(update):
         bpy.app.timers.register(update, first_interval=0.0)
 

@@ -41,7 +41,7 @@ FOLDER = Path(__file__).parents[2]
 
 
 class Work:
-    """A command that runs: its process, and what it prints, in a temporary folder."""
+    """A running command: its process, and its output in a temporary folder."""
 
     def __init__(self, command: str, words: Sequence[str], folder: Path):
         self.command, self.folder, self.is_stopped = command, folder, False
@@ -92,7 +92,7 @@ class Work:
 
 
 def program_of() -> tuple[list[str], dict[str, str]]:
-    """Return the words that run a command of this add-on, and what they need of the environment."""
+    """Return the command line that runs a command of this add-on, and its environment variables."""
     environment = {"PYTHONPATH": str(FOLDER.parent)}
     if not bpy.app.binary_path:  # pip's bpy
         return [sys.executable, "-m", FOLDER.name], environment
@@ -176,7 +176,7 @@ def forget() -> None:
 
 @bpy.app.handlers.persistent
 def forget_result(*_) -> None:
-    """Another file is opened: how the latest work ended is no more of interest there."""
+    """Forget how the latest work ended, since another file is opened."""
     _ended.clear()
 
 

@@ -89,7 +89,7 @@ def show_cast(space, scene) -> bool:
 
 
 def watch() -> float | None:
-    """Give back shading and engine where a cast is no longer shown; called by a timer until none is."""
+    """Restore shading and engine where a cast is no longer shown; called by a timer while one is shown."""
     if bpy.app.is_job_running("RENDER"):  # with an engine of its own
         return PERIOD
     shown = {space.as_pointer(): window.scene for window, space in _every_view()}

@@ -59,7 +59,7 @@ def _read_and_verified(scene, camera_object=None, frame=None, view="") -> tuple[
 MOST_KEPT = 64
 """Number of cameras whose findings are kept."""
 _kept: dict[tuple[str, str], tuple[Any, list[Finding]]] = {}
-"""The findings on the cameras and views of pictures, the latest last, and what they depend on."""
+"""The findings on cameras and views, the latest last, with the settings that they depend on."""
 
 
 def findings_of_picture(camera: Camera, camera_object, depsgraph, view="") -> list[Finding]:

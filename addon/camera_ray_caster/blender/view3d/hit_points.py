@@ -23,7 +23,7 @@ CLOSER = 0.003
 inside a surface that is seen at an angle.
 """
 MOST_RAYS = 1 << 20
-"""Largest number of rays of which points are drawn."""
+"""Largest number of points that are drawn."""
 
 _drawn: list[tuple] = []
 """The latest points, as (scene, points), and as (inputs, batch)."""

@@ -30,7 +30,7 @@ LINE = 1.0
 
 @dataclass
 class LiveView:
-    """What a region's picture is made of, each with the key of what it was made from."""
+    """The parts of a region's picture, each with the key of its inputs."""
 
     camera: tuple[Any, Camera | None, str] = (None, None, "")
     """Key, camera, and why it is not shown live."""

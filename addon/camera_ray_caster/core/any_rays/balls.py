@@ -1,4 +1,4 @@
-"""A quick test of which rays may meet bounding balls. It takes a quarter of the time of the exact test of a sphere."""
+"""A quick test whether rays may meet bounding balls: a quarter of the time of the exact test of a sphere."""
 
 from __future__ import annotations
 

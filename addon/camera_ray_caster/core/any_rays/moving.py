@@ -102,7 +102,7 @@ def _radius(motion: Motion) -> np.ndarray:
 
 
 def _boxes(motion: Motion, forms: dict[int, Form], changes: np.ndarray) -> dict[int, np.ndarray]:
-    """Return the boxes of shapes, ``changes`` says of which the mesh is another at other times."""
+    """Return the boxes of shapes; ``changes`` marks those whose mesh changes with time."""
     first, boxes = next(iter(motion.states.values()))[1], {}
     for row, kind in enumerate(first.kind.tolist()):
         if kind in FLAT_OR_ROUND:

@@ -123,7 +123,7 @@ class OwnTimes:
     def _candidates(
         self, placed: InCamera, near: float, limit: Callable[[], np.ndarray]
     ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Yield rays and the triangles that they may meet, (m,) each; 0 for shapes that are no meshes."""
+        """Yield rays and the triangles that they may meet, (m,) each; 0 for shapes other than meshes."""
         rays = np.arange(len(self.times))
         if placed.shapes.kind[0] != MESH:
             yield rays, np.zeros(len(rays), np.int32)

@@ -35,7 +35,7 @@ GOOD = 0.05
 """Pixels: a perspective that errs by no more is taken, also if a fisheye errs less: more engines render it."""
 
 WORST_FIT = 0.05
-"""Part of the frame: a lens that errs by more is no likeness."""
+"""Fraction of the frame: a fit with larger errors is refused."""
 
 PARALLEL = 1e-7
 """Largest slope of rays that count as parallel: matrices of float32 turn them by as much."""

@@ -169,7 +169,7 @@ def _angles(rays: np.ndarray) -> np.ndarray:
 
 
 def _best(searches: list[Search]) -> tuple[Search, np.ndarray, bool, float]:
-    """Return the search that sees most rays, and among those the one with the least sum, and what it returned.
+    """Return the search that keeps most rays in view, among equals the one with the least sum, and its result.
 
     Once one has ended at a minimum with all rays, those that begin with fewer are left out: they see no more.
     """

@@ -11,7 +11,7 @@ from .spherical_stereo import with_eye
 
 
 def posed(camera, matrix):
-    """Return a ``Camera`` with another pose. Raises InputError for a matrix that is no pose, and for a camera that
+    """Return a ``Camera`` with another pose. Raises InputError for an invalid matrix, and for a camera that
     moves while it is exposed.
     """
     check_still(camera, "pose")

@@ -129,7 +129,7 @@ class CrossSlit(WindowModel):
         return np.stack(self.window.pixels_from_plane(across / scale, up / scale), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen.
+        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame).
 
         Seen along a slit, the two planes through it that touch a sphere are tangents from a point to a disc.
         """

@@ -77,7 +77,7 @@ class CubemapFace(WindowModel):
         return np.stack(self.window.pixels_from_plane(*angles), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
+        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame)."""
         x, y, z = components(centers)
         intervals = []
         for side, frame in ((x, self.extent[:2]), (y, self.extent[2:])):

@@ -131,7 +131,7 @@ class GeneralLinear(Model):
         return np.stack((across / determinant * self.size[0], up / determinant * self.size[1]), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
+        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame)."""
         across, up, determinant = self._solved(*(Interval.around(c, radii) for c in components(centers)))
         x, y = across / determinant * self.size[0], up / determinant * self.size[1]
         bounds = np.stack(

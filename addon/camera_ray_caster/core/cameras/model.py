@@ -70,7 +70,7 @@ class Model(OldNames, ABC):
     central: ClassVar[bool] = True
     """Whether all chief rays leave the eye, the origin of the camera's frame."""
     focused_at: ClassVar[float | None] = None
-    """Depth at which a central model may stand for this one, whose eye moves a little; None if none may."""
+    """Depth at which a central model may replace this one, whose eye moves a little; None if none may."""
     straight: ClassVar[bool] = False
     """Whether straight lines have straight images, so that the image of a triangle before the camera is a triangle."""
     parallel: ClassVar[bool] = False

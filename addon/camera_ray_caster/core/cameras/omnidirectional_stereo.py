@@ -127,7 +127,7 @@ class OmnidirectionalStereo(WindowModel):
         return np.stack(self._in_frame(column, row, first != side), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen.
+        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame).
 
         Both eyes' pictures of a sphere share one rectangle.
         """

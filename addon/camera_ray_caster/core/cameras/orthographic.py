@@ -75,7 +75,7 @@ class Orthographic(WindowModel):
         return np.stack(self.window.pixels_from_plane(points[..., 0], points[..., 1]), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
+        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame)."""
         x, y = centers[:, 0], centers[:, 1]
         behind = centers[:, 2] - radii > 0
         radii = np.where(behind, np.nan, radii)

@@ -92,7 +92,7 @@ class Pencil(WindowModel):
         return np.stack(self.window.pixels_from_plane(x / depth, y / depth), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
+        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame)."""
         beside, rise, ahead = ((centers - self.point) @ self.axes.T).T
         side = np.where(ahead < 0, -1.0, 1.0)  # a line through the slit has the same m on both sides of it
         m, tangent = (

@@ -76,7 +76,7 @@ class Perspective(WindowModel):
         return np.stack(self.window.pixels_from_plane(points[..., 0] / depth, points[..., 1] / depth), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
+        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame)."""
         x, y, depth = centers[:, 0], centers[:, 1], -centers[:, 2]
         return pixel_bounds(self.window, pinhole_interval(x, depth, radii), pinhole_interval(y, depth, radii))
 

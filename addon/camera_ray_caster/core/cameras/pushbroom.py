@@ -95,7 +95,7 @@ class Pushbroom(WindowModel):
         )
 
     def bounds(self, centers, radii):
-        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
+        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame)."""
         inward = self.along * self.step[2] - (0.0, 0.0, 1.0)  # a point's depth before its eye is linear in the point
         length = np.linalg.norm(inward)
         beside = centers - self.start

@@ -161,7 +161,7 @@ class Scanner(Model):
         return np.stack((column / self._across, row / self._down), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen.
+        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame).
 
         A ray from an origin beside the center meets a sphere only if the ray from the center, moved there, meets the
         sphere enlarged by the distance. A sphere that holds the axis or crosses the seam covers all columns.

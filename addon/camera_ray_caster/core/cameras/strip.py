@@ -151,7 +151,7 @@ class Strip(Model):
         return np.stack((x, self.rows.pixels_from_plane(0.0, slope)[1]), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen.
+        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame).
 
         The path is examined piece by piece: a piece counts if its columns' planes come within the radius of the center,
         and the sphere is not behind all of them.

@@ -22,7 +22,7 @@ from ..records import InputError
 from .format import Content, Format, Shot
 
 WORST_FIT = 0.05
-"""Part of the frame: a lens that errs by more is no likeness."""
+"""Fraction of the frame: a fit with larger errors is refused."""
 
 FIT, FIT_WITHIN = "Fit Nearest Lens", "Within"
 """The labels of the options in the window."""

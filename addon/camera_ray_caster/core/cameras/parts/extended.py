@@ -21,7 +21,7 @@ curve leads far away.
 """
 
 CONTINUED = (1, 0, 0, 0), (2, -1, 0, 0), (3, -3, 1, 0), (4, -6, 4, -1)
-"""The next entry as a sum of the nearest four, of which one, two, three and four are known."""
+"""The next entry as a weighted sum of the nearest four, if one, two, three or four are known."""
 
 WEIGHTS = np.array((0.0, 1e-9, 1e-6, 1e-3, 1.0))
 """Weights of continuations by how many entries they follow: if several lead to an entry, the best counts alone."""

@@ -78,7 +78,7 @@ class Meridians(WindowModel):
         return np.stack(self.window.pixels_from_plane(longitude, height), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen.
+        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame).
 
         A sphere that holds a pole or crosses the seam covers all columns: there is one rectangle per sphere.
         """

@@ -149,7 +149,7 @@ class Radial(WindowModel):
         return np.stack(self._pixels(x * scale, y * scale), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
+        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame)."""
         return pixel_bounds(self.window, *radial_intervals(centers, radii, self.radius, self.widest))
 
 
