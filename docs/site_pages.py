@@ -98,7 +98,7 @@ def door() -> str:
 
 def directive(name: str) -> str:
     """Return the directive that documents a public name."""
-    module, _, other = crc._MODULES.get(name, "").partition(":")
+    module, _, other = crc._MODULE_OF.get(name, "").partition(":")
     if module.startswith(".blender"):
         return from_source(name, module, other or name)
     if isinstance(getattr(crc, name), type):
@@ -164,7 +164,7 @@ def rest_of(lines: list[str]) -> list[str]:
 def lead_back(app, page: str, template, context, doctree) -> None:
     """Lead a page of source back to the public names: viewcode asks for those of the modules that define them."""
     if page.startswith("_modules/"):
-        for name, module in crc._MODULES.items():
+        for name, module in crc._MODULE_OF.items():
             context["body"] = re.sub(
                 rf"(?<=#camera_ray_caster){re.escape(module)}(?=\.{name}\b)", "", context.get("body", "")
             )
