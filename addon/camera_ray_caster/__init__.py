@@ -63,8 +63,9 @@ if TYPE_CHECKING:
     from .core.library.poses import look_at, pose_from_opencv
     from .core.library.rigs import load_rig
     from .core.library.shapes import mesh, planes, spheres
-    from .core.records import Cancelled, InputError, Rays, Shapes
+    from .core.records import Cancelled, InputError, Rays
     from .core.scene import Scene
+    from .core.shape_records import Shapes
     from .core.version import VERSION
 
     __version__ = VERSION
@@ -93,8 +94,9 @@ _MODULES = {
     ".core.library.poses": "look_at pose_from_opencv",
     ".core.library.rigs": "load_rig",
     ".core.library.shapes": "mesh planes spheres",
-    ".core.records": "Cancelled InputError Rays Shapes",
+    ".core.records": "Cancelled InputError Rays",
     ".core.scene": "Scene",
+    ".core.shape_records": "Shapes",
     ".core.version:VERSION": "__version__",
 }
 """Public names by module; after a colon the name there, if it is another."""
