@@ -1,10 +1,8 @@
 """The page of camera models, which is made from what they declare."""
 
-import re
 import runpy
 from pathlib import Path
 
-import camera_ray_caster
 from camera_ray_caster.core.camera import pixel_time
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.exports import EXPORT_FORMATS
@@ -35,13 +33,3 @@ def test_every_export_and_every_program_is_on_the_page_of_files():
     for program in PROGRAMS:
         assert f"| {program.name} | {program.files} | {program.reads} |" in page
         assert program.read is None or program.name in READ
-
-
-def test_the_numbers_of_the_pages_are_those_of_today():
-    package = Path(camera_ray_caster.__file__).parent
-    readme = (package.parents[1] / "README.md").read_text(encoding="utf-8")
-    read = sum(any((program.read, program.poses, program.rays)) for program in PROGRAMS)
-    assert re.findall(r"\*\*(\d+) camera models\*\*", readme) == [str(len(MODELS))]
-    assert re.findall(r"\[(\d+) programs\]", readme) == [str(read)]
-    assert re.findall(r"writes (\d+)\.", readme) == [str(len(EXPORT_FORMATS))]
-    assert f'tagline = "{len(MODELS)} ' in (package / "blender_manifest.toml").read_text(encoding="utf-8")

@@ -5,6 +5,10 @@ from pathlib import Path
 
 import pytest
 
+from camera_ray_caster.core.cameras import MODELS
+from camera_ray_caster.core.exports import EXPORT_FORMATS
+from camera_ray_caster.core.programs import PROGRAMS
+
 from .test_program import ADDON, run
 
 ROOT = ADDON.parent
@@ -56,3 +60,12 @@ def test_a_link_to_nothing_is_seen():
         assert leads_somewhere(page, link), link
     for link in ("convention.md", "conventions.md#pixel", "../../README.md", "http:/blender", "https://blender"):
         assert not leads_somewhere(page, link), link
+
+
+def test_the_numbers_of_the_pages_are_those_of_today():
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    read = sum(any((program.read, program.poses, program.rays)) for program in PROGRAMS)
+    assert re.findall(r"\*\*(\d+) camera models\*\*", readme) == [str(len(MODELS))]
+    assert re.findall(r"\[(\d+) programs\]", readme) == [str(read)]
+    assert re.findall(r"writes (\d+)\.", readme) == [str(len(EXPORT_FORMATS))]
+    assert f'tagline = "{len(MODELS)} ' in (ADDON / "camera_ray_caster" / "blender_manifest.toml").read_text(encoding="utf-8")
