@@ -68,4 +68,5 @@ def test_the_numbers_of_the_pages_are_those_of_today():
     assert re.findall(r"\*\*(\d+) camera models\*\*", readme) == [str(len(MODELS))]
     assert re.findall(r"\[(\d+) programs\]", readme) == [str(read)]
     assert re.findall(r"writes (\d+)\.", readme) == [str(len(EXPORT_FORMATS))]
-    assert f'tagline = "{len(MODELS)} ' in (ADDON / "camera_ray_caster" / "blender_manifest.toml").read_text(encoding="utf-8")
+    manifest = (ADDON / "camera_ray_caster" / "blender_manifest.toml").read_text(encoding="utf-8")
+    assert f'tagline = "{len(MODELS)} ' in manifest
