@@ -26,6 +26,12 @@ FAILURES = (
     subprocess.SubprocessError,
 )  # fmt: skip
 """What ends a scenario, but not the walk."""
+SMOOTH = (
+    "overlay", "scanned_points", "slit_scan_preview", "live_redraws", "redraws_of_models", "redraws_all_around",
+)  # fmt: skip
+"""Scenarios with Blender's default antialiasing, since they look at thin lines or take the time of redraws. All others
+have none: by software it draws each change several times, which was half of the time of all.
+"""
 
 
 def install(folder):
@@ -49,6 +55,7 @@ def prepare():
 def tell(user, scenes, results, wanted):
     """Yield through the scenarios, and note how each ended; its seconds are printed."""
     for name in wanted or SCENARIOS:
+        bpy.context.preferences.system.viewport_aa = "8" if name in SMOOTH else "OFF"
         began, used = time.monotonic(), time.process_time()
         try:
             yield from (SCENARIOS[name] if name in SCENARIOS else acts(int(name)))(user, scenes)
