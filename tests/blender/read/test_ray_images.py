@@ -21,18 +21,23 @@ def has_openimageio():
 pytestmark = pytest.mark.skipif(not has_openimageio(), reason="this build of Blender has no OpenImageIO")
 
 
-def written(path, channels, kind="float", compression="zip", tile=0, parts=1):
-    """Write channels by name, (rows, columns) from the bottom, into an EXR by OpenImageIO."""
+def written(path, channels, kind="float", compression="zip", tile=0, parts=("",)):
+    """Write channels by name, (rows, columns) from the bottom, into each part of an EXR, the part's name ahead, by
+    OpenImageIO.
+    """
     library = openimageio()
     pixels = np.stack(list(channels.values()), axis=2)[::-1].astype(np.float32).copy()
-    spec = library.ImageSpec(pixels.shape[1], pixels.shape[0], pixels.shape[2], kind)
-    spec.channelnames = tuple(channels)
-    spec.attribute("compression", compression)
-    spec.tile_width = spec.tile_height = tile
+    specs = []
+    for part in parts:
+        spec = library.ImageSpec(pixels.shape[1], pixels.shape[0], pixels.shape[2], kind)
+        spec.channelnames = tuple(f"{part}{name}" for name in channels)
+        spec.attribute("compression", compression)
+        spec.tile_width = spec.tile_height = tile
+        specs.append(spec)
     out = library.ImageOutput.create(str(path))
-    assert out.open(str(path), (spec,) * parts)
-    for part in range(parts):
-        assert part == 0 or out.open(str(path), spec, "AppendSubimage")
+    assert out.open(str(path), tuple(specs))
+    for k, spec in enumerate(specs):
+        assert k == 0 or out.open(str(path), spec, "AppendSubimage")
         assert out.write_image(pixels)
     out.close()
     return path
@@ -50,13 +55,15 @@ def smooth_and_noisy(rows, columns):
 @pytest.mark.parametrize("kind", ["float", "half"])
 @pytest.mark.parametrize("compression", ["none", "rle", "zips", "zip", "piz"])
 def test_numbers_are_those_that_openimageio_writes(compression, kind, tmp_path):
-    for shape, tile, parts in (((37, 53), 0, 1), ((1, 1), 0, 1), ((5, 300), 16, 1), ((200, 3), 0, 2)):
+    several = "", "left."
+    for shape, tile, parts in (((37, 53), 0, ("",)), ((1, 1), 0, ("",)), ((5, 300), 16, ("",)), ((200, 3), 0, several)):
         channels = smooth_and_noisy(*shape)
         path = written(tmp_path / "image.exr", channels, kind, compression, tile, parts)
         there = channels_of(path.read_bytes(), str(path))
-        assert set(there) == set(channels)
-        for name, values in channels.items():
-            np.testing.assert_array_equal(there[name][::-1], values.astype("f4" if kind == "float" else "f2"))
+        assert set(there) == {f"{part}{name}" for part in parts for name in channels}
+        for name, values in there.items():
+            expected = channels[name.split(".")[-1]].astype("f4" if kind == "float" else "f2")
+            np.testing.assert_array_equal(values[::-1], expected)
 
 
 @pytest.mark.parametrize("compression", ["pxr24", "b44", "dwaa"])
@@ -80,6 +87,7 @@ def test_channels_with_names_are_origins_and_directions(tmp_path):
     [
         (lambda path: written(path, vector(pinhole(), "", "RGB"), "half"), "half floats"),
         (lambda path: written(path, {"Z": pinhole()[..., 2]}), "its channels are Z: it must have one direction"),
+        (lambda path: written(path, vector(pinhole(), "", "RGB"), parts=("", "")), "parts with the same channels"),
         (lambda path: written(path, vector(pinhole(), "a.") | vector(pinhole(), "b.")), "have one direction"),
     ],
 )

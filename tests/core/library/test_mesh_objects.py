@@ -70,7 +70,12 @@ def test_a_texture_shows_as_trimesh_means_it(material, factor):
 
 @pytest.mark.parametrize(
     ("material", "color"),
-    [({"main_color": (255, 0, 188, 255)}, (1, 0, 0.5029)), ({"baseColorFactor": (51, 0, 255, 255)}, (0.2, 0, 1))],
+    [
+        ({"main_color": (255, 0, 188, 255)}, (1, 0, 0.5029)),
+        ({"main_color": (255, 0, 188)}, (1, 0, 0.5029)),
+        ({"baseColorFactor": (51, 0, 255, 255)}, (0.2, 0, 1)),
+        ({"baseColorFactor": (0.2, 0.0, 1.0)}, (0.2, 0, 1)),
+    ],
 )
 def test_a_material_without_an_image_is_its_color(material, color):
     plain = thing(kind="texture", uv=None, material=SimpleNamespace(**material))
@@ -90,6 +95,30 @@ def test_what_is_no_mesh_is_refused_in_one_line():
         crc.mesh(VERTICES)
     with pytest.raises(crc.InputError, match=r"colors of the mesh are of shape \(1, 4\)"):
         crc.mesh(thing(kind="face", face_colors=FACE_COLORS[:1]))
+    with pytest.raises(crc.InputError, match="vertices"):
+        crc.mesh(SimpleNamespace(vertices=[(0, 0, 0), (1, 0)], faces=FACES))
+
+
+FROM_0 = "must be whole numbers from 0 to 255, or numbers from 0 to 1"
+
+
+@pytest.mark.parametrize(
+    ("visual", "says"),
+    [
+        ({"vertex_colors": np.full((4, 3), 255.0)}, FROM_0),
+        ({"vertex_colors": np.full((4, 3), 65535, np.uint16)}, FROM_0),
+        ({"vertex_colors": np.full((4, 4), np.nan)}, FROM_0),
+        ({"vertex_colors": 7}, r"of shape \(\)"),
+        ({"vertex_colors": "red"}, "colors"),
+        ({"material": SimpleNamespace(main_color="red")}, "the material's color"),
+        ({"material": SimpleNamespace(baseColorFactor=(2.0, 0, 0))}, FROM_0),
+        ({"uv": UV, "material": SimpleNamespace(image=TEXELS[:0])}, "the texture of the mesh"),
+        ({"uv": UV, "material": SimpleNamespace(image=TEXELS, alphaCutoff="half")}, "alphaCutoff"),
+    ],
+)
+def test_colors_that_are_none_are_refused_in_one_line(visual, says):
+    with pytest.raises(crc.InputError, match=says):
+        crc.mesh(thing(**visual))
 
 
 def test_a_mesh_of_trimesh():

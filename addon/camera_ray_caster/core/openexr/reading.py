@@ -35,14 +35,18 @@ def channels_of(content: bytes, path: str) -> dict[str, np.ndarray]:
     read.
     """
     try:
+        if not content.startswith(MAGIC):
+            raise InputError(f"{path!r} is no EXR image")
         (version,) = struct.unpack_from("<I", content, len(MAGIC))
-        if not content.startswith(MAGIC) or version & DEEP:
-            raise InputError(f"{path!r} is {'a deep' if version & DEEP else 'no'} EXR image: give one with flat pixels")
+        if version & DEEP:
+            raise InputError(f"{path!r} is a deep EXR image: give one with flat pixels")
         has_parts = bool(version & SEVERAL_PARTS)
         parts, position = _parts(content, has_parts)
         channels: dict[str, np.ndarray] = {}
         for attributes in parts:
             image, position = _image(content, position, attributes, has_parts, path)
+            if channels.keys() & image.keys():
+                raise InputError(f"EXR image {path!r} has several parts with the same channels: give each a file")
             channels |= image
         return channels
     except DAMAGED as error:
