@@ -26,7 +26,7 @@ FULL = (
 """Rooms and files that need a window, a copy of the repository, other programs or hostile inputs: full as a whole."""
 LONGEST = (
     "tests/recipes/test_recipes.py", "tests/blender/faces/test_beside_cycles.py", "tests/scripts/test_benchmark.py",
-    "tests/core/web/test_page.py", "tests/scripts/test_site.py", "tests/blender/faces/test_picture.py",
+    "tests/core/web/test_page.py", "tests/scripts/test_site.py", "tests/blender/faces/test_engine_picture.py",
     "tests/core/library/test_own_model.py", "tests/core/sets/test_memory.py", "tests/core/any_rays/test_brute_force.py",
     "tests/hostile/test_share_kills.py", "tests/hostile/test_farm_kills.py", "tests/core/camera/test_camera.py",
 )  # fmt: skip
