@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from math import inf
-from typing import Any
+from typing import Any, NamedTuple, Self
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -40,6 +40,23 @@ PAIRS_WITHOUT_TREE = 1 << 12
 """Number of pairs of rays and bodies tested all at once, without a tree: a ray with a time of its own at a mesh
 of 400 to 4,096 triangles that moves takes 2 to 3 ms, where its tree would make it 4 to 6.
 """
+
+
+class SearchedRays(NamedTuple):
+    """Rays, by origins and directions (3, n)."""
+
+    origin: np.ndarray
+    direction: np.ndarray
+    from_eye: bool = False
+    """Whether all rays have the same origin, so that ``only`` need not copy it."""
+
+    def only(self, indices: np.ndarray) -> Self:
+        """Return some of them, by index."""
+        if self.from_eye:
+            origin = np.broadcast_to(self.origin[:, :1], (3, len(indices)))
+        else:
+            origin = taken(self.origin, indices)
+        return self._replace(origin=origin, direction=taken(self.direction, indices))
 
 
 class BodySearch(RayBodies):
@@ -108,20 +125,20 @@ class BodySearch(RayBodies):
         with np.errstate(all="ignore"):  # NaN and inf mean no hit
             kinds = [bodies.prepared(origin[:, finite]) for bodies in self._kinds]
             for first in range(0, len(finite), MOST_RAYS):
-                rays = finite[first : first + MOST_RAYS]
-                start, ahead = taken(origin, rays), taken(direction, rays)
-                if (start == start[:, :1]).all():
-                    start = np.broadcast_to(start[:, :1], start.shape)
-                for order, pairs in self._parts(start, ahead, near):
-                    vectors, chunk = (_of(start, order), taken(ahead, order)), rays[order]
-                    for ray, body in self._candidates(vectors, pairs(partial(limit, chunk)), scratch):
-                        for hits in self._met(kinds, ray, body, vectors, near, far, scratch, twice):
+                numbers = finite[first : first + MOST_RAYS]
+                start, ahead = taken(origin, numbers), taken(direction, numbers)
+                rays = SearchedRays(start, ahead, from_eye=bool((start == start[:, :1]).all()))
+                for order, pairs in self._parts(rays, near):
+                    chunk, of_chunk = numbers[order], rays.only(order)
+                    for ray, body in self._candidates(of_chunk, pairs(partial(limit, chunk)), scratch):
+                        for hits in self._met(kinds, ray, body, of_chunk, near, far, scratch, twice):
                             keep(chunk, hits)
 
-    def _parts(self, origin, direction, near: float) -> Iterator[tuple[np.ndarray, Callable]]:
+    def _parts(self, rays: SearchedRays, near: float) -> Iterator[tuple[np.ndarray, Callable]]:
         """Yield the rays in parts, by index, with a function that yields rays of the part and bodies whose boxes they
         may meet, (m,) each, given a function that returns the largest t of hits.
         """
+        origin, direction, _ = rays
         count = origin.shape[1]
         if 0 < BUNDLED * len(self._in_boxes) < count:
             bundle = bundle_of(origin, direction, *self._boxes, self._in_boxes)
@@ -131,30 +148,31 @@ class BodySearch(RayBodies):
         every = np.arange(count) if self._tree is None else coherent_order(origin, direction, self._tree.reach)
         for first in range(0, count, RAYS):
             order = every[first : first + RAYS]
-            yield order, partial(self._descended, _of(origin, order), taken(direction, order), near)
+            yield order, partial(self._descended, rays.only(order), near)
 
-    def _descended(self, origin, direction, near: float, limit: Callable) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    def _descended(self, rays: SearchedRays, near: float, limit: Callable) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         if self._tree is not None:
-            packets = packets_of(origin, direction)
+            packets = packets_of(rays.origin, rays.direction)
             yield from Traversal(self._tree, packets, near, lambda: packets.farthest(limit())).pairs()
 
-    def _candidates(self, vectors, in_boxes: Iterator, scratch: Scratch) -> Iterator[tuple[Any, Any]]:
+    def _candidates(self, of_chunk: SearchedRays, in_boxes: Iterator, scratch: Scratch) -> Iterator[tuple[Any, Any]]:
         """Yield rays and bodies that may meet: (m,) each, or rays and one body."""
-        rays, bodies = np.arange(vectors[0].shape[1]), self._one_by_one
-        eye, ahead = vectors[0] if vectors[0].strides[1] else vectors[0][:, 0], unit_directions(vectors[1])
+        origin, direction, from_eye = of_chunk
+        rays, bodies = np.arange(origin.shape[1]), self._one_by_one
+        start, ahead = origin[:, 0] if from_eye else origin, unit_directions(direction)
         if 0 < len(rays) * len(bodies) <= PAIRS_WITHOUT_TREE:
             yield np.repeat(rays, len(bodies)), np.tile(bodies, len(rays))
         elif len(rays):
             for shape in np.unique(self.at[bodies]).tolist():
                 middle, radius = self.placed.center[shape], self.placed.radius[shape]
-                close = np.flatnonzero(may_meet(middle, radius, eye, ahead, scratch)) if radius < inf else rays
+                close = np.flatnonzero(may_meet(middle, radius, start, ahead, scratch)) if radius < inf else rays
                 for body in bodies[self.at[bodies] == shape].tolist():
                     yield close, body
         for ray, body in in_boxes:
             if not self._all_triangles:  # of a thousand spheres the balls leave 0.7 of the time
                 whole = np.flatnonzero(~taken(self.is_triangle, body))
                 balls, close = taken(self.at, taken(body, whole)), np.ones(len(ray), bool)
-                of_pairs = self._middle, self.placed.radius, balls, eye, ahead, taken(ray, whole)
+                of_pairs = self._middle, self.placed.radius, balls, start, ahead, taken(ray, whole)
                 close[whole] = pairs_may_meet(*of_pairs, scratch)
                 near = np.flatnonzero(close)
                 ray, body = ray[near], body[near]
@@ -169,22 +187,20 @@ class BodySearch(RayBodies):
         return np.ascontiguousarray(self.placed.center.T)
 
     def _met(
-        self, kinds, ray, body, vectors, near: float, far: float, scratch: Scratch, twice: bool
+        self, kinds, ray, body, of_chunk: SearchedRays, near: float, far: float, scratch: Scratch, twice: bool
     ) -> Iterator[RayHits]:
         """Yield the hits among candidates, kind by kind."""
-        origin, direction = vectors
-        if len(ray) != origin.shape[1] or np.ndim(body):
-            origin, direction = _of(origin, ray), taken(direction, ray)
+        rays = of_chunk.only(ray) if len(ray) != of_chunk.origin.shape[1] or np.ndim(body) else of_chunk
         kind, numbers = self._kind[body], self._own[body]
         for k, bodies in enumerate(kinds):
             of_kind = kind == k
             if not np.any(of_kind):
                 continue
-            number, rays, left, ahead = numbers, ray, origin, direction
+            candidates = numbers, ray, rays
             if not np.all(of_kind):
                 pairs = np.flatnonzero(of_kind)
-                number, rays, left, ahead = number[pairs], ray[pairs], _of(origin, pairs), taken(direction, pairs)
-            for hits in met(bodies, number, rays, (left, ahead), near, far, scratch, twice):
+                candidates = numbers[pairs], ray[pairs], rays.only(pairs)
+            for hits in met(bodies, *candidates, near, far, scratch, twice):
                 yield RayHits(hits.ray, hits.t, self._place[k][hits.body])
 
 
@@ -199,31 +215,26 @@ def search_of(shapes: Shapes) -> BodySearch:
 
 
 def met(
-    bodies: Bodies, body: Any, ray: np.ndarray, rays: Any, near: float, far: float, scratch: Scratch, twice: bool
-) -> Iterator[RayHits]:
-    """Yield the hits of rays, origins and directions (3, m) each, on bodies, (m,) or one for all: the nearest from
-    ``near`` to ``far``, or ``twice``. ``ray`` are the numbers of the rays, (m,).
+    bodies: Bodies, body: Any, ray: np.ndarray, rays: SearchedRays, near: float, far: float, scratch: Scratch,
+    twice: bool,
+) -> Iterator[RayHits]:  # fmt: skip
+    """Yield the hits of m rays on bodies, (m,) or one for all: the nearest from ``near`` to ``far``, or ``twice``.
+    ``ray`` are the numbers of the rays, (m,).
     """
-    origin, direction = rays
     start: Any = near
     while len(ray):
-        t = bodies.meet(body, origin, direction, start, scratch)
+        t = bodies.meet(body, rays.origin, rays.direction, start, scratch)
         hit = np.flatnonzero((t <= far) & (t < np.inf))
-        ray, origin, direction, t = ray[hit], _of(origin, hit), direction[:, hit], t[hit]
+        ray, rays, t = ray[hit], rays.only(hit), t[hit]
         body = np.broadcast_to(body, (len(hit),)) if np.ndim(body) == 0 else body[hit]
-        seen = bodies.is_hit(body, origin, direction, t)
+        seen = bodies.is_hit(body, rays.origin, rays.direction, t)
         is_hit = np.flatnonzero(np.broadcast_to(seen, t.shape))
         yield RayHits(ray[is_hit], t[is_hit], body[is_hit])
         if not bodies.twice:
             break
         again = np.arange(len(t)) if twice else np.flatnonzero(~np.broadcast_to(seen, t.shape))
-        ray, origin, direction, body = ray[again], _of(origin, again), direction[:, again], body[again]
+        ray, rays, body = ray[again], rays.only(again), body[again]
         start = np.nextafter(t[again], np.inf)
-
-
-def _of(origin: np.ndarray, rays: np.ndarray) -> np.ndarray:
-    """Return the origins of some rays, by index; if all are one, without a copy."""
-    return taken(origin, rays) if origin.strides[1] else np.broadcast_to(origin[:, :1], (3, len(rays)))
 
 
 def keep_nearest(hits: RayHits, t: np.ndarray, body: np.ndarray, rays: np.ndarray) -> None:

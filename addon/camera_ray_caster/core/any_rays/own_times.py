@@ -13,7 +13,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from ..conventions import gamma
-from ..maths.speed import Scratch, taken
+from ..maths.speed import Scratch
 from ..mesh import Mesh
 from ..motion.apart import rows_of
 from ..records import MESH, Shapes
@@ -22,7 +22,7 @@ from ..shapes.in_camera import in_camera
 from ..shapes.kind import Kind
 from ..shapes.kinds import by_kind
 from ..shapes.shape_frames import InCamera
-from .body_search import keep_nearest, met
+from .body_search import SearchedRays, keep_nearest, met
 from .forms import BOX_MARGIN, Form
 from .packets import coherent_order, packets_of
 from .ray_bodies import WORLD, RayBodies, RayHits, Span
@@ -109,7 +109,7 @@ class OwnTimes:
         scratch, ((kind, _),) = Scratch(), by_kind(self.shapes.kind)
         with np.errstate(all="ignore"):  # NaN and inf mean no hit
             for ray, triangle in self._candidates(placed, span[0], limit):
-                of_pairs = taken(self.origin, ray), taken(self.direction, ray)
+                of_pairs = SearchedRays(self.origin, self.direction).only(ray)
                 bodies = self._bodies(kind, placed, ray, triangle)
                 for hits in met(bodies, np.arange(len(ray)), ray, of_pairs, *span, scratch, twice):
                     yield RayHits(hits.ray, hits.t, triangle[hits.body])
