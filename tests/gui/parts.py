@@ -18,7 +18,7 @@ def load(user, scenes, name):
     """Open an example scene in the window as it is, with the sidebar on our tab."""
     bpy.ops.wm.open_mainfile(filepath=str(scenes / f"{name}.blend"), load_ui=False)
     view = user.area().spaces.active
-    view.shading.type = "SOLID"
+    view.shading.type, view.overlay.show_overlays = "SOLID", True
     view.region_3d.view_perspective = "PERSP"
     yield from user.wait(0.5)
     yield from user.open_tab("Ray Caster")
