@@ -343,5 +343,5 @@ window.lesson = {
   cast: (x, y) => { const at = worldRay(pose(state), camera.ray(x, y)); return cast(at.origin, at.direction, state.time); },
   place: (point) => space.place(point),
   indices: (key) => { const next = freshState(MODELS.find((one) => one.key === key)); return picture.indices(cameraOf(MODELS.find((one) => one.key === key), next.values), next); },
-  speed: (key, width) => { const one = MODELS.find((other) => other.key === key), next = freshState(one), made = cameraOf(one, next.values); picture.indices(made, next); const began = performance.now(); for (let n = 0; n < 5; n++) picture.draw(made, next, width / one.frame[0]); const pixel = new Uint8Array(4); picture.gl.readPixels(0, 0, 1, 1, picture.gl.RGBA, picture.gl.UNSIGNED_BYTE, pixel); return (performance.now() - began) / 5; },
+  speed: (key, width) => { const one = MODELS.find((other) => other.key === key), next = freshState(one), made = cameraOf(one, next.values); picture.indices(made, next); const began = performance.now(); for (let n = 0; n < 5; n++) picture.draw(made, next, width / one.size[0]); const pixel = new Uint8Array(4); picture.gl.readPixels(0, 0, 1, 1, picture.gl.RGBA, picture.gl.UNSIGNED_BYTE, pixel); return (performance.now() - began) / 5; },
 };
