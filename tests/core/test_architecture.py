@@ -163,14 +163,14 @@ def all_imports():
     return {name_of(path): imports(path) for path in MODULES}
 
 
-def offenders(found):
+def offenders(findings):
     """What was found against a rule, by module or file, where anything was."""
-    return {str(where): what for where, what in found.items() if what}
+    return {str(where): finding for where, finding in findings.items() if finding}
 
 
-def fits(name, part):
-    """Whether a module is a part of the package or inside it."""
-    return name == part or name.startswith(part + ".") or part == ""
+def fits(name, package):
+    """Whether a module is the package or inside it."""
+    return name == package or name.startswith(package + ".") or package == ""
 
 
 def longest(name, table):

@@ -75,20 +75,20 @@ def test_a_folder_that_another_run_has_begun_to_use_stays(tmp_path):
     assert content(out) == {"theirs.png": "theirs"}
 
 
-@pytest.mark.parametrize("place", ["a.exr", "report.json"])
-def test_one_file_that_cannot_be_replaced_keeps_all(tmp_path, place):
-    write(tmp_path, "old", [name for name in NAMES if name != place])
-    (tmp_path / place).mkdir()
+@pytest.mark.parametrize("folder", ["a.exr", "report.json"])
+def test_one_file_that_cannot_be_replaced_keeps_all(tmp_path, folder):
+    write(tmp_path, "old", [name for name in NAMES if name != folder])
+    (tmp_path / folder).mkdir()
     before = content(tmp_path)
     with pytest.raises(InputError, match="cannot write into"):
         write(tmp_path, "new")
     assert content(tmp_path) == before
 
 
-@pytest.mark.parametrize("there", [NAMES, NAMES[:1], ()])
+@pytest.mark.parametrize("old_names", [NAMES, NAMES[:1], ()])
 @pytest.mark.parametrize("step", range(4))
-def test_a_move_that_fails_is_taken_back(tmp_path, monkeypatch, there, step):
-    write(tmp_path, "old", there)
+def test_a_move_that_fails_is_taken_back(tmp_path, monkeypatch, old_names, step):
+    write(tmp_path, "old", old_names)
     before = content(tmp_path)
     replace, count = os.replace, iter(range(100))
 
@@ -125,19 +125,19 @@ print("done")
 
 @pytest.mark.full
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
-@pytest.mark.parametrize("there", [NAMES, NAMES[:1]])
-def test_what_a_killed_run_left_is_completed_or_undone_by_the_next(tmp_path, there):
+@pytest.mark.parametrize("old_names", [NAMES, NAMES[:1]])
+def test_what_a_killed_run_left_is_completed_or_undone_by_the_next(tmp_path, old_names):
     """Killed before each of its steps on the file system, one after the other."""
     ends = set()
     for step in range(40):
         out = tmp_path / str(step)
-        write(out, "old", there)
+        write(out, "old", old_names)
         code = KILLED.format(addon=str(ADDON), step=step, out=str(out), names=NAMES)
         status = subprocess.run([sys.executable, "-c", code], stdout=subprocess.DEVNULL, timeout=60).returncode
         write(out, "other", ["b.png"])
         after = content(out)
         assert after.pop("b.png") == "other"
-        assert after in (dict.fromkeys(there, "old"), dict.fromkeys(NAMES, "new")), step
+        assert after in (dict.fromkeys(old_names, "old"), dict.fromkeys(NAMES, "new")), step
         ends.add((status, len(set(after.values())) and after["a.exr"]))
         if status == 0:
             break

@@ -24,12 +24,12 @@ def turned(shapes, center, angle, scale=(1.0, 1.0, 1.0)):
     return replace(shapes, center=np.array([center], float), axes=(turn * scale)[None])
 
 
-def waving(f, bend=True, **given):
+def waving(f, bend=True, **looks):
     """A mesh of two faces a quad, with normals and a map, that bends and leans."""
     height = 0.3 * np.sin(3 * X + 4 * f * bend) * np.cos(Y)
     normals = np.stack((-0.9 * np.cos(3 * X + 4 * f * bend) * np.cos(Y), 0.3 * np.sin(Y), 1 + 0 * X), axis=1)
-    given = {"normals": normals, "uv": np.stack((X, Y + f), axis=1)} | given
-    return crc.mesh(np.stack((X + 3, Y + f * X, height), axis=1), FACES, name="waving", **given)
+    looks = {"normals": normals, "uv": np.stack((X, Y + f), axis=1)} | looks
+    return crc.mesh(np.stack((X + 3, Y + f * X, height), axis=1), FACES, name="waving", **looks)
 
 
 SCENES = {

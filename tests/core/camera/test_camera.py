@@ -194,6 +194,6 @@ def test_the_rays_of_a_picture_are_within_their_bounds(key):
                 assert off(rays.origins[at][k], exact.origin) <= moved[k]
 
 
-def off(found, exact):
+def off(rounded, exact):
     """The distance between a vector and the exact one."""
-    return truth.norm([truth.mpf(f) - e for f, e in zip(found, exact, strict=True)])
+    return truth.norm([truth.mpf(f) - e for f, e in zip(rounded, exact, strict=True)])

@@ -24,14 +24,14 @@ def placed(scale=1.0, location=0.0):
     return matrix.astype(np.float32).astype(float)
 
 
-def made(kind, settings):
+def camera_of(kind, settings):
     """The camera; its matrix does not move slits and path with it."""
     raw = raw_of(kind, {**SMALL, **{name: value for name, value in settings.items() if name != "matrix_world"}})
     return camera_from(replace(raw, matrix_world=settings.get("matrix_world", np.eye(4))))
 
 
 @pytest.mark.parametrize(
-    ("kind", "settings", "said"),
+    ("kind", "settings", "message"),
     [
         ("PERSP", {"lens": HUGE, "matrix_world": placed()}, "cannot be distinguished: lens is 1e.30"),
         ("PERSP", {"lens": float("inf")}, "lens .* is inf"),
@@ -60,9 +60,9 @@ def made(kind, settings):
         ("PUSHBROOM", {"sensor_width": HUGE}, "along the image plane, .*: sensor_width is 1e.30"),
     ],
 )
-def test_what_float32_does_not_carry_is_refused_by_name(kind, settings, said):
-    with pytest.raises(InputError, match=said) as refused:
-        made(kind, settings)
+def test_what_float32_does_not_carry_is_refused_by_name(kind, settings, message):
+    with pytest.raises(InputError, match=message) as refused:
+        camera_of(kind, settings)
     assert "\n" not in str(refused.value)
 
 
@@ -94,7 +94,7 @@ def test_what_float32_does_not_carry_is_refused_by_name(kind, settings, said):
 )
 def test_what_it_carries_comes_back_to_its_pixel(kind, settings):
     """Nothing warns, a ray has its length, and the round trip holds to its bound."""
-    camera = made(kind, settings)
+    camera = camera_of(kind, settings)
     rays = camera.rays()
     assert rays.valid.any()
     np.testing.assert_allclose(np.linalg.norm(rays.directions[rays.valid], axis=-1), 1.0, atol=1e-14)

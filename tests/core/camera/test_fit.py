@@ -153,7 +153,7 @@ def test_a_wide_fisheye_is_no_pinhole_but_in_its_middle():
 
 
 @pytest.mark.parametrize(
-    ("given", "words"),
+    ("fitted", "message"),
     [
         (("FISHEYE", None, None), "unknown model 'FISHEYE'"),
         (("UCM", 4.0, None), "as an angle it must be above 0, up to pi"),
@@ -169,10 +169,10 @@ def test_a_wide_fisheye_is_no_pinhole_but_in_its_middle():
         (("FOV", (32, 24, 33, 25), None), "sees 1 of 1 rays, too few to fit"),
     ],
 )
-def test_what_cannot_be_fitted_is_refused_in_one_line(given, words):
+def test_what_cannot_be_fitted_is_refused_in_one_line(fitted, message):
     cam = crc.camera("OPENCV_FISHEYE", (64, 48), fx=20.0, fy=20.0)
-    model, region, free = given
-    with pytest.raises(InputError, match=words) as caught:
+    model, region, free = fitted
+    with pytest.raises(InputError, match=message) as caught:
         crc.fit(cam, model, within=region, free=free)
     assert "\n" not in str(caught.value)
 

@@ -89,20 +89,20 @@ def test_at_its_limits_a_camera_agrees_with_itself_or_is_refused(case, size):
     check(raw_of(key, {"resolution_x": size[0], "resolution_y": size[1], **given_settings}))
 
 
-def numbers_of(one):
+def numbers_of(setting):
     """A strategy for a setting over its whole declared range; None for one that the examples give."""
-    if one.kind in ("FLOAT", "INT"):
-        low, high = (float(np.float32(np.clip(end, -3.4e38, 3.4e38))) for end in (one.low, one.high))
-        near = st.integers(-2, 2).map(lambda k: float(one.default) * 2.0**k).filter(lambda v: low <= v <= high)
-        every = st.integers(int(low), int(min(high, 1e6))) if one.kind == "INT" else st.floats(low, high, width=32)
-        return near.map(int) | every if one.kind == "INT" else near | every
-    if one.kind == "VECTOR":
-        return st.tuples(*(st.floats(-2, 2) for _ in one.default)) | st.tuples(
-            *(st.floats(width=32, allow_nan=False, allow_infinity=False) for _ in one.default)
+    if setting.kind in ("FLOAT", "INT"):
+        low, high = (float(np.float32(np.clip(end, -3.4e38, 3.4e38))) for end in (setting.low, setting.high))
+        near = st.integers(-2, 2).map(lambda k: float(setting.default) * 2.0**k).filter(lambda v: low <= v <= high)
+        every = st.integers(int(low), int(min(high, 1e6))) if setting.kind == "INT" else st.floats(low, high, width=32)
+        return near.map(int) | every if setting.kind == "INT" else near | every
+    if setting.kind == "VECTOR":
+        return st.tuples(*(st.floats(-2, 2) for _ in setting.default)) | st.tuples(
+            *(st.floats(width=32, allow_nan=False, allow_infinity=False) for _ in setting.default)
         )
-    if one.kind == "ENUM":
-        return st.sampled_from([item.key for item in one.items])
-    return st.booleans() if one.kind == "BOOLEAN" else None
+    if setting.kind == "ENUM":
+        return st.sampled_from([item.key for item in setting.items])
+    return st.booleans() if setting.kind == "BOOLEAN" else None
 
 
 @st.composite

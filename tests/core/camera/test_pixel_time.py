@@ -207,7 +207,7 @@ def test_shapes_that_come_and_go_are_never_mixed():
 
 
 @pytest.mark.parametrize(
-    ("settings", "said"),
+    ("settings", "message"),
     [
         (ROWS | {"time_end": 10.0}, "time_start and time_end.*both 10: set them apart"),
         (ROWS | {"time_end": 3.4e38}, "time_end .*3.4e.38: it must be from -1048574 to 1048574"),
@@ -229,8 +229,8 @@ def test_shapes_that_come_and_go_are_never_mixed():
         (SHUTTER | {"rolling_shutter_duration": 2.0}, "rolling_shutter_duration .* is 2: it must be from 0 to 1"),
     ],
 )
-def test_times_without_meaning_are_refused(settings, said):
-    with pytest.raises(InputError, match=said):
+def test_times_without_meaning_are_refused(settings, message):
+    with pytest.raises(InputError, match=message):
         camera(settings)
 
 

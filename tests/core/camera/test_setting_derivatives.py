@@ -18,21 +18,21 @@ STEP = 2.0**-9
 """Change of a number over its size: the difference errs by about STEP^4 of it, and by EPS of a pixel over STEP."""
 
 
-def moved(cam, place, step):
-    """The pixels' function of the camera whose number at a place is changed by a step."""
+def moved(cam, index, step):
+    """The pixels' function of the camera whose parameter at an index is changed by a step."""
     values = list(cam.parameters.values())
-    values[place] += step
+    values[index] += step
     return camera_from(with_parameters(cam.model.SETTINGS, cam.record, values)).project
 
 
-def slope(cam, place, size, points):
+def slope(cam, index, size, points):
     """The derivative of pixels by a number, from four cameras, or on one side from five where there are no others; 0 if
     the number cannot be another.
     """
     central, after = [(-2, 1), (-1, -8), (1, 8), (2, -1)], [(0, -25), (1, 48), (2, -36), (3, 16), (4, -3)]
     for weights in (central, after, [(-k, -w) for k, w in after]):
         try:
-            parts = [weight * moved(cam, place, k * size)(points) for k, weight in weights]
+            parts = [weight * moved(cam, index, k * size)(points) for k, weight in weights]
         except InputError:
             continue
         return sum(parts) / (12 * size)

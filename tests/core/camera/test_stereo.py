@@ -118,13 +118,13 @@ def test_the_camera_itself_is_the_empty_view():
 
 
 @pytest.mark.parametrize(
-    ("view", "settings", "said"),
+    ("view", "settings", "message"),
     [
         ("middle", {}, "choose one of left, right"),
     ],
 )
-def test_what_is_no_eye_is_refused(view, settings, said):
-    with pytest.raises(InputError, match=said):
+def test_what_is_no_eye_is_refused(view, settings, message):
+    with pytest.raises(InputError, match=message):
         eye_record(raw(**settings), view)
 
 

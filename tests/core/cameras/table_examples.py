@@ -102,9 +102,9 @@ JUMP = pinhole()
 JUMP[3, 4] = (0, 0, 1)
 
 
-def changed(place, value):
+def changed(index, value):
     table = pinhole()
-    table[place] = value
+    table[index] = value
     return table
 
 

@@ -96,10 +96,10 @@ def by_camera_point(moved):
     return moved.reshape(-1, 2, 3) * ((1,), (-1,)) * OPENCV_FROM_CAMERA
 
 
-def assert_same_derivatives(found, expected):
+def assert_same_derivatives(derivatives, expected):
     """Each pixel's to some dozen operations."""
     size = np.linalg.norm(expected, axis=(1, 2), keepdims=True)
-    assert (np.abs(found - expected) / size).max() < 256 * EPS
+    assert (np.abs(derivatives - expected) / size).max() < 256 * EPS
 
 
 @pytest.mark.parametrize("lens", LENSES)

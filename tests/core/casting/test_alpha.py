@@ -31,9 +31,9 @@ each_model = pytest.mark.parametrize(
 )
 
 
-def striped(place, count, axis=0):
+def striped(coordinates, count, axis=0):
     """A surface with stripes along an axis of its coordinates, every second one transparent."""
-    stripe = function_of(lambda p: np.floor(p[axis : axis + 1] * count) % 2, Coordinates(place))
+    stripe = function_of(lambda p: np.floor(p[axis : axis + 1] * count) % 2, Coordinates(coordinates))
     return Surface(constant(1, 1, 1), alpha=stripe)
 
 

@@ -37,10 +37,10 @@ def camera_at(matrix=None, **raw):
     return camera_from(BlenderCamera(name="Camera", matrix_world=np.eye(4) if matrix is None else matrix, **raw))
 
 
-def pose(rotation, place):
+def pose(rotation, eye):
     """Return a world matrix."""
     matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = rotation, place
+    matrix[:3, :3], matrix[:3, 3] = rotation, eye
     return matrix
 
 

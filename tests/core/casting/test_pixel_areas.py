@@ -23,8 +23,8 @@ TURN = np.array(TURNED)
 SHEARED = TURN @ [[1, 0.5, 0, 0], [0, 2, 0.3, 0], [0.1, 0, -1, 0], [0, 0, 0, 1]]
 
 
-def area_pass(cam, name, things=BALL):
-    return cast(cam, things, passes=name, dtype=np.float64)[name]
+def area_pass(cam, name, cast_at=BALL):
+    return cast(cam, cast_at, passes=name, dtype=np.float64)[name]
 
 
 def of_one_eye(key):
@@ -32,11 +32,11 @@ def of_one_eye(key):
     return [settings for settings in EXAMPLES[key] if "port" not in settings]
 
 
-def solid_angles(key, settings=(), things=BALL):
+def solid_angles(key, settings=(), cast_at=BALL):
     """The pass, and the image-plane place of each pixel."""
     cam = camera(key, settings)
     place = cam.model.window.plane_from_pixels(cam.raster.columns(), cam.raster.rows())
-    return cam, area_pass(cam, "solid_angle", things), place
+    return cam, area_pass(cam, "solid_angle", cast_at), place
 
 
 @pytest.mark.parametrize("settings", of_one_eye("PERSP"))

@@ -12,7 +12,7 @@ from .test_cast import camera_at, shapes_of
 
 
 @pytest.mark.parametrize(
-    ("given", "says"),
+    ("arguments", "message"),
     [
         ({"threads": float("nan")}, "threads is nan: it must be a whole number from 1$"),
         ({"threads": 0}, "threads is 0: it must"),
@@ -26,9 +26,9 @@ from .test_cast import camera_at, shapes_of
         ),
     ],
 )
-def test_what_cannot_be_meant_is_refused_in_one_line(given, says):
-    with pytest.raises(InputError, match=says) as caught:
-        cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0)), passes=("depth",), **given)
+def test_what_cannot_be_meant_is_refused_in_one_line(arguments, message):
+    with pytest.raises(InputError, match=message) as caught:
+        cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0)), passes=("depth",), **arguments)
     assert "\n" not in str(caught.value)
 
 

@@ -38,10 +38,10 @@ def shapes_of(rows):
     )
 
 
-def pose(rotation=None, place=(0, 0, 0)):
+def pose(rotation=None, eye=(0, 0, 0)):
     """A world matrix, (4, 4)."""
     matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = np.eye(3) if rotation is None else rotation, place
+    matrix[:3, :3], matrix[:3, 3] = np.eye(3) if rotation is None else rotation, eye
     return matrix
 
 

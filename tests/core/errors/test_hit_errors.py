@@ -56,18 +56,18 @@ def expected(images, camera, x, y, numbers=("distance", "position")):
     return {name: images[name][rows, columns][hit] for name in (*BOUNDS, *numbers)}
 
 
-def agrees(found, passes, rounded=2.0**-9):
+def agrees(measured, passes, rounded=2.0**-9):
     """Whether a sample has a picture's bounds: the passes' are rounded up and count what storing loses."""
     storing = {
         "distance_bound": passes["distance"],
         "position_bound": np.sqrt((passes["position"] ** 2).sum(axis=-1)),
         "normal_bound": np.ones(len(passes["normal_bound"])),
     }
-    assert found.hits == len(passes["distance_bound"]) > 0
+    assert measured.hits == len(passes["distance_bound"]) > 0
     for name in BOUNDS:
         up = (1 + rounded) * (1 + 1e-12)
         bound = passes[name] / up - np.finfo(float).eps * storing[name] * (1 + 1e-6)
-        for own, of_picture in ((found.median, np.median), (found.worst, np.max)):
+        for own, of_picture in ((measured.median, np.median), (measured.worst, np.max)):
             low, high = (of_picture(each) for each in (bound, passes[name]))
             assert low <= own(name.removesuffix("_bound")) <= high, name
 

@@ -41,11 +41,11 @@ def factors(key):
     return np.array(found)
 
 
-def assert_tight(found):
+def assert_tight(ratios):
     """Such factors are those of tight bounds."""
-    assert len(found) >= 9
-    assert 1 < np.median(found) <= USUAL
-    assert found.max() <= TIGHT
+    assert len(ratios) >= 9
+    assert 1 < np.median(ratios) <= USUAL
+    assert ratios.max() <= TIGHT
 
 
 @pytest.mark.filterwarnings("ignore:Descending")  # the order of coefficients that every mpmath knows

@@ -32,10 +32,10 @@ LENS = {
 TIMES = {"time_mode": "ROWS", "time_start": 1.0, "time_end": 3.0, "time_tolerance": 0.1, "time_evaluations": 64}
 
 
-def assert_same(one, other):
+def assert_same(left, right):
     """Every ray is the same in all its bits."""
-    assert one.raster == other.raster
-    here, there = one.rays(), other.rays()
+    assert left.raster == right.raster
+    here, there = left.rays(), right.rays()
     for name in ("origins", "directions", "valid", "time"):
         ours, theirs = getattr(here, name), getattr(there, name)
         assert (ours is None) == (theirs is None)

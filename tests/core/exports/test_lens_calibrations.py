@@ -11,9 +11,9 @@ from ..cameras.model_examples import EXAMPLES, IDENTITY, camera
 from .shots import CAMERAS
 
 
-def pixels_of(lens, there, points):
+def pixels_of(lens, cam, points):
     """Where a calibration sees points in the camera's frame."""
-    frame = dict(zip(("resolution_x", "resolution_y"), there.model.size, strict=True))
+    frame = dict(zip(("resolution_x", "resolution_y"), cam.model.size, strict=True))
     if lens.model == "EQUIRECTANGULAR":
         x, y, z = points.T
         left, right, bottom, top = (lens.settings[name] for name in ANGLES)

@@ -16,8 +16,8 @@ from ..cameras.model_examples import camera
 from .shots import CAMERAS, FRAMES, pose, shots
 
 
-def written(key, given, folder):
-    files, _ = export_files(key, given)
+def written(key, views, folder):
+    files, _ = export_files(key, views)
     for name, content in files:
         (folder / name).write_text(content)
 

@@ -26,8 +26,8 @@ PAIRS = {
 }
 
 
-def maps(one, other, frame=7):
-    shot = Shot("Lens", frame, camera(*one), target=None if other is None else camera(*other))
+def maps(source, target, frame=7):
+    shot = Shot("Lens", frame, camera(*source), target=None if target is None else camera(*target))
     files, said = export_files("stmap", [shot])
     return shot.camera, dict(files), said
 
@@ -92,15 +92,15 @@ def test_what_the_places_of_the_eyes_mean_is_said():
 
 
 @pytest.mark.parametrize(
-    ("one", "other", "says"),
+    ("source", "target", "says"),
     [
         (("CROSS_SLIT", {}), None, "Cross-Slit .*, whose rays have no eye in common: choose one of tum, kitti,"),
         (("PERSP", {}), ("ORTHO", {}), "whose target 'Camera' is one whose rays have no eye"),
     ],
 )
-def test_cameras_without_an_eye_are_refused(one, other, says):
+def test_cameras_without_an_eye_are_refused(source, target, says):
     with pytest.raises(InputError, match=f"^STMaps cannot represent the .*{says}"):
-        maps(one, other)
+        maps(source, target)
 
 
 def test_places_that_float32_cannot_hold_are_none():

@@ -25,13 +25,13 @@ def test_an_f_stop_opens_the_stop_up_to_the_lens_s_own():
     assert wide["stop"] == pytest.approx(17.1)
 
 
-@pytest.mark.parametrize(("stop", "use_dof", "told"), [(1.2, True, True), (2.0, True, False), (1.2, False, False)])
-def test_a_stop_that_is_wider_than_the_lens_is_told_in_one_line(stop, use_dof, told):
+@pytest.mark.parametrize(("stop", "use_dof", "has_note"), [(1.2, True, True), (2.0, True, False), (1.2, False, False)])
+def test_a_stop_that_is_wider_than_the_lens_is_told_in_one_line(stop, use_dof, has_note):
     camera = crc.camera("REAL_LENS", SIZE, aperture_fstop=stop, use_dof=use_dof)
     images = crc.cast(camera, WALL, passes=("depth",))
     report = report_cast(camera, WALL, images, {}, (), 1.0, "Layer", accuracy=Accuracy())
     line = "the lens opens to f/2.03: it is cast with that stop in place of f/1.2"
-    assert [note for _, note in report.notes] == ([line] if told else [])
+    assert [note for _, note in report.notes] == ([line] if has_note else [])
 
 
 def light_of_a_wall(samples=SAMPLES, **settings):

@@ -40,21 +40,22 @@ def zemax(rows=ROWS, unit="MM", size=1.0):
 def rayoptics(rows=ROWS, profile="Spherical", **more):
     """As RayOptics saves it, but for what is of no use here."""
 
-    def made(kind, **attributes):
+    def instance(kind, **attributes):
         return {"__instance_type__": ["rayoptics", kind], "attributes": attributes}
 
     surfaces = [(0.0, 1e10, 1.0, 0.0), *rows, (0.0, 0.0, 1.0, 40.0)]
     ifcs, gaps, profiles = [], [], {}
     for place, (radius, gap, index, diameter) in enumerate(surfaces):
         asphere = more if place == 1 else {"coefs": []}
-        profiles[str(place)] = made(profile, cv=1 / radius if radius else 0.0, **asphere)
-        ifcs.append(made("Surface", profile_id=place, max_aperture=diameter / 2, clear_apertures=[], decenter=None,
+        profiles[str(place)] = instance(profile, cv=1 / radius if radius else 0.0, **asphere)
+        ifcs.append(instance("Surface", profile_id=place, max_aperture=diameter / 2, clear_apertures=[], decenter=None,
                          interact_mode="transmit"))  # fmt: skip
-        medium = made("ModelGlass", n=index, v=60.0) if index > 1 else made("Air")
-        gaps.append(made("Gap", thi=gap, medium=medium))
-    sequence = made("SequentialModel", ifcs=ifcs, gaps=gaps[:-1], stop_surface=1 + [row[0] for row in rows].index(0.0))
-    system = made("SystemSpec", title="doublet", _dimensions="mm")
-    return json.dumps({"optical_model": made("", seq_model=sequence, system_spec=system, profile_dict=profiles)})
+        medium = instance("ModelGlass", n=index, v=60.0) if index > 1 else instance("Air")
+        gaps.append(instance("Gap", thi=gap, medium=medium))
+    stop = 1 + [row[0] for row in rows].index(0.0)
+    sequence = instance("SequentialModel", ifcs=ifcs, gaps=gaps[:-1], stop_surface=stop)
+    system = instance("SystemSpec", title="doublet", _dimensions="mm")
+    return json.dumps({"optical_model": instance("", seq_model=sequence, system_spec=system, profile_dict=profiles)})
 
 
 def optiland(rows=ROWS, kind="StandardGeometry", aperture=None, **more):

@@ -96,7 +96,7 @@ def test_a_closed_path_is_closed():
 
 
 @pytest.mark.parametrize(
-    ("words", "settings", "said"),
+    ("words", "settings", "message"),
     [
         (("OPENCV_FISHEY", SIZE), {}, "did you mean OPENCV_FISHEYE"),
         (("KB4", SIZE), {}, "did you mean OPENCV_FISHEYE"),
@@ -142,8 +142,8 @@ def test_a_closed_path_is_closed():
         (("OPENCV_PINHOLE", SIZE), {"calibration_file": "/no/file.yml"}, "/no/file.yml"),
     ],
 )
-def test_what_no_camera_can_be_is_one_line(words, settings, said):
-    with pytest.raises(crc.InputError, match=said) as caught:
+def test_what_no_camera_can_be_is_one_line(words, settings, message):
+    with pytest.raises(crc.InputError, match=message) as caught:
         crc.camera(*words, **settings)
     assert "\n" not in str(caught.value)
 

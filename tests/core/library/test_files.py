@@ -58,7 +58,7 @@ def test_openimageio_reads_the_same(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [
         (("colmp", perspectives()), "did you mean colmap"),
         ((np.zeros(2), perspectives()), "unknown format array"),
@@ -67,8 +67,8 @@ def test_openimageio_reads_the_same(tmp_path):
         (("bop", crc.camera("EQUIRECTANGULAR", SIZE)), "BOP cannot represent the Equirectangular"),
     ],
 )
-def test_what_cannot_be_exported_is_one_line_and_leaves_nothing(tmp_path, words, said):
-    with pytest.raises(crc.InputError, match=said) as caught:
+def test_what_cannot_be_exported_is_one_line_and_leaves_nothing(tmp_path, words, message):
+    with pytest.raises(crc.InputError, match=message) as caught:
         crc.export(words[1], tmp_path / "out", words[0])
     assert "\n" not in str(caught.value)
     assert not (tmp_path / "out").exists()

@@ -112,7 +112,7 @@ def test_the_declared_lens_has_square_pixels_in_any_frame(model, size):
 
 
 @pytest.mark.parametrize(
-    ("key", "settings", "said"),
+    ("key", "settings", "message"),
     [
         ("OPENCV_PINHOLE", {"lens": 35.0}, "lens of OPENCV_PINHOLE has no effect unless calibration_unit is"),
         ("OPENCV_PINHOLE", {"fx": 50.0, "shift_x": 0.1}, "shift_x of OPENCV_PINHOLE has no effect"),
@@ -122,8 +122,8 @@ def test_the_declared_lens_has_square_pixels_in_any_frame(model, size):
         ("SCANNER", {"scanner_low": 0.0, "scanner_high": 0.1, "scanner_elevations": "1 2"}, "scanner_elevations is ''"),
     ],
 )
-def test_a_setting_without_effect_is_refused(key, settings, said):
-    with pytest.raises(crc.InputError, match=said):
+def test_a_setting_without_effect_is_refused(key, settings, message):
+    with pytest.raises(crc.InputError, match=message):
         crc.camera(key, SIZE, **settings)
 
 

@@ -14,7 +14,7 @@ FACE_COLORS = np.array([(255, 0, 0, 255), (0, 188, 0, 255)], np.uint8)
 CAMERA = crc.camera("PERSP", (40, 40), lens=60.0)
 
 
-def thing(**visual):
+def mesh_like(**visual):
     return SimpleNamespace(vertices=VERTICES, faces=FACES, visual=SimpleNamespace(**visual))
 
 
@@ -23,21 +23,21 @@ def albedo(mesh, **keywords):
 
 
 def test_faces_and_vertices_keep_their_colors():
-    color = albedo(thing(kind="face", face_colors=FACE_COLORS))
+    color = albedo(mesh_like(kind="face", face_colors=FACE_COLORS))
     assert color[5, 30] == pytest.approx((1, 0, 0))
     assert color[30, 5] == pytest.approx((0, 0.5029, 0), abs=1e-4)  # 188 of 255 in sRGB
     ramp = np.array([(0, 0, 0), (1, 1, 1), (1, 1, 1), (0, 0, 0)], float)
-    row = albedo(thing(vertex_colors=ramp))[20, :, 0]
+    row = albedo(mesh_like(vertex_colors=ramp))[20, :, 0]
     across = crc.cast(CAMERA, crc.mesh(VERTICES, FACES), passes=("position",))["position"][20, :, 0]
     np.testing.assert_allclose(row[4:36], ((across + 1) / 2)[4:36], atol=1e-6)
-    assert albedo(thing(kind="face", face_colors=FACE_COLORS), color=(0, 0, 1))[5, 30] == pytest.approx((0, 0, 1))
-    assert albedo(thing(kind=None, vertex_colors=ramp))[20, 20] == pytest.approx((0.8, 0.8, 0.8))
+    assert albedo(mesh_like(kind="face", face_colors=FACE_COLORS), color=(0, 0, 1))[5, 30] == pytest.approx((0, 0, 1))
+    assert albedo(mesh_like(kind=None, vertex_colors=ramp))[20, 20] == pytest.approx((0.8, 0.8, 0.8))
 
 
 def test_what_is_transparent_is_no_hit():
     glass = FACE_COLORS.copy()
     glass[0, 3] = 0
-    hit = crc.cast(CAMERA, crc.mesh(thing(kind="face", face_colors=glass)), passes=("shape_index",))["shape_index"]
+    hit = crc.cast(CAMERA, crc.mesh(mesh_like(kind="face", face_colors=glass)), passes=("shape_index",))["shape_index"]
     assert (hit[5, 30], hit[30, 5]) == (-1, 0)
 
 
@@ -57,7 +57,7 @@ QUARTERS = {(30, 10): (1, 0, 0), (30, 30): (0, 1, 0), (10, 10): (0, 0, 1), (10, 
 )
 def test_a_texture_shows_as_trimesh_means_it(material, factor):
     camera = crc.camera("PERSP", (40, 40), lens=54.0)  # a texel's middle is at a quarter of the frame
-    textured = thing(kind="texture", uv=UV, material=SimpleNamespace(**material))
+    textured = mesh_like(kind="texture", uv=UV, material=SimpleNamespace(**material))
     images = crc.cast(camera, crc.mesh(textured), passes=("albedo", "uv", "valid", "shape_index"))
     opaque = "alphaMode" in material
     for (row, column), color in QUARTERS.items():
@@ -78,7 +78,7 @@ def test_a_texture_shows_as_trimesh_means_it(material, factor):
     ],
 )
 def test_a_material_without_an_image_is_its_color(material, color):
-    plain = thing(kind="texture", uv=None, material=SimpleNamespace(**material))
+    plain = mesh_like(kind="texture", uv=None, material=SimpleNamespace(**material))
     assert albedo(plain)[20, 20] == pytest.approx(color, abs=1e-4)
 
 
@@ -94,7 +94,7 @@ def test_what_is_no_mesh_is_refused_in_one_line():
     with pytest.raises(crc.InputError, match="has no vertices and faces"):
         crc.mesh(VERTICES)
     with pytest.raises(crc.InputError, match=r"colors of the mesh are of shape \(1, 4\)"):
-        crc.mesh(thing(kind="face", face_colors=FACE_COLORS[:1]))
+        crc.mesh(mesh_like(kind="face", face_colors=FACE_COLORS[:1]))
     with pytest.raises(crc.InputError, match="vertices"):
         crc.mesh(SimpleNamespace(vertices=[(0, 0, 0), (1, 0)], faces=FACES))
 
@@ -118,16 +118,16 @@ FROM_0 = "must be whole numbers from 0 to 255, or numbers from 0 to 1"
 )
 def test_colors_that_are_none_are_refused_in_one_line(visual, says):
     with pytest.raises(crc.InputError, match=says):
-        crc.mesh(thing(**visual))
+        crc.mesh(mesh_like(**visual))
 
 
 def test_a_mesh_of_trimesh():
     trimesh = pytest.importorskip("trimesh")
     mesh = trimesh.Trimesh(VERTICES, FACES, process=False, face_colors=FACE_COLORS)
-    np.testing.assert_array_equal(albedo(mesh), albedo(thing(kind="face", face_colors=FACE_COLORS)))
+    np.testing.assert_array_equal(albedo(mesh), albedo(mesh_like(kind="face", face_colors=FACE_COLORS)))
     visual = trimesh.visual.TextureVisuals(UV, image=Image.fromarray(TEXELS[..., :3]))
     textured = trimesh.Trimesh(VERTICES, FACES, process=False, visual=visual)
-    same = thing(kind="texture", uv=UV, material=SimpleNamespace(image=visual.material.image))
+    same = mesh_like(kind="texture", uv=UV, material=SimpleNamespace(image=visual.material.image))
     np.testing.assert_array_equal(albedo(textured), albedo(same))
     with pytest.raises(crc.InputError, match=r"scene.to_mesh\(\)"):
         crc.mesh(trimesh.Scene([mesh]))

@@ -99,15 +99,15 @@ def test_words_are_known_in_any_case_and_functions_take_a_scene():
 
 
 @pytest.mark.parametrize(
-    ("settings", "said"),
+    ("settings", "message"),
     [
         ({"near": 1}, "did you mean clip_start"), ({"K": np.eye(3)}, "did you mean fx, fy, cx, cy"),
         ({"dist": [0.1]}, "did you mean k1, k2, p1, p2, k3"), ({"focal_length": 1}, "did you mean fx, fy"),
         ({"R": np.eye(3)}, "did you mean pose"), ({"width": 64}, "did you mean size"),
     ],
 )  # fmt: skip
-def test_names_of_other_libraries_lead_to_the_right_one(settings, said):
-    with pytest.raises(crc.InputError, match=said):
+def test_names_of_other_libraries_lead_to_the_right_one(settings, message):
+    with pytest.raises(crc.InputError, match=message):
         crc.camera("OPENCV_PINHOLE", SIZE, **settings)
 
 

@@ -67,7 +67,7 @@ def defined(**names):
 
 
 @pytest.mark.parametrize(
-    ("model", "said"),
+    ("model", "message"),
     [
         (lambda: "OWN", "'OWN' is not a camera model"),
         (lambda: type("Bare", (crc.Model,), {}), "model Bare has no key, label, description, group, FORMULA, rays"),
@@ -79,22 +79,22 @@ def defined(**names):
         (lambda: defined(key="PERSP"), "key PERSP is that of a model of the package"),
     ],
 )
-def test_what_is_no_model_is_one_line_and_adds_nothing(model, said):
+def test_what_is_no_model_is_one_line_and_adds_nothing(model, message):
     before = list(MODELS)
-    with pytest.raises(crc.InputError, match=said):
+    with pytest.raises(crc.InputError, match=message):
         crc.register_model(model())
     assert before == MODELS
 
 
 @pytest.mark.parametrize(
-    ("planar", "said"), [(False, "it must be of length 1, or have z = -1 and planar"), (True, "it must have z = -1")]
+    ("planar", "message"), [(False, "it must be of length 1, or have z = -1 and planar"), (True, "it must have z = -1")]
 )
-def test_directions_of_another_length_are_named(planar, said):
+def test_directions_of_another_length_are_named(planar, message):
     before = list(MODELS)
     rays = lambda self, x, y: ((0.0, 0.0, 0.0), (0.2 * x - 5, 0.2 * y - 4, -2.0))  # noqa: E731
     try:
         crc.register_model(defined(rays=rays, planar=planar))
-        with pytest.raises(crc.InputError, match=said):
+        with pytest.raises(crc.InputError, match=message):
             crc.camera("OWN", (50, 40))
     finally:
         MODELS[:] = before

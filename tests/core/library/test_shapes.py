@@ -166,7 +166,7 @@ def test_groups_and_values_by_name_are_two_ways_to_the_same():
 
 
 @pytest.mark.parametrize(
-    ("make", "said"),
+    ("make", "message"),
     [
         (lambda: crc.spheres([(0, 0)]), r"centers are of shape \(1, 2\)"),
         (lambda: crc.spheres([(0, 0, np.nan)]), r"centers are of shape \(1, 3\), with NaN or infinite numbers: they"),
@@ -192,8 +192,8 @@ def test_groups_and_values_by_name_are_two_ways_to_the_same():
         (lambda: crc.mesh(CUBE, QUADS, pose=np.eye(3)), r"pose is of shape \(1, 3, 3\)"),
     ],
 )
-def test_what_no_shape_can_be_is_one_line(make, said):
-    with pytest.raises(crc.InputError, match=said) as caught:
+def test_what_no_shape_can_be_is_one_line(make, message):
+    with pytest.raises(crc.InputError, match=message) as caught:
         make()
     assert "\n" not in str(caught.value)
 

@@ -163,10 +163,10 @@ def test_what_no_entry_needs_may_be_left_out_and_is_recorded():
     assert [evaluate(root, x) for x in (-1.0, 4.0)] == [0.0, 2.0]
 
 
-@pytest.mark.parametrize("place", [0, 3.0])
-def test_a_table_is_looked_up_at_a_whole_number(place):
+@pytest.mark.parametrize("index", [0, 3.0])
+def test_a_table_is_looked_up_at_a_whole_number(index):
     table = np.array(TABLE)
-    assert evaluate(lambda k: look_up(table, k + 1), place) == table[int(place) + 1]
+    assert evaluate(lambda k: look_up(table, k + 1), index) == table[int(index) + 1]
     np.testing.assert_array_equal(look_up(table, np.array([1, 3])), table[[1, 3]])
     assert np.isnan(evaluate(lambda k: look_up(table, k / 0.0), 0.0))
 

@@ -17,7 +17,7 @@ def nothing_kept(monkeypatch):
     monkeypatch.setattr(reused_memory, "_unused", {})
 
 
-def place(array: np.ndarray) -> int:
+def address(array: np.ndarray) -> int:
     return array.__array_interface__["data"][0]
 
 
@@ -33,24 +33,24 @@ def test_an_array_is_as_that_of_numpy_empty(dtype):
 def test_memory_comes_back_when_the_last_view_has_gone():
     array = reused_memory.empty(SHAPE, np.float32)
     array.fill(1)
-    view, first = array[5:, ::2].T, place(array)
+    view, first = array[5:, ::2].T, address(array)
     del array
     other = reused_memory.empty(SHAPE, np.float32)
     other.fill(2)
-    assert place(other) != first
+    assert address(other) != first
     assert (view == 1).all()
     del view
-    assert place(reused_memory.empty(SHAPE, np.int32)) == first
+    assert address(reused_memory.empty(SHAPE, np.int32)) == first
 
 
 def test_memory_is_given_once_though_other_memory_comes_back_meanwhile():
     """As the garbage collector, or another thread, may do between the look-up of a list and its ``pop``."""
     first, second = reused_memory.empty(SHAPE, np.float32), reused_memory.empty(SHAPE, np.float32)
-    at = place(first), place(second)
+    at = address(first), address(second)
     del first
     (blocks,) = reused_memory._unused.values()
     del second
-    given = {place(blocks.pop()) for _ in range(2)}
+    given = {address(blocks.pop()) for _ in range(2)}
     assert given == {*at}
     assert not any(reused_memory._unused.values())
 

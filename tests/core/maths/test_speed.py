@@ -71,10 +71,10 @@ def test_threads_share_parts_and_do_only_those_that_are_needed():
     parts = [lambda: done.append(0), lambda: (both.wait(), done.append(1)), lambda: (both.wait(), done.append(2))]
     shared = Shared([*parts, lambda: done.append(3)])
 
-    def needs(some):
-        for _ in shared.work(some):
+    def needs(numbers):
+        for _ in shared.work(numbers):
             pass
-        return {*some} <= {*done}
+        return {*numbers} <= {*done}
 
     with ThreadPoolExecutor(2) as pool:
         assert all(pool.map(needs, ([1, 2], [1, 2])))

@@ -12,10 +12,10 @@ WIDTH = 16.0
 """Pixels of the picture in a Blender unit."""
 
 
-def at(place):
+def at(x):
     """A camera at a place on the x axis, and a ball."""
     matrix = np.eye(4)
-    matrix[0, 3] = place
+    matrix[0, 3] = x
     return camera({}, matrix), shapes(((0.2, 0.1, -5), 0.7))
 
 

@@ -21,7 +21,7 @@ def vectors(file):
     return {name.strip(): np.array(text.split(), float) for name, text, *_ in lines if name.strip() in "CAHVORE"}
 
 
-def seen(file, point, linearity):
+def pixel_of(file, point, linearity):
     """The pixel of a point in the frame of a file."""
     found = vectors(file)
     axis, (r0, r1, r2), (e0, e1, e2) = found["O"] / np.linalg.norm(found["O"]), found["R"], found.get("E", np.zeros(3))
@@ -46,7 +46,7 @@ def seen(file, point, linearity):
 def test_vectors(file, linearity, atol, point):
     camera = crc.load_calibration(str(SAMPLES / file))
     x, y = camera.project(point)
-    np.testing.assert_allclose((x - 0.5, 767.5 - y), seen(file, point, linearity), rtol=0, atol=atol)
+    np.testing.assert_allclose((x - 0.5, 767.5 - y), pixel_of(file, point, linearity), rtol=0, atol=atol)
 
 
 @pytest.mark.parametrize(

@@ -121,23 +121,23 @@ def damaged(path):
         yield json.dumps(changed(tree, place, lambda owner, key: {f"{key}_": owner[key]})).encode()
 
 
-def entries(tree, place=()):
+def entries(tree, path=()):
     """The places of all entries of mappings in a tree."""
     items = tree.items() if isinstance(tree, dict) else enumerate(tree) if isinstance(tree, list) else ()
     for key, value in items:
         if isinstance(tree, dict):
-            yield (*place, key)
-        yield from entries(value, (*place, key))
+            yield (*path, key)
+        yield from entries(value, (*path, key))
 
 
-def changed(tree, place, change):
+def changed(tree, path, change):
     """A tree with another entry at a place."""
-    key, *inside = place
+    key, *inside = path
     if isinstance(tree, list):
-        return [changed(one, inside, change) if k == key else one for k, one in enumerate(tree)]
+        return [changed(entry, inside, change) if k == key else entry for k, entry in enumerate(tree)]
     if not inside:
-        return {name: one for k in tree for name, one in (change(tree, k) if k == key else {k: tree[k]}).items()}
-    return {name: changed(one, inside, change) if name == key else one for name, one in tree.items()}
+        return {name: entry for k in tree for name, entry in (change(tree, k) if k == key else {k: tree[k]}).items()}
+    return {name: changed(entry, inside, change) if name == key else entry for name, entry in tree.items()}
 
 
 WRITERS = [one for one in READERS if one.export is not None and one.export.files and one.export.models]
@@ -171,9 +171,9 @@ def test_what_is_read_and_written_and_read_is_the_same_to_the_bit(program, tmp_p
         assert sorted(map(numbers, poses)) == sorted(map(numbers, able))
 
 
-def numbers(one):
+def numbers(camera):
     """The pose, and the rolling shutter, as text."""
-    return repr((one.pose.tolist(), one.rolling and (*one.rolling[:2], one.rolling.pose.tolist())))
+    return repr((camera.pose.tolist(), camera.rolling and (*camera.rolling[:2], camera.rolling.pose.tolist())))
 
 
 def plain(lens):

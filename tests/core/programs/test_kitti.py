@@ -35,25 +35,25 @@ def rig(tmp_path, text, size=(1242, 375)):
     return {one.name: one for one in mounted(str(path), "", size, 24.0)}
 
 
-def seen(one):
+def pixels_of(camera):
     """The pixels of the points, y down, from the center of the first pixel."""
-    size = one.size or (1242, 375)
-    found = crc.load_calibration(one.file, one.lens.name, size=size, pose=one.poses[0])
-    return found.project(POINTS) * (1, -1) + (-0.5, size[1] - 0.5)
+    size = camera.size or (1242, 375)
+    loaded = crc.load_calibration(camera.file, camera.lens.name, size=size, pose=camera.poses[0])
+    return loaded.project(POINTS) * (1, -1) + (-0.5, size[1] - 0.5)
 
 
 def test_a_camera_is_seen_as_calibrated_and_as_rectified(tmp_path):
     cameras = rig(tmp_path, RAW)
     assert {name: one.size for name, one in cameras.items()} == {"K_02": (1392, 512), "P_rect_02": (1242, 375)}
     rectified = np.column_stack((POINTS @ TURN.T, np.ones(len(POINTS)))) @ P.T
-    np.testing.assert_allclose(seen(cameras["P_rect_02"]), rectified[:, :2] / rectified[:, 2:], atol=1e-9)
+    np.testing.assert_allclose(pixels_of(cameras["P_rect_02"]), rectified[:, :2] / rectified[:, 2:], atol=1e-9)
     local = POINTS @ R.T + T
     x, y = local[:, 0] / local[:, 2], local[:, 1] / local[:, 2]
     s = x * x + y * y
     gain = 1 + D[0] * s + D[1] * s**2 + D[4] * s**3
     bent = np.stack((x * gain + 2 * D[2] * x * y + D[3] * (s + 2 * x * x),
                      y * gain + D[2] * (s + 2 * y * y) + 2 * D[3] * x * y, np.ones_like(x)), axis=-1)  # fmt: skip
-    np.testing.assert_allclose(seen(cameras["K_02"]), (bent @ K.T)[:, :2], atol=1e-9)
+    np.testing.assert_allclose(pixels_of(cameras["K_02"]), (bent @ K.T)[:, :2], atol=1e-9)
 
 
 def test_cameras_of_a_benchmark_stand_in_the_frame_of_the_first_one(tmp_path):
@@ -61,7 +61,7 @@ def test_cameras_of_a_benchmark_stand_in_the_frame_of_the_first_one(tmp_path):
     assert [*cameras] == ["P0", "P2"]
     np.testing.assert_allclose(cameras["P0"].poses[0], np.diag((1.0, -1, -1, 1)), atol=1e-15)
     expected = np.column_stack((POINTS, np.ones(len(POINTS)))) @ P.T
-    np.testing.assert_allclose(seen(cameras["P2"]), expected[:, :2] / expected[:, 2:], atol=1e-9)
+    np.testing.assert_allclose(pixels_of(cameras["P2"]), expected[:, :2] / expected[:, 2:], atol=1e-9)
 
 
 def test_what_is_exported_as_poses_is_read_as_a_trajectory(tmp_path):

@@ -69,15 +69,15 @@ def test_what_may_be_a_distortion_is_refused_by_its_name(entries, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("entries", "said"),
+    ("entries", "message"),
     [
         ({"distortion": {"0": -0.3}}, "0"), ({"distortion": {"a": [-0.3]}}, "a"),
         ({"dist": {"polynomial": {"k1": -0.3}}}, "polynomial"),
     ],
     ids=repr,
 )  # fmt: skip
-def test_so_is_what_a_mapping_of_a_distortion_has(entries, said, tmp_path):
-    with pytest.raises(InputError, match=f"{said} may be its distortion"):
+def test_so_is_what_a_mapping_of_a_distortion_has(entries, message, tmp_path):
+    with pytest.raises(InputError, match=f"{message} may be its distortion"):
         lens(tmp_path, entries)
 
 

@@ -79,7 +79,7 @@ def test_a_camera_of_kalibr_stands_beside_the_one_before(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("text", "place"),
+    ("text", "position"),
     [
         (sensor("radtan", [0.1, 0, 0, 0]), (0.1, 0.2, 0.3)),
         (OKVIS.replace("KIND", "equidistant").replace("0, 1, 0, 0]", "0, 1, 0, 5, 0, 0, 1, 0]"), (0, 5, 0)),
@@ -91,10 +91,10 @@ def test_a_camera_of_kalibr_stands_beside_the_one_before(tmp_path):
         }]}), (1, 2, 3)),
     ],
 )  # fmt: skip
-def test_a_camera_in_a_body_stands_where_the_file_says(tmp_path, text, place):
+def test_a_camera_in_a_body_stands_where_the_file_says(tmp_path, text, position):
     (tmp_path / "rig").write_text(text)
     (camera,) = read(tmp_path / "rig")
-    assert np.allclose(camera.poses[0][:3, 3], place)
+    assert np.allclose(camera.poses[0][:3, 3], position)
     assert np.allclose(camera.poses[0][:3, :3], np.diag((1, -1, -1)))
     assert camera.size == ((640, 480) if "Calibrations" not in text else None)
 

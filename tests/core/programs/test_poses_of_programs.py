@@ -31,13 +31,13 @@ def read(path, text=None):
     return mounted(str(path), "", (640, 480), 24.0)
 
 
-def seen(pose):
+def in_view(pose):
     """The points in the frame of a Blender camera of this pose."""
     return (POINTS - pose[:3, 3]) @ pose[:3, :3]
 
 
-def rows(axes=AXES, place=PLACE):
-    return np.vstack((np.column_stack((axes, place)), (0, 0, 0, 1)))
+def rows(axes=AXES, position=PLACE):
+    return np.vstack((np.column_stack((axes, position)), (0, 0, 0, 1)))
 
 
 def flat(matrix):
@@ -60,7 +60,7 @@ def metashape(transform="", camera=STANDING, reference="", of='component_id="0"'
 
 def test_maplab_leads_from_the_camera_to_the_body(tmp_path):
     (camera,) = read(tmp_path, ncamera("pinhole", "none", [0.0]).replace(IDENTITY.replace(".0", ""), flat(rows())))
-    np.testing.assert_allclose(seen(camera.poses[0]), (POINTS - PLACE) @ AXES * TO_BLENDER, atol=1e-14)
+    np.testing.assert_allclose(in_view(camera.poses[0]), (POINTS - PLACE) @ AXES * TO_BLENDER, atol=1e-14)
     assert (camera.name, camera.frames, camera.size) == ("front", [None], (640, 480))
 
 
@@ -69,7 +69,7 @@ def test_maplabs_rig_stands_in_the_body_of_all_sensors(tmp_path):
     text = f"sensors:\n  - id: ab\n    sensor_type: NCAMERA\n{rig}\nextrinsics:\n  - sensor_id: ab\n    T_B_S:\n"
     text += "      rows: 4\n      cols: 4\n      data:\n" + "".join(f"        - [{flat(row)}]\n" for row in rows())
     (camera,) = read(tmp_path, text)
-    np.testing.assert_allclose(seen(camera.poses[0]), (POINTS - PLACE) @ AXES * TO_BLENDER, atol=1e-14)
+    np.testing.assert_allclose(in_view(camera.poses[0]), (POINTS - PLACE) @ AXES * TO_BLENDER, atol=1e-14)
 
 
 @pytest.mark.parametrize("in_world", [True, False])
@@ -80,7 +80,7 @@ def test_hot3d_leads_from_the_camera_to_the_world_or_the_headset(tmp_path, in_wo
     else:
         del one["214-1"]["T_world_from_camera"]
     (camera,) = read(tmp_path, json.dumps(one))
-    np.testing.assert_allclose(seen(camera.poses[0]), (POINTS - PLACE) @ QUARTER * TO_BLENDER, atol=1e-14)
+    np.testing.assert_allclose(in_view(camera.poses[0]), (POINTS - PLACE) @ QUARTER * TO_BLENDER, atol=1e-14)
     assert camera.name == "camera-rgb"
 
 
@@ -88,10 +88,10 @@ def test_metashapes_chunk_is_turned_scaled_and_moved(tmp_path):
     moved = f"<rotation>{flat(QUARTER).replace(',', '')}</rotation><translation>1 2 3</translation><scale>2</scale>"
     (camera,) = read(tmp_path, metashape(moved))
     in_chunk = (POINTS - (1, 2, 3)) @ QUARTER / 2
-    np.testing.assert_allclose(seen(camera.poses[0]), (in_chunk - PLACE) @ AXES * 2 * TO_BLENDER, atol=1e-14)
+    np.testing.assert_allclose(in_view(camera.poses[0]), (in_chunk - PLACE) @ AXES * 2 * TO_BLENDER, atol=1e-14)
     assert (camera.name, camera.frames, camera.lenses[0].name) == ("IMG", [2], "right")
     (plain,) = read(tmp_path, metashape(of=""))
-    np.testing.assert_allclose(seen(plain.poses[0]), (POINTS - PLACE) @ AXES * TO_BLENDER, atol=1e-14)
+    np.testing.assert_allclose(in_view(plain.poses[0]), (POINTS - PLACE) @ AXES * TO_BLENDER, atol=1e-14)
 
 
 LOCATION = np.array((0.5, 0.0, 1.0))
@@ -109,13 +109,13 @@ def rig(offset=OFFSET, master="0", label="IMG_0002"):
 def test_metashapes_slave_stands_beside_its_master(tmp_path):
     master, slave = read(tmp_path, rig())
     in_master = (POINTS / 2 - PLACE) @ AXES
-    np.testing.assert_allclose(seen(master.poses[0]), in_master * 2 * TO_BLENDER, atol=1e-14)
-    np.testing.assert_allclose(seen(slave.poses[0]), (in_master - LOCATION) @ QUARTER * 2 * TO_BLENDER, atol=1e-14)
+    np.testing.assert_allclose(in_view(master.poses[0]), in_master * 2 * TO_BLENDER, atol=1e-14)
+    np.testing.assert_allclose(in_view(slave.poses[0]), (in_master - LOCATION) @ QUARTER * 2 * TO_BLENDER, atol=1e-14)
     assert [(one.name, one.frames, one.lenses[0].name) for one in (master, slave)] == [
         ("IMG-1", [2], "right"), ("IMG-2", [2], "left")
     ]  # fmt: skip
     _, beside = read(tmp_path, rig(offset=""))
-    np.testing.assert_allclose(seen(beside.poses[0]), in_master * 2 * TO_BLENDER, atol=1e-14)
+    np.testing.assert_allclose(in_view(beside.poses[0]), in_master * 2 * TO_BLENDER, atol=1e-14)
 
 
 @pytest.mark.parametrize(("latitude", "longitude"), [(0.0, 0.0), (np.radians(48.2), np.radians(-120.4))])
@@ -144,24 +144,24 @@ def test_meshrooms_rotation_is_from_the_world_and_by_columns(tmp_path):
              {"viewId": "6", "poseId": "1", "intrinsicId": "7", "path": "C:/in/left_0005.jpg"}]  # fmt: skip
     text = json.loads(sfm()) | {"views": views, "poses": [{"poseId": "9", "pose": {"transform": of_meshroom()}}]}
     (camera,) = read(tmp_path, json.dumps(text))
-    np.testing.assert_allclose(seen(camera.poses[0]), (POINTS - PLACE) @ AXES.T * TO_BLENDER, atol=1e-14)
+    np.testing.assert_allclose(in_view(camera.poses[0]), (POINTS - PLACE) @ AXES.T * TO_BLENDER, atol=1e-14)
     assert (camera.name, camera.frames) == ("left", [4])
     inner = {"status": "estimated", "pose": of_meshroom(QUARTER, np.array((0.5, 0.0, 1.0)))}
     views[0] |= {"rigId": "3", "subPoseId": "1", "isPoseIndependant": "false"}
     (camera,) = read(tmp_path, json.dumps(text | {"rigs": [{"rigId": "3", "subPoses": [{}, inner]}]}))
     in_rig = (POINTS - PLACE) @ AXES.T
-    np.testing.assert_allclose(seen(camera.poses[0]), (in_rig - (0.5, 0, 1)) @ QUARTER.T * TO_BLENDER, atol=1e-14)
+    np.testing.assert_allclose(in_view(camera.poses[0]), (in_rig - (0.5, 0, 1)) @ QUARTER.T * TO_BLENDER, atol=1e-14)
 
 
-def polycam(place=PLACE, fx=300.0):
+def polycam(position=PLACE, fx=300.0):
     return json.dumps({"fx": fx, "fy": 301.0, "cx": 326.5, "cy": 236.75, "width": 640, "height": 480}
-                      | {f"t_{i}{j}": one for (i, j), one in np.ndenumerate(rows(place=place)[:3])})  # fmt: skip
+                      | {f"t_{i}{j}": t for (i, j), t in np.ndenumerate(rows(position=position)[:3])})  # fmt: skip
 
 
 @pytest.mark.parametrize("folder", ["", "keyframes/corrected_cameras"])
 def test_polycams_cameras_have_y_up_and_a_frame_for_each_file(tmp_path, folder):
     (camera,) = read(tmp_path, polycam())
-    np.testing.assert_allclose(seen(camera.poses[0]), (POINTS - PLACE) @ AXES, atol=1e-14)
+    np.testing.assert_allclose(in_view(camera.poses[0]), (POINTS - PLACE) @ AXES, atol=1e-14)
     (tmp_path / "capture" / folder).mkdir(parents=True)
     for time, x in ((10_000, 2), (9_000, 1), (11_000, 3)):
         (tmp_path / "capture" / folder / f"{time}.json").write_text(polycam(PLACE * x, 300.0 + (x == 3)))
@@ -195,8 +195,8 @@ def test_arkitscenes_is_from_the_world_to_the_camera(tmp_path, inside):
         (folder / f"41_{time}.pincam").write_text(f"256 192 {fx} 201 127.5 95\n")
     (camera,) = read(folder if inside else tmp_path)
     first = POINTS @ np.array(((0, 0, 1), (0, 1, 0), (-1, 0, 0))).T + (1, 2, 3)
-    np.testing.assert_allclose(seen(camera.poses[0]), first * TO_BLENDER, atol=1e-14)
-    np.testing.assert_allclose(seen(camera.poses[1]), (POINTS + PLACE_2) * TO_BLENDER, atol=1e-14)
+    np.testing.assert_allclose(in_view(camera.poses[0]), first * TO_BLENDER, atol=1e-14)
+    np.testing.assert_allclose(in_view(camera.poses[1]), (POINTS + PLACE_2) * TO_BLENDER, atol=1e-14)
     assert camera.frames == [1, 3]  # no pose is near to the second one's time
     assert [lens.settings["fx"] for lens in camera.lenses] == [200, 200.5]
     assert camera.lenses[0].settings["cx"] == 127.5

@@ -26,10 +26,10 @@ def cameras(path):
             for frame, lens, pose in zip(one.frames, one.lenses or [None] * 9, one.poses, strict=False)]  # fmt: skip
 
 
-def check(camera, numbers, axes, place):
+def check(camera, numbers, axes, position):
     """Check the numbers of a lens, and a pose."""
     np.testing.assert_allclose(camera[2].values(PINHOLE), numbers, rtol=1e-12, atol=1e-12)
-    np.testing.assert_allclose(camera[3][:3], np.c_[axes, place], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(camera[3][:3], np.c_[axes, position], rtol=0, atol=1e-12)
 
 
 def test_realitycapture():

@@ -100,10 +100,10 @@ def test_a_random_rig_comes_back(program, word, tmp_path):
             assert came_back(placed, wanted) or (len(placed) == 2 and came_back(placed, mounted(wanted)))
 
 
-def read(reader, *given):
+def read(reader, *arguments):
     """What a reader returns; nothing of a file that has the other part, lenses or poses."""
     try:
-        return reader(*given)
+        return reader(*arguments)
     except InputError:
         return []
 

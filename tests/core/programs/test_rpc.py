@@ -17,7 +17,7 @@ BENT = 1e-3
 """Pixels between a straight ray and the polynomials; measured is up to 3.9e-4."""
 
 
-def place(longitude, latitude, height):
+def from_geodetic(longitude, latitude, height):
     """The place in the frame of the Earth's center (WGS 84)."""
     squared = 0.00669437999014132
     x, y = radians(longitude), radians(latitude)
@@ -39,8 +39,8 @@ def test_a_place_is_seen_where_the_polynomials_say(file, scaled):
     x, y = radians(LONGITUDE), radians(LATITUDE)
     axes = np.array(((-sin(x), cos(x), 0), (-sin(y) * cos(x), -sin(y) * sin(x), cos(y)),
                      (cos(y) * cos(x), cos(y) * sin(x), sin(y))))  # fmt: skip
-    middle = place(LONGITUDE, LATITUDE, HEIGHT)
-    local = axes @ (place(LONGITUDE + 0.012 * L, LATITUDE + 0.01 * P, HEIGHT + 200 * H) - middle)
+    middle = from_geodetic(LONGITUDE, LATITUDE, HEIGHT)
+    local = axes @ (from_geodetic(LONGITUDE + 0.012 * L, LATITUDE + 0.01 * P, HEIGHT + 200 * H) - middle)
     pixel = crc.load_calibration(str(SAMPLES / file)).project(local)
     expected = (600 + 600 * sample, 500 + 500 * line)
     np.testing.assert_allclose((pixel[0] - 0.5, FILES[file][1] - 0.5 - pixel[1]), expected, rtol=0, atol=BENT)

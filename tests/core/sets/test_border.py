@@ -22,7 +22,7 @@ NO_LENS = {"tum", "kitti", "euroc", "npz", "stmap", "yolo", "panoptic", "masks",
 
 
 @pytest.fixture(params=CASES, ids=["crop 50", "border 100", "whole 100", "border 50", "crop 100", "whole 50"])
-def made(request, tmp_path):
+def cropped_set(request, tmp_path):
     """The folder of a set; size and left and top end of its pictures in the frame; camera and images of a view."""
     border, percentage = request.param
     folder = tmp_path / "set"
@@ -56,8 +56,8 @@ def check_lens(path, size, corner, cam):
 
 @pytest.mark.one_for_each("key")
 @pytest.mark.parametrize("key", [one.key for one in EXPORT_FORMATS])
-def test_cameras_are_those_of_the_picture(made, key, tmp_path):
-    folder, size, corner, cam, _ = made
+def test_cameras_are_those_of_the_picture(cropped_set, key, tmp_path):
+    folder, size, corner, cam, _ = cropped_set
     shots = [one.shot for one in read_set(folder)]
     if key == "nerf":  # square pixels, the center in the middle
         with pytest.raises(InputError, match="camera_angle_x alone does not say"):
@@ -85,8 +85,8 @@ def test_cameras_are_those_of_the_picture(made, key, tmp_path):
 
 @pytest.mark.one_for_each("key")
 @pytest.mark.parametrize("key", SET_FORMATS)
-def test_files_of_sets_are_of_one_size(made, key, tmp_path):
-    folder, size, corner, cam, images = made
+def test_files_of_sets_are_of_one_size(cropped_set, key, tmp_path):
+    folder, size, corner, cam, images = cropped_set
     out = tmp_path / "out"
     write(SET_FORMATS[key].files(read_set(folder)), out)
     pictures = {path: cv2.imread(str(path), cv2.IMREAD_UNCHANGED) for path in out.rglob("*.png") if key != "preview"}

@@ -92,13 +92,13 @@ def set_of(tmp_path_factory):
     place = tmp_path_factory.mktemp("stubs")
 
     @cache
-    def made(count):
+    def stub_set(count):
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(test_sets, "SIZE", (24, 18))
             stubs(place / str(count), count)
         return place / str(count)
 
-    return made
+    return stub_set
 
 
 @pytest.mark.skipif(not os.path.exists("/proc/self/status"), reason="Linux tells the peak of a program alone")

@@ -45,7 +45,7 @@ def view(folder, frame, key="PERSP", **settings):
 
 
 @pytest.fixture
-def made(tmp_path):
+def written_set(tmp_path):
     """The folder of a set, and the cameras and casts of its two pictures."""
     folder = tmp_path / "set"
     folder.mkdir()
@@ -57,8 +57,8 @@ def exported(folder, key, **more):
     return folder / "out"
 
 
-def test_a_set_has_the_cameras_and_passes_that_were_cast(made):
-    folder, casts = made
+def test_a_set_has_the_cameras_and_passes_that_were_cast(written_set):
+    folder, casts = written_set
     for one, (cam, images) in zip(read_set(folder), casts, strict=True):
         assert (one.camera.rays().directions == cam.rays().directions).all()
         points, hit = one.points()
@@ -71,9 +71,9 @@ def test_a_set_has_the_cameras_and_passes_that_were_cast(made):
         read_set(folder / "none")
 
 
-def test_a_set_may_have_more_views_than_files_can_be_open(made):
+def test_a_set_may_have_more_views_than_files_can_be_open(written_set):
     resource = pytest.importorskip("resource")
-    folder, _ = made
+    folder, _ = written_set
     for number in range(3, 103):
         for end in (".npz", ".json"):
             text = (folder / f"PERSP_0001{end}").read_bytes()
@@ -88,19 +88,19 @@ def test_a_set_may_have_more_views_than_files_can_be_open(made):
         resource.setrlimit(resource.RLIMIT_NOFILE, before)
 
 
-@pytest.mark.parametrize("part", ["arrays", "directory"])
-def test_a_damaged_file_is_refused_in_one_line(made, part):
-    folder, _ = made
+@pytest.mark.parametrize("damage", ["arrays", "directory"])
+def test_a_damaged_file_is_refused_in_one_line(written_set, damage):
+    folder, _ = written_set
     path = folder / "PERSP_0001.npz"
     data = path.read_bytes()
-    path.write_bytes(data[:5000] + bytes(40) + data[5040:] if part == "arrays" else data[:-500])
+    path.write_bytes(data[:5000] + bytes(40) + data[5040:] if damage == "arrays" else data[:-500])
     first = read_set(folder)[0]
     with pytest.raises(InputError, match=r"PERSP_0001.npz' (is damaged: delete it|cannot be read: make the set)"):
         [first.pixels(key) for key in PASSES]
 
 
-def test_trajectories_have_the_set_s_own_time(made):
-    folder, _ = made
+def test_trajectories_have_the_set_s_own_time(written_set):
+    folder, _ = written_set
     for rate, seconds in ((None, (1 / 24, 2 / 24)), (29.97, (1 / 29.97, 2 / 29.97))):
         for path in folder.glob("PERSP_000?.json"):
             report = json.loads(path.read_text())
@@ -121,9 +121,9 @@ def test_pngs_are_what_opencv_reads(tmp_path):
         assert (found == (pixels if order is None else pixels[..., order])).all()
 
 
-def test_a_bop_scene_has_objects_where_their_pixels_are(made):
+def test_a_bop_scene_has_objects_where_their_pixels_are(written_set):
     """Of a sphere's visible pixels, depth and K give points on the sphere about the pose of the object."""
-    folder, _ = made
+    folder, _ = written_set
     scene = exported(folder, "bop-scenes") / "test" / "000000"
     gt, info, cameras = (json.loads((scene / f"scene_{name}.json").read_text()) for name in ("gt", "gt_info", "camera"))
     assert list(gt) == ["1", "2"]
@@ -145,8 +145,8 @@ def test_a_bop_scene_has_objects_where_their_pixels_are(made):
         exported(folder, "bop-scenes")
 
 
-def test_seed_points_are_seen_where_colmap_projects_them(made):
-    folder, _ = made
+def test_seed_points_are_seen_where_colmap_projects_them(written_set):
+    folder, _ = written_set
     out = exported(folder, "colmap-scene", count=500)
     found = colmap(errors, str(out / "sparse" / "0"))
     assert len(found) == 500
@@ -157,8 +157,8 @@ def test_seed_points_are_seen_where_colmap_projects_them(made):
     assert (out / "images" / "PERSP_0001.png").is_file()
 
 
-def test_panoptic_and_yolo_are_the_index_pass(made):
-    folder, casts = made
+def test_panoptic_and_yolo_are_the_index_pass(written_set):
+    folder, casts = written_set
     out = exported(folder, "panoptic")
     index = casts[0][1]["shape_index"][::-1]
     blue, green, red = np.moveaxis(cv2.imread(str(out / "panoptic" / "PERSP_0001.png")).astype(int), 2, 0)
@@ -205,8 +205,8 @@ def test_splits_are_by_frames_and_told_by_each_format(tmp_path):
         chosen(views, [], [9])
 
 
-def test_depth_and_normals_are_the_passes(made):
-    folder, casts = made
+def test_depth_and_normals_are_the_passes(written_set):
+    folder, casts = written_set
     exported(folder, "depth16")
     out = exported(folder, "normals")
     _, images = casts[0]
@@ -218,27 +218,27 @@ def test_depth_and_normals_are_the_passes(made):
     assert np.abs(normal * (1, -1, -1) - images["normal"]).max() < 1e-4
 
 
-def test_a_preview_shows_the_passes_side_by_side(made):
-    folder, _ = made
+def test_a_preview_shows_the_passes_side_by_side(written_set):
+    folder, _ = written_set
     picture = cv2.imread(str(exported(folder, "preview") / "preview.png"))
     assert picture.shape == (72, 4 * 96, 3)
     assert len(np.unique(picture[:, 192:288].reshape(-1, 3), axis=0)) == 3 + (picture[:, 192:288] == 0).any()
 
 
-def test_the_axes_of_a_report_are_its_camera_s(made):
-    for view in read_set(made[0]):
+def test_the_axes_of_a_report_are_its_camera_s(written_set):
+    for view in read_set(written_set[0]):
         assert (view.basis == view.camera.pose.basis).all()
 
 
-def test_masks_are_of_each_object(made):
-    folder, casts = made
+def test_masks_are_of_each_object(written_set):
+    folder, casts = written_set
     out = exported(folder, "masks")
     visible = cv2.imread(str(out / "mask_visible" / "PERSP_0002_0000.png"), cv2.IMREAD_UNCHANGED) > 0
     assert (visible[::-1] == (casts[1][1]["shape_index"] == 0)).all()
 
 
-def test_nerfstudios_frames_name_depths_and_masks(made):
-    folder, casts = made
+def test_nerfstudios_frames_name_depths_and_masks(written_set):
+    folder, casts = written_set
     out = exported(folder, "nerfstudio-scene")
     frame = json.loads((out / "transforms.json").read_text())["frames"][1]
     depth = cv2.imread(str(out / frame["depth_file_path"]), cv2.IMREAD_UNCHANGED)[::-1]
@@ -268,8 +268,8 @@ METRIC = {"bop-scenes", "depth16"}
 
 @pytest.mark.one_for_each("key")
 @pytest.mark.parametrize("key", SET_FORMATS)
-def test_lengths_of_sets_follow_the_unit_scale(made, key):
-    folder, casts = made
+def test_lengths_of_sets_follow_the_unit_scale(written_set, key):
+    folder, casts = written_set
     found = {}
     for meters in (1.0, 0.01, 1000.0):
         for path in folder.glob("PERSP_000?.json"):

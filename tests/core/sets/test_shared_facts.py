@@ -5,7 +5,7 @@ import json
 from camera_ray_caster.core.sets import read_set
 from camera_ray_caster.core.sets.shared_facts import with_objects, without_objects
 
-from .test_sets import made, view  # noqa: F401
+from .test_sets import view, written_set  # noqa: F401
 
 OBJECTS = [{"shape_index": row, "matrix": [row]} for row in range(4)]
 
@@ -23,8 +23,8 @@ def test_other_objects_are_stored_whole():
     assert with_objects(document, OBJECTS) is document
 
 
-def test_entries_of_a_report_come_from_the_set_unless_it_has_its_own(made):  # noqa: F811
-    folder = made[0]
+def test_entries_of_a_report_come_from_the_set_unless_it_has_its_own(written_set):  # noqa: F811
+    folder = written_set[0]
     before = [(one.meters, one.annotations["objects"]) for one in read_set(folder)]
     (folder / "dataset.json").write_text(json.dumps({"common": {"host": {"meters": 0.25}}, "objects": before[0][1]}))
     first, second = sorted(folder.glob("*_000?.json"))

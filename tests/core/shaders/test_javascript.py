@@ -18,10 +18,10 @@ TWO = {"add", "subtract", "multiply", "divide", "remainder", "power", "minimum",
 
 
 @pytest.mark.full
-@pytest.mark.parametrize(("key", "place"), CASES)
-def test_rays_are_those_of_numpy(key, place):
-    one = camera(key, EXAMPLES[key][place])
-    generator = np.random.default_rng(place)
+@pytest.mark.parametrize(("key", "example"), CASES)
+def test_rays_are_those_of_numpy(key, example):
+    one = camera(key, EXAMPLES[key][example])
+    generator = np.random.default_rng(example)
     x, y = (generator.uniform(0.0, side, PIXELS) for side in one.raster.size)
     with np.errstate(all="ignore"):  # pixels without a ray
         expected = np.array([np.broadcast_to(part, x.shape) for vector in one.camera_rays(x, y) for part in vector])

@@ -17,10 +17,10 @@ def mesh_of(vertices, triangles, **more) -> Mesh:
     return Mesh(np.ascontiguousarray(np.transpose(vertices), np.float32), triangles, **more)
 
 
-def grid(rows: int, columns: int, place) -> Mesh:
-    """A sheet of rows x columns squares of two triangles, its vertices where ``place(u, v)`` says, of 0 .. 1."""
+def grid(rows: int, columns: int, position) -> Mesh:
+    """A sheet of rows x columns squares of two triangles, its vertices where ``position(u, v)`` says, of 0 .. 1."""
     v, u = np.mgrid[: rows + 1, : columns + 1]
-    vertices = np.stack(np.broadcast_arrays(*place(u / columns, v / rows)), axis=-1).reshape(-1, 3)
+    vertices = np.stack(np.broadcast_arrays(*position(u / columns, v / rows)), axis=-1).reshape(-1, 3)
     at = (v * (columns + 1) + u)[:-1, :-1].ravel()
     right, up = at + 1, at + columns + 1
     return mesh_of(vertices, np.concatenate((np.stack((at, right, up + 1), 1), np.stack((at, up + 1, up), 1))))

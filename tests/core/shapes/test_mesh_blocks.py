@@ -38,17 +38,17 @@ def test_meshes_pay_for_what_is_seen_of_them(key, monkeypatch):
     shapes = shapes_of((front, (0, 0, -2), 1.0), (apart, (0, 50, -5), 1.0), (behind, (0.1, 0, -9), 0.5))
     looked_at, placed = Counter(), set()
 
-    def place(self, some, part):
-        placed.update(some.tolist())
-        return own_place(self, some, part)
+    def place_blocks(self, blocks, part):
+        placed.update(blocks.tolist())
+        return original_place(self, blocks, part)
 
-    def triangles(self, some):
-        looked_at.update(np.repeat(self.blocks.shape[some], self.blocks.count[some]).tolist())
-        return own(self, some)
+    def triangles(self, blocks):
+        looked_at.update(np.repeat(self.blocks.shape[blocks], self.blocks.count[blocks]).tolist())
+        return original_triangles(self, blocks)
 
-    own, own_place = MeshesInView.triangles, MeshesInView._place
+    original_triangles, original_place = MeshesInView.triangles, MeshesInView._place
     monkeypatch.setattr(MeshesInView, "triangles", triangles)
-    monkeypatch.setattr(MeshesInView, "_place", place)
+    monkeypatch.setattr(MeshesInView, "_place", place_blocks)
     images = cast(cam, shapes, passes=("depth", "shape_index"))
     ((meshes,),) = ([one.meshes] for one in images.plan.sets)
     assert set(meshes.blocks.shape) == {0, 2}

@@ -9,9 +9,9 @@ def setting(raw, name):
     return mpf(raw.settings[name])
 
 
-def pitched(found, elevation):
+def pitched(ray, elevation):
     """The lens turned up from the viewing direction."""
-    origin, (x, y, z) = found
+    origin, (x, y, z) = ray
     return origin, [x, y * cos(elevation) - z * sin(elevation), y * sin(elevation) + z * cos(elevation)]
 
 

@@ -7,12 +7,12 @@ from .truth import along, dot, exact, minus, norm
 MM = mpf(1) / 1000
 
 
-def behind(raw, found):
+def behind(raw, ray):
     """Origin and direction, in the camera's frame, behind the port of a record of a ray in air; None without one."""
     port = raw.settings.get("port", "NONE")
-    if port == "NONE" or found is None:
-        return found
-    point, ahead = found
+    if port == "NONE" or ray is None:
+        return ray
+    point, ahead = ray
     ahead = [part / norm(ahead) for part in ahead]
     number = {name: mpf(value) for name, value in raw.settings.items() if isinstance(value, float)}
     thickness, inside, glass, medium = (number[f"port_{name}"] for name in ("thickness", "inside", "glass", "medium"))

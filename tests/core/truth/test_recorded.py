@@ -43,9 +43,9 @@ def places(cam, count=6):
     return x.ravel(), y.ravel()
 
 
-def off(one, other):
+def off(left, right):
     """The distance between two rays' origins, and between their directions."""
-    return tuple(truth.norm(truth.minus(a, b)) for a, b in zip(one, other, strict=True))
+    return tuple(truth.norm(truth.minus(a, b)) for a, b in zip(left, right, strict=True))
 
 
 @each_model

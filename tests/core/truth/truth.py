@@ -122,8 +122,8 @@ EYE = [mpf(0)] * 3
 AHEAD = [mpf(0), mpf(0), mpf(-1)]
 
 
-def fisheye(place, theta):
-    a, b = place
+def fisheye(point, theta):
+    a, b = point
     r = sqrt(a * a + b * b)
     return EYE, AHEAD if r == 0 else [a / r * sin(theta), b / r * sin(theta), -cos(theta)]
 
@@ -136,8 +136,8 @@ def orthographic(raw, x, y):
     return [*planar(raw, x, y, mpf(raw.ortho_scale)), mpf(0)], AHEAD
 
 
-def radius(place):
-    return sqrt(place[0] ** 2 + place[1] ** 2)
+def radius(point):
+    return sqrt(point[0] ** 2 + point[1] ** 2)
 
 
 def mirror_ball(raw, x, y):
@@ -191,13 +191,13 @@ def recorded_ray(raw, x, y):
     return in_world(raw, lens(x, y), is_planar)
 
 
-def in_world(raw, found, is_planar):
+def in_world(raw, camera_ray, is_planar):
     """The world ray of origin and direction in the camera's frame, None for None; t counts depth where it is planar."""
-    if found is None:
+    if camera_ray is None:
         return None
     rows = exact(raw.matrix_world)[:3]
     axes = [[x / norm(axis) for x in axis] for axis in columns([row[:3] for row in rows])[:3]]
-    origin, direction = (times(columns(axes), vector) for vector in found)
+    origin, direction = (times(columns(axes), vector) for vector in camera_ray)
     if not is_planar:
         length = norm(direction)
         direction = [x / length for x in direction]

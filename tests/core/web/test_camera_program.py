@@ -36,14 +36,14 @@ def variant_of(key, values):
     raise AssertionError(f"no variant for {values}")
 
 
-def check(camera, x, y, found):
+def check(camera, x, y, rays):
     """Compare rays, (6, n), with a camera's: both may have the error that its bound allows."""
     with np.errstate(all="ignore"):  # pixels without a ray
         expected = np.array([np.broadcast_to(part, x.shape) for vector in camera.model.rays(x, y) for part in vector])
         bounds = world_rays(camera, x, y)
-    assert np.array_equal(np.isnan(found[3]), np.isnan(expected[3]))
+    assert np.array_equal(np.isnan(rays[3]), np.isnan(expected[3]))
     for part, error in ((slice(0, 3), bounds.origin_error), (slice(3, 6), bounds.direction_error)):
-        assert not (np.linalg.norm(found[part] - expected[part], axis=0) > 2 * error).any()
+        assert not (np.linalg.norm(rays[part] - expected[part], axis=0) > 2 * error).any()
 
 
 @pytest.mark.cases(1)

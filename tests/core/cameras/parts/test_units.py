@@ -19,8 +19,8 @@ SENSORS = [
 BENT = {"k1": -0.05, "k2": 0.01, "p1": 2e-3, "p2": -1e-3, "s1": 1e-3, "s3": -1e-3, "unified_xi": 0.8, "fov_omega": 0.9}
 
 
-def same_rays(one, other, atol=64 * EPS):
-    first, second = one.rays(), other.rays()
+def same_rays(left, right, atol=64 * EPS):
+    first, second = left.rays(), right.rays()
     assert np.array_equal(first.valid, second.valid)
     assert first.valid.any()
     np.testing.assert_allclose(first.directions, second.directions, rtol=0, atol=atol)
