@@ -29,7 +29,7 @@ def annotated(
     """Return the annotations of a picture that was just rendered from the scene, as JSON in COCO's format.
 
     ``file_name`` is the PNG or, if combined is not cast, the file of passes; ``suffix`` is that of the view in a stereo
-    scene; for ``keypoints``, see ``read.keypoints``. ``objects``: see ``core.sets.shared_facts``.
+    scene; for ``keypoints``, see ``read.scene_keypoints``. ``objects``: see ``core.sets.shared_facts``.
     """
     camera = images.camera
     image = {"file_name": file_name, "camera": camera.name + suffix, "frame": frame_of(scene)}
