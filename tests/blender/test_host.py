@@ -42,27 +42,27 @@ def reached(root):
 @pytest.fixture
 def threads(monkeypatch):
     """What threads were given while the test ran, and the add-on's functions beside Blender that they called."""
-    seen = SimpleNamespace(given=[], codes=set())
+    calls = SimpleNamespace(given=[], codes=set())
     submit = ThreadPoolExecutor.submit
 
     def watched(pool, function, *arguments, **keywords):
-        seen.given.append((function, arguments, keywords))
+        calls.given.append((function, arguments, keywords))
         return submit(pool, function, *arguments, **keywords)
 
     def called(frame, event, _):
         if event == "call" and frame.f_code.co_filename.startswith(str(SOURCE / "blender")):
-            seen.codes.add(frame.f_code)
+            calls.codes.add(frame.f_code)
 
     monkeypatch.setattr(ThreadPoolExecutor, "submit", watched)
     threading.setprofile(called)
-    yield seen
+    yield calls
     threading.setprofile(None)
 
 
-def blenders(seen):
+def blenders(calls):
     """What of Blender the threads could reach: objects, and names that their functions look up."""
-    objects = [item for given in seen.given for item in reached(given) if isinstance(item, OF_BLENDER)]
-    return objects, {name for code in seen.codes for name in code.co_names} & {"bpy", "gpu", "context", "bmesh"}
+    objects = [item for given in calls.given for item in reached(given) if isinstance(item, OF_BLENDER)]
+    return objects, {name for code in calls.codes for name in code.co_names} & {"bpy", "gpu", "context", "bmesh"}
 
 
 def test_the_watch_sees_what_it_is_for(camera_scene, threads):

@@ -30,5 +30,5 @@ def test_the_blocks_of_a_page_run(way, page, archive, tmp_path):
     (tmp_path / "blend_scenes").symlink_to(ROOT / "blend_scenes")
     package = archive if way == "with the extension" else ROOT / "addon"
     words = [*blender_command(Path(__file__).with_name("run_readme.py")), ROOT / page, package]
-    said = run(*map(str, words), folder=tmp_path, BLENDER_USER_RESOURCES=str(tmp_path / "resources"))
-    assert int(said.rpartition("blocks run:")[2].split()[0]) > 0
+    output = run(*map(str, words), folder=tmp_path, BLENDER_USER_RESOURCES=str(tmp_path / "resources"))
+    assert int(output.rpartition("blocks run:")[2].split()[0]) > 0

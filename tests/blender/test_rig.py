@@ -127,17 +127,17 @@ def test_a_zoom_is_keyed(blender, camera_scene, tmp_path):
 
 
 @pytest.mark.full
-@pytest.mark.parametrize("told", [False, True])
-def test_images_with_cameras_of_their_own_are_marked_cast_and_exported_once(blender, camera_scene, tmp_path, told):
+@pytest.mark.parametrize("numbered", [False, True])
+def test_images_with_cameras_of_their_own_are_marked_cast_and_exported_once(blender, camera_scene, tmp_path, numbered):
     model = tmp_path / "model"
     model.mkdir()
     (model / "cameras.txt").write_text("1 PINHOLE 8 6 9 9 4 3\n2 OPENCV_FISHEYE 6 6 3 3 3 3 0 0 0 0\n")
-    names = ("x_0001.png", "x_0002.png") if told else ("b.png", "a.png")
+    names = ("x_0001.png", "x_0002.png") if numbered else ("b.png", "a.png")
     lines = (f"{k} 1 0 0 0 {-k} 0 0 {k} {name}\n\n" for k, name in enumerate(names, 1))
     (model / "images.txt").write_text("".join(lines))
     file, out = tmp_path / "file.blend", tmp_path / "out"
     blender.ops.wm.save_as_mainfile(filepath=str(file))
-    cameras = ("x-1", "x-2") if told else ("b", "a")
+    cameras = ("x-1", "x-2") if numbered else ("b", "a")
     rig = ["--rig", str(model)]
     assert commands.main("cast", [str(file), *rig, "--format", "NPZ", "--passes", "ray_origin", "--output", str(out)],
                          "it") == 0  # fmt: skip

@@ -41,7 +41,7 @@ def copy(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def seen(copy):
+def report(copy):
     """What a user saw: with the model, and of the same file after it was taken away."""
 
     def used(addon, mode):
@@ -63,37 +63,37 @@ def test_the_page_for_who_changes_the_code_shows_this_file():
     assert f"```python\n{MODEL.read_text(encoding='utf-8')}```\n" in (ROOT / "CONTRIBUTING.md").read_text("utf-8")
 
 
-def test_it_is_in_blenders_menu_with_its_setting(seen):
+def test_it_is_in_blenders_menu_with_its_setting(report):
     description = "All around, with angles kept: small shapes are not distorted"
-    assert seen["item"] == ["Mercator", description, 1000]
-    name, subtype, *numbers = seen["setting"]
+    assert report["item"] == ["Mercator", description, 1000]
+    name, subtype, *numbers = report["setting"]
     assert (name, subtype) == ("Top Latitude", "ANGLE")
     assert numbers == pytest.approx([1.4, 0.1, 1.5])
-    assert seen["settings"] == {"mercator_top": 1.25}
+    assert report["settings"] == {"mercator_top": 1.25}
 
 
-def test_it_is_cast_and_projects(seen):
-    assert seen["latitude"] == pytest.approx(1.25, abs=1e-7)  # the pose is float32
-    assert seen["off"] < 1e-9
-    assert 0.2 < seen["hit"] <= 1
+def test_it_is_cast_and_projects(report):
+    assert report["latitude"] == pytest.approx(1.25, abs=1e-7)  # the pose is float32
+    assert report["off"] < 1e-9
+    assert 0.2 < report["hit"] <= 1
 
 
-def test_blender_renders_what_is_cast(seen):
-    assert seen["same"]
+def test_blender_renders_what_is_cast(report):
+    assert report["same"]
 
 
-def test_it_leaves_nothing_behind(seen):
-    assert seen["nothing left"]
+def test_it_leaves_nothing_behind(report):
+    assert report["nothing left"]
 
 
-def test_its_file_is_refused_in_one_line_once_it_is_taken_away(seen):
+def test_its_file_is_refused_in_one_line_once_it_is_taken_away(report):
     """By script, by F12, in the panel, and without registration. What else is in the file is read, and works."""
-    for said in seen["said"]:
+    for said in report["said"]:
         assert "odel of camera 'Camera' is '1000': it must be one of BLENDER, OPENCV_PINHOLE" in said
         assert "\n" not in said
-    assert len(seen["said"]) == 4
-    assert seen["shapes"] == 2
-    assert seen["chosen again"] == "OMNIMAX"
+    assert len(report["said"]) == 4
+    assert report["shapes"] == 2
+    assert report["chosen again"] == "OMNIMAX"
 
 
 @pytest.mark.full

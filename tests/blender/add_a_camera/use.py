@@ -26,14 +26,14 @@ def with_it(crc, path, folder):
     scene.camera = bpy.context.object
     scene.render.engine = "CAMERA_RAY_CASTER"
     scene.render.resolution_x, scene.render.resolution_y = 48, 32
-    own = scene.camera.data.camera_ray_caster
-    item = own.bl_rna.properties["model"].enum_items["MERCATOR"]
-    setting = own.bl_rna.properties["mercator_top"]
+    settings = scene.camera.data.camera_ray_caster
+    item = settings.bl_rna.properties["model"].enum_items["MERCATOR"]
+    setting = settings.bl_rna.properties["mercator_top"]
     seen = {
         "item": [item.name, item.description, item.value],
         "setting": [setting.name, setting.subtype, setting.default, setting.hard_min, setting.hard_max],
     }
-    own.model, own.mercator_top = "MERCATOR", 1.25
+    settings.model, settings.mercator_top = "MERCATOR", 1.25
     camera, shapes = crc.read_camera(scene), crc.read_shapes(scene)
     x, y = np.random.default_rng(1).uniform((1, 1), (47, 31), (200, 2)).T
     rays = camera.rays_at(x, y)

@@ -153,17 +153,17 @@ def cycles_truth(scene):
     bpy.ops.render.render(write_still=True, scene=scene.name)
     channels = read_exr(Path(scene.render.filepath))
 
-    def found(letters, *names):
+    def pass_channels(letters, *names):
         """Return the channels of these letters of a pass, which has a longer name from Blender 5.0 on."""
         (name,) = {name.rpartition(".")[0] for name in channels} & {f"{layer.name}.{name}" for name in names}
         return np.stack([channels[f"{name}.{letter}"] for letter in letters], axis=-1).astype(np.float64)
 
-    uv = found("UV", "UV")
+    uv = pass_channels("UV", "UV")
     return {
-        "depth": found("Z", "Depth")[..., 0],
-        "position": found("XYZ", "Position"),
-        "normal": found("XYZ", "Normal"),
+        "depth": pass_channels("Z", "Depth")[..., 0],
+        "position": pass_channels("XYZ", "Position"),
+        "normal": pass_channels("XYZ", "Normal"),
         "uv": np.dstack((uv, np.zeros(uv.shape[:2]))),
-        "object_index": np.rint(found("X", "IndexOB", "Object Index")[..., 0]),
-        "material_index": np.rint(found("X", "IndexMA", "Material Index")[..., 0]),
+        "object_index": np.rint(pass_channels("X", "IndexOB", "Object Index")[..., 0]),
+        "material_index": np.rint(pass_channels("X", "IndexMA", "Material Index")[..., 0]),
     }

@@ -22,7 +22,7 @@ MAPPED = 2e-4
 PASSES = ("depth", "position", "normal", "uv", "object_index", "material_index")
 
 
-def seen(scene, names):
+def cast_scene(scene, names):
     return cast(read_camera(scene), read_shapes(scene), passes=names, dtype=np.float64)
 
 
@@ -31,7 +31,7 @@ def unambiguous(scene):
     data, found = scene.camera.data, []
     for dx, dy in ((0, 0), (OFF, OFF), (OFF, -OFF), (-OFF, OFF), (-OFF, -OFF)):
         data.shift_x, data.shift_y = (part / scene.render.resolution_x for part in (dx, dy))
-        images = seen(scene, ("shape_index", "face_index"))
+        images = cast_scene(scene, ("shape_index", "face_index"))
         found.append(np.stack((images["shape_index"], images["face_index"])))
     data.shift_x = data.shift_y = 0
     return (np.array(found) == found[0]).all(axis=(0, 1))
@@ -40,7 +40,7 @@ def unambiguous(scene):
 def assert_as_cycles(scene, sure=None, mapped=MAPPED, but=()):
     """Check all passes of PASSES ``but`` some at all unambiguous pixels, or at those of ``sure``; return ours."""
     sure = unambiguous(scene) if sure is None else sure
-    ours, theirs = seen(scene, PASSES), cycles_truth(scene)
+    ours, theirs = cast_scene(scene, PASSES), cycles_truth(scene)
     hit = np.isfinite(ours["depth"])
     np.testing.assert_array_equal(hit[sure], theirs["depth"][sure] < 1e9)
     assert (hit & sure).sum() > 100

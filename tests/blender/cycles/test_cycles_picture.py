@@ -36,16 +36,16 @@ def scene(blender, camera_scene):
     return scene
 
 
-def own(camera):
+def settings_of(camera):
     return camera.data.camera_ray_caster
 
 
 def cross_slit(scene):
-    own(scene.camera).model = "CROSS_SLIT"
+    settings_of(scene.camera).model = "CROSS_SLIT"
     for name, along, turn in (("slit_1", 0.0, 0.0), ("slit_2", 2.0, 1.5)):
         slit = new_object(name)
         slit.parent, slit.location.z, slit.rotation_euler.z = scene.camera, along, turn
-        setattr(own(scene.camera), name, slit)
+        setattr(settings_of(scene.camera), name, slit)
 
 
 def panorama(scene):
@@ -54,7 +54,7 @@ def panorama(scene):
 
 
 def omnimax(scene):
-    own(scene.camera).model = "OMNIMAX"
+    settings_of(scene.camera).model = "OMNIMAX"
 
 
 def shifted(scene):
@@ -150,7 +150,7 @@ def test_each_eye_of_spherical_stereo_has_its_picture(scene, kind):
 
 
 def test_a_model_with_eyes_of_its_own_shows_each(scene):
-    own(scene.camera).model = "OMNIDIRECTIONAL_STEREO"
+    settings_of(scene.camera).model = "OMNIDIRECTIONAL_STEREO"
     scene.render.use_multiview = True
     for view in ("left", "right"):
         check(scene, view)
@@ -195,7 +195,7 @@ CLOCKS = [
 def test_what_moves_is_seen_at_each_pixels_time(scene, mode, start, end, border):
     """A camera and the cubes move evenly: between two places Cycles is as exact as we are."""
     panorama(scene)
-    settings = own(scene.camera)
+    settings = settings_of(scene.camera)
     if "_TO_" in mode:
         settings.readout, mode = mode, "ROLLING_SHUTTER"
     settings.time_mode, settings.time_start, settings.time_end = mode, start, end
@@ -234,7 +234,7 @@ def state():
 def test_the_scene_is_as_it_was(scene, monkeypatch, mode, fails):
     from camera_ray_caster.blender.cycles import renderer
 
-    settings = own(scene.camera)
+    settings = settings_of(scene.camera)
     settings.time_mode = mode
     settings.time_image = bpy.data.images.new("Times", 2, 1, float_buffer=True)
     scene.camera.data.lens = 20.0

@@ -7,7 +7,7 @@ import pytest
 from camera_ray_caster.blender.read.scene_reader import read_shapes
 from camera_ray_caster.core.records import MESH
 
-from .sure import assert_as_cycles, seen
+from .sure import assert_as_cycles, cast_scene
 from .test_same_scenes import added, linked, material
 
 
@@ -109,7 +109,7 @@ def test_both_keeps_the_normals_of_the_mesh(scene):
     tree, node = moved(grid(1, smooth=True, size=4), "BOTH", Scale=0.5)
     waves(tree, node.inputs["Height"])
     assert_as_cycles(scene, but=("normal",))
-    normal = seen(scene, ("normal", "depth"))
+    normal = cast_scene(scene, ("normal", "depth"))
     hit = np.isfinite(normal["depth"])
     np.testing.assert_allclose(normal["normal"][hit][:, 2], 1, atol=1e-6)
     ((name, note),) = read_shapes(scene).notes

@@ -8,7 +8,7 @@ from camera_ray_caster.blender.cycles import from_cycles, shader_updates, to_cyc
 from camera_ray_caster.core.records import InputError
 
 from ..read.scene_parts import new_object
-from .test_to_cycles import check, own, scene, set_up
+from .test_to_cycles import check, scene, set_up, settings_of
 
 __all__ = ["scene"]
 
@@ -27,7 +27,7 @@ def test_a_copy_gets_a_text_of_its_own_when_its_formula_changes(scene, monkeypat
     camera = set_up(scene, {"lens": 30.0})
     to_cycles(scene)
     other = new_object("Other", camera.data.copy())
-    own(other).model = "OMNIMAX"
+    settings_of(other).model = "OMNIMAX"
     update()
     assert other.data.custom_shader != camera.data.custom_shader
     monkeypatch.setattr(shader_updates, "rewrite", None)  # it would be called again and again
@@ -94,7 +94,7 @@ def test_without_cycles_nothing_fails(scene, capfd):
     to_cycles(scene)
     addon_utils.disable("cycles")
     try:
-        own(camera).model = "FISHEYE_STEREOGRAPHIC"
+        settings_of(camera).model = "FISHEYE_STEREOGRAPHIC"
         update()
         with pytest.raises(InputError, match="Cycles is disabled"):
             from_cycles(camera)

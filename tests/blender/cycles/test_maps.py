@@ -7,7 +7,7 @@ import pytest
 from camera_ray_caster.blender.read.scene_reader import read_shapes
 from camera_ray_caster.core.records import MESH, PLANE, SPHERE
 
-from .sure import MAPPED, assert_as_cycles, seen, unambiguous
+from .sure import MAPPED, assert_as_cycles, cast_scene, unambiguous
 
 
 @pytest.fixture
@@ -72,7 +72,7 @@ def test_spheres_have_longitude_and_latitude_or_no_map(scene):
     assert "UV map" in note
     for k, item in enumerate((known, none), 1):
         item.pass_index = k
-    ours = seen(scene, ("uv", "position", "object_index", "depth"))
+    ours = cast_scene(scene, ("uv", "position", "object_index", "depth"))
     where = ours["object_index"]
     assert (ours["uv"][where == 2] == 0).all()
     scene.camera_ray_caster.exact_shapes = False
@@ -94,7 +94,7 @@ def test_a_shape_that_an_object_asks_for_has_a_map_too(scene, setting, make):
     assert [name for name, _ in read_shapes(scene).notes] == ([] if make == "plane" else ["Asked"])
     unmapped(item)
     assert read_shapes(scene).notes == ()
-    assert (seen(scene, ("uv",))["uv"] == 0).all()
+    assert (cast_scene(scene, ("uv",))["uv"] == 0).all()
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, 3e38])

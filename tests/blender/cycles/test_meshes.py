@@ -7,7 +7,7 @@ from camera_ray_caster.blender.read.scene_reader import read_shapes
 from camera_ray_caster.core.conventions import EPS32
 
 from .cycles import cycles_surface
-from .sure import seen, unambiguous
+from .sure import cast_scene, unambiguous
 
 REACH = 16.0
 """More than any coordinate in the scene."""
@@ -31,9 +31,9 @@ MAPPED = 5e-5
 """Of a map that grows by less than 1 on 0.5, where the point is off by 2e-5."""
 
 
-def add(bpy, name, data, index, place, turn=(0, 0, 0), scale=(1, 1, 1)):
+def add(bpy, name, data, index, location, turn=(0, 0, 0), scale=(1, 1, 1)):
     item = bpy.data.objects.new(name, data)
-    item.pass_index, item.location, item.rotation_euler, item.scale = index, place, turn, scale
+    item.pass_index, item.location, item.rotation_euler, item.scale = index, location, turn, scale
     bpy.context.scene.collection.objects.link(item)
     return item
 
@@ -44,7 +44,7 @@ def shaded(mesh, smooth):
     return mesh
 
 
-def made(bpy, name):
+def primitive(bpy, name):
     """A mesh of Blender's own."""
     getattr(bpy.ops.mesh, f"primitive_{name}_add")()
     item = bpy.context.object
@@ -57,11 +57,11 @@ def made(bpy, name):
 def scene(blender):
     scene = blender.context.scene
     data = blender.data
-    monkey = add(blender, "Monkey", shaded(made(blender, "monkey"), True), 1, (0, 0, 0.4), (0.2, 0.1, 0.5))
+    monkey = add(blender, "Monkey", shaded(primitive(blender, "monkey"), True), 1, (0, 0, 0.4), (0.2, 0.1, 0.5))
     monkey.modifiers.new("Subdivision", "SUBSURF").levels = 1
     monkey.modifiers[0].render_levels = 1
-    add(blender, "Cube", made(blender, "cube"), 2, (-2.2, 0.5, 0), (0.3, 0.4, 0.5), (0.7, 0.5, 0.9))
-    torus = shaded(made(blender, "torus"), True)
+    add(blender, "Cube", primitive(blender, "cube"), 2, (-2.2, 0.5, 0), (0.3, 0.4, 0.5), (0.7, 0.5, 0.9))
+    torus = shaded(primitive(blender, "torus"), True)
     add(blender, "Torus", torus, 3, (2.2, 0.3, 0.3), (0.9, 0.2, 0), (0.6, 0.6, 0.6))
     add(blender, "Mirrored", torus, 3, (1.4, -1.6, 0.1), (0.3, 0.2, 0.1), (-0.5, 0.7, 0.4))
     text = data.curves.new("Text", "FONT")
@@ -79,7 +79,7 @@ def scene(blender):
     ball.elements.new().co = (0, 0, 0)
     ball.elements.new().co = (0.7, 0, 0.2)
     add(blender, "Metaball", ball, 6, (-0.6, -1.9, -0.9), scale=(0.5, 0.5, 0.5))
-    add(blender, "Floor", made(blender, "grid"), 7, (0, 0, -1.5), (0.05, 0.02, 0), (6, 6, 6))
+    add(blender, "Floor", primitive(blender, "grid"), 7, (0, 0, -1.5), (0.05, 0.02, 0), (6, 6, 6))
     inner = data.collections.new("Inner")
     inner.objects.link(monkey)
     instance = add(blender, "Instances", None, 8, (1.8, 2.2, 0), (0, 0, 2), (0.6, 0.6, 0.9))
@@ -95,7 +95,7 @@ def scene(blender):
 def test_meshes_are_those_of_cycles(blender, scene, kind):
     scene.camera.data.type = kind
     sure = unambiguous(scene)
-    ours = seen(scene, ("position", "normal", "uv", "object_index", "ray_direction"))
+    ours = cast_scene(scene, ("position", "normal", "uv", "object_index", "ray_direction"))
     index = ours["object_index"]
     assert set(np.unique(index)) == {0, 1, 2, 3, 4, 5, 6, 7}
     assert sure.mean() > 0.9
@@ -130,7 +130,7 @@ def test_what_modifiers_and_keys_make_is_what_cycles_shows(blender):
         add(
             blender,
             f"{kind} {k}",
-            made(blender, kind),
+            primitive(blender, kind),
             k + 1,
             (3 * (k % 4) - 4.5, 3 * (k // 4) - 1.5, 0),
             (0.5, 0.3, 0.2),
@@ -147,7 +147,7 @@ def test_what_modifiers_and_keys_make_is_what_cycles_shows(blender):
     bones.pose.bones[0].rotation_mode, bones.pose.bones[0].rotation_euler = "XYZ", (0.5, 0.2, 0.3)
     bent.vertex_groups.new(name="Bone").add(range(0, 64, 2), 1, "ADD")
     modified(bent, "ARMATURE", object=bones)
-    ball = add(blender, "Cutter", made(blender, "uv_sphere"), 0, cut.location, scale=(1.3, 1.3, 1.3))
+    ball = add(blender, "Cutter", primitive(blender, "uv_sphere"), 0, cut.location, scale=(1.3, 1.3, 1.3))
     ball.hide_render = True
     modified(cut, "BOOLEAN", object=ball)
     several.scale = 0.4, 0.4, 0.4
@@ -157,14 +157,14 @@ def test_what_modifiers_and_keys_make_is_what_cycles_shows(blender):
     shaded(mirrored.data, True)
     blender.ops.surface.primitive_nurbs_surface_torus_add(location=(1.5, 1.5, 0))
     blender.context.object.pass_index = 8
-    faces = add(blender, "Faces", made(blender, "cube"), 9, (4.5, 1.5, 0), (0.2, 0.1, 0.6))
+    faces = add(blender, "Faces", primitive(blender, "cube"), 9, (4.5, 1.5, 0), (0.2, 0.1, 0.6))
     small.parent, small.scale, faces.instance_type = faces, (0.6, 0.6, 0.6), "FACES"
     scene.camera = add(blender, "Camera", data.cameras.new("Camera"), 0, (0, -5, 12), (0.4, 0, 0))
     scene.camera.data.lens = 36
     scene.render.resolution_x, scene.render.resolution_y = 144, 80
     scene.camera_ray_caster.exact_shapes = False
     sure = unambiguous(scene)
-    ours = seen(scene, ("position", "normal", "object_index"))
+    ours = cast_scene(scene, ("position", "normal", "object_index"))
     assert set(np.unique(ours["object_index"])) == set(range(10))
     position, normal = cycles_surface(scene, "Position", REACH), cycles_surface(scene, "Normal", 1.0)
     index = cycles_surface(scene, "Object Index", REACH)[..., 0]
@@ -213,7 +213,7 @@ def test_normals_are_interpolated_where_cycles_does(blender):
         "Instanced": {True},
     }  # fmt: skip
     sure = unambiguous(scene)
-    ours = seen(scene, ("normal", "shape_index"))
+    ours = cast_scene(scene, ("normal", "shape_index"))
     hit = sure & (ours["shape_index"] >= 0)
     assert len(np.unique(ours["shape_index"][hit])) == len(shapes)
     assert np.abs(cycles_surface(scene, "Normal", 1.0) - ours["normal"])[hit].max() <= TURNED

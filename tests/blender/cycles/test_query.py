@@ -33,13 +33,13 @@ OTHER = "Blender's own OpenImageIO is needed"
 
 
 @pytest.mark.cases(1)
-@pytest.mark.parametrize(("before", "said"), [("", "made of True"), ("import OpenImageIO", OTHER)])
-def test_another_openimageio_is_not_taken(osl, tmp_path, before, said):
+@pytest.mark.parametrize(("before", "message"), [("", "made of True"), ("import OpenImageIO", OTHER)])
+def test_another_openimageio_is_not_taken(osl, tmp_path, before, message):
     package = tmp_path / "OpenImageIO"
     package.mkdir()
     (package / "__init__.py").touch()
     script = tmp_path / "convert.py"
     script.write_text(CONVERT.format(before=before))
-    done = run(*blender_command(script), str(tmp_path), str(SOURCE.parent))
-    assert "Traceback" not in done
-    assert any(line.startswith(said) for line in done.splitlines()), done
+    output = run(*blender_command(script), str(tmp_path), str(SOURCE.parent))
+    assert "Traceback" not in output
+    assert any(line.startswith(message) for line in output.splitlines()), output

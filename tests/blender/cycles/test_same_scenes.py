@@ -8,7 +8,7 @@ from camera_ray_caster.blender.read.scene_reader import read_shapes
 from camera_ray_caster.core.records import MESH, SPHERE
 
 from .cycles import cycles_truth
-from .sure import NEAR, PASSES, assert_as_cycles, seen
+from .sure import NEAR, PASSES, assert_as_cycles, cast_scene
 
 
 @pytest.fixture
@@ -157,7 +157,7 @@ def test_bumps_are_noted_and_the_normals_are_the_mesh_s(scene):
         made.displacement_method = "BUMP"
     material(added("cube", 4, location=(5, 0, 0)), "Plain")
     assert_as_cycles(scene, but=("normal",))
-    ours = seen(scene, ("normal", "object_index"))
+    ours = cast_scene(scene, ("normal", "object_index"))
     assert np.abs(ours["normal"][ours["object_index"] > 0]).max(axis=-1).min() > 1 - 1e-6
     shapes = read_shapes(scene)
     assert {name for name, note in shapes.notes if "bump" in note} == {"Bump", "NormalMap", "Displacement"}
@@ -166,9 +166,9 @@ def test_bumps_are_noted_and_the_normals_are_the_mesh_s(scene):
 def test_a_holdout_is_noted_and_keeps_its_passes(scene):
     monkey = added("monkey", 1, size=2, location=(0, 0, 1))
     ground()
-    before = seen(scene, PASSES)
+    before = cast_scene(scene, PASSES)
     monkey.is_holdout = True
-    after = seen(scene, (*PASSES, "combined"))
+    after = cast_scene(scene, (*PASSES, "combined"))
     for name in PASSES:
         np.testing.assert_array_equal(after[name], before[name])
     assert (after["combined"][after["object_index"] == 1] == 0).all()
@@ -199,7 +199,7 @@ def test_a_texture_is_seen_through_the_map_of_the_mesh(scene):
     shapes = read_shapes(scene)
     assert list(shapes.kind) == [MESH]
     assert [name for name, note in shapes.notes if "cast as opaque" not in note] == []
-    ours, theirs = seen(scene, ("depth",))["depth"], cycles_truth(scene)["depth"]
+    ours, theirs = cast_scene(scene, ("depth",))["depth"], cycles_truth(scene)["depth"]
     assert 0.1 < np.isfinite(ours).mean() < 0.5
     assert (np.abs(ours - theirs) > NEAR)[np.isfinite(ours)].mean() < 0.005  # at edges of texels
     texture.image = None

@@ -121,8 +121,8 @@ def test_a_slit_scan_by_rows_is_the_rolling_shutter_of_a_custom_camera(osl, blen
     """From frame 8 at the bottom to frame 2 at the top, seen of a wall in a slant, which tells where its camera was."""
     blender.ops.mesh.primitive_plane_add(size=100, rotation=(0, -np.pi / 4, 0))
     move(scene, scene.camera if moving == "camera" else blender.context.object, 1.0)
-    own = scene.camera.data.camera_ray_caster
-    own.time_mode, own.time_start, own.time_end = "ROWS", 8.0, 2.0
+    settings = scene.camera.data.camera_ray_caster
+    settings.time_mode, settings.time_start, settings.time_end = "ROWS", 8.0, 2.0
     rows = read_camera(scene).rays().time[:, :1]
     (said,) = [line for line in to_cycles(scene) if "slit scan" in line]
     assert "from frame" in said

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from .cycles import cycles_truth
-from .sure import NEAR, assert_as_cycles, seen
+from .sure import NEAR, assert_as_cycles, cast_scene
 
 
 @pytest.fixture
@@ -73,7 +73,7 @@ def test_of_faces_that_coincide_the_first_is_met(scene, first):
         bpy.ops.mesh.primitive_monkey_add(size=3)
         bpy.context.object.pass_index = index
         bpy.context.object.name = f"{'AB'[index == first]}{index}"  # the order of names is not that of rows
-    ours, theirs = seen(scene, ("object_index", "depth")), cycles_truth(scene)
+    ours, theirs = cast_scene(scene, ("object_index", "depth")), cycles_truth(scene)
     hit = np.isfinite(ours["depth"]) & (np.abs(ours["depth"] - theirs["depth"]) < NEAR)
     assert hit.sum() > 100
     assert set(np.unique(ours["object_index"][hit])) == {first}

@@ -70,14 +70,14 @@ def pixels_of(camera):
     return x[valid], y[valid]
 
 
-def bound(camera, found):
+def bound(camera, positions):
     """How far beside a ray Cycles may meet something: 32 operations of the origin, of places of 16 and of a witness of
     64, and for the direction 1e-4 pixels: what float32 takes from a place in the picture.
     """
     x, y = pixels_of(camera)
     here = camera.rays_at(x, y).directions
     turned = [np.linalg.norm(camera.rays_at(x + u, y + v).directions - here, axis=-1) for u, v in np.eye(2) * 2.0**-8]
-    distance = np.linalg.norm(found - camera.pose.eye, axis=-1)
+    distance = np.linalg.norm(positions - camera.pose.eye, axis=-1)
     return (32 * 16 + 64) * EPS32 + distance * 1e-4 * 2.0**8 * np.nan_to_num(np.maximum(*turned), nan=1.0)
 
 

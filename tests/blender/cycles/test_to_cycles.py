@@ -19,13 +19,13 @@ def scene(osl, camera_scene):
     return camera_scene
 
 
-def own(camera):
+def settings_of(camera):
     return camera.data.camera_ray_caster
 
 
-def same_rays(one, other):
+def same_rays(left, right):
     return all(
-        np.array_equal(getattr(one, name), getattr(other, name), equal_nan=True) for name in ("origins", "directions")
+        np.array_equal(getattr(left, name), getattr(right, name), equal_nan=True) for name in ("origins", "directions")
     )
 
 
@@ -48,7 +48,7 @@ def set_up(scene, settings):
     camera = scene.camera
     camera.location, camera.rotation_euler, camera.scale = (1.5, -2, 0.7), (0.5, 0.2, 0.7), (-1, 2, 0.5)
     for name, value in settings.items():
-        owner = next(one for one in (camera.data, scene.render, own(camera)) if hasattr(one, name))
+        owner = next(one for one in (camera.data, scene.render, settings_of(camera)) if hasattr(one, name))
         setattr(owner, name, value)
     return camera
 
@@ -79,7 +79,7 @@ def test_what_is_changed_afterwards_is_followed(scene):
     bpy.context.view_layer.update()
     assert camera.data.custom_shader.as_string() == source
     check(scene)
-    own(camera).model = "OMNIMAX"
+    settings_of(camera).model = "OMNIMAX"
     bpy.context.view_layer.update()
     check(scene)
 
@@ -107,7 +107,7 @@ def test_inputs_are_the_settings_whatever_is_typed_into_them(scene):
 
 def test_of_cameras_with_the_same_data_the_active_one_counts(scene):
     camera = set_up(scene, {"model": "PENCIL"})
-    own(camera).slit_1 = slit = new_object("Slit")
+    settings_of(camera).slit_1 = slit = new_object("Slit")
     slit.location = (1.5, -2, 3)
     new_object("Other", camera.data).location = (5, 5, 5)
     bpy.context.view_layer.update()
@@ -142,7 +142,7 @@ def test_a_slit_that_moves_is_animation_too(scene):
     for name, turn in (("slit_1", 0.0), ("slit_2", 1.5)):
         slit = new_object(name)
         slit.location, slit.rotation_euler.z = (1.5, -2, 3.0 + turn), turn
-        setattr(own(camera), name, slit)
+        setattr(settings_of(camera), name, slit)
     bpy.context.view_layer.update()
     for frame, height in ((1, 3.0), (4, 3.5)):
         slit.location.z = height
@@ -177,7 +177,7 @@ def test_a_shader_that_is_not_ours_is_refused_as_ever(scene):
 
 def test_a_camera_of_a_deleted_slit_keeps_its_last_rays(scene):
     camera = set_up(scene, {"model": "PENCIL"})
-    own(camera).slit_1 = slit = new_object("Slit")
+    settings_of(camera).slit_1 = slit = new_object("Slit")
     slit.location = (1.5, -2, 3)
     bpy.context.view_layer.update()
     to_cycles(scene)
@@ -196,13 +196,13 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("settings", "said"), REFUSED)
-def test_what_cannot_be_a_shader_is_refused_and_left_alone(scene, settings, said):
+@pytest.mark.parametrize(("settings", "message"), REFUSED)
+def test_what_cannot_be_a_shader_is_refused_and_left_alone(scene, settings, message):
     data = scene.camera.data
     for name, value in settings.items():
-        setattr(data.stereo if "stereo" in name else own(scene.camera) if "time" in name else data, name, value)
+        setattr(data.stereo if "stereo" in name else settings_of(scene.camera) if "time" in name else data, name, value)
     kind = data.type
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         to_cycles(scene)
     assert data.type == kind
     assert not bpy.data.texts
@@ -231,10 +231,10 @@ def test_eyes_that_cycles_would_shift_otherwise_are_refused(scene):
     with pytest.raises(InputError, match="Sensor Fit to the frame's width"):
         to_cycles(scene)
     scene.camera.data.sensor_fit = "HORIZONTAL"
-    own(scene.camera).model = "OMNIMAX"  # a dome takes no shift
+    settings_of(scene.camera).model = "OMNIMAX"  # a dome takes no shift
     with pytest.raises(InputError, match="choose Parallel"):
         to_cycles(scene)
-    own(scene.camera).model = "BLENDER"
+    settings_of(scene.camera).model = "BLENDER"
     to_cycles(scene)
 
 

@@ -23,7 +23,7 @@ def view(camera_scene, monkeypatch):
     view = viewport.Viewport()
     view.shown, view.arrays, view.seconds = [], [], 0.0
 
-    def made(target, shapes, shown, step, spare, progress=None):
+    def slow_cast(target, shapes, shown, step, spare, progress=None):
         sleep(view.seconds)
         images, rectangle = cast(target, shapes, shown, step, spare, progress)
         return images, (step, rectangle)
@@ -33,7 +33,7 @@ def view(camera_scene, monkeypatch):
         self.shown.append(step)
         self.arrays.append(images["combined"])
 
-    monkeypatch.setattr(viewport, "_cast", made)
+    monkeypatch.setattr(viewport, "_cast", slow_cast)
     monkeypatch.setattr(viewport.Viewport, "_show", show)
     monkeypatch.setattr(viewport.Viewport, "_draw", lambda self, scene: None)
     monkeypatch.setattr(viewport.Viewport, "update_stats", lambda *_: None, raising=False)

@@ -128,8 +128,8 @@ def test_eyes_of_a_stereo_camera_and_view_layers(cubes):
     ("GENERAL_LINEAR", "NONE", "no single viewpoint"), ("DOME_MASTER", "ROWS", "its own time"),
 ])  # fmt: skip
 def test_what_cannot_be_rendered_is_refused_in_a_line(cubes, model, time, why):
-    own = cubes.camera.data.camera_ray_caster
-    own.model, own.time_mode, own.time_end = model, time, 5
+    settings = cubes.camera.data.camera_ray_caster
+    settings.model, settings.time_mode, settings.time_end = model, time, 5
     with pytest.raises(InputError, match=why):
         picture_of(cubes, WORKBENCH)
 
@@ -201,8 +201,8 @@ def test_depth_of_field_is_that_of_rays_through_the_aperture(cubes, model):
 def test_depth_of_field_that_is_left_out_says_why(cubes):
     cubes.camera.data.dof.use_dof = True
     assert "raise Samples" in picture_of(cubes, WORKBENCH).warnings[0]
-    own = cubes.camera.data.camera_ray_caster
-    own.model, cubes.camera.data.dof.aperture_blades, cubes.camera_ray_caster.samples = "DOME_MASTER", 5, 8
+    settings = cubes.camera.data.camera_ray_caster
+    settings.model, cubes.camera.data.dof.aperture_blades, cubes.camera_ray_caster.samples = "DOME_MASTER", 5, 8
     assert "no disc" in picture_of(cubes, WORKBENCH).warnings[0]
 
 

@@ -34,10 +34,9 @@ def names(folder):
     return sorted(path.name for path in folder.iterdir()) if folder.exists() else []
 
 
-def same(one, other):
-    return (
-        one.rays().directions.tobytes() == other.rays().directions.tobytes() and (one.pose.eye == other.pose.eye).all()
-    )
+def same(left, right):
+    same_directions = left.rays().directions.tobytes() == right.rays().directions.tobytes()
+    return same_directions and (left.pose.eye == right.pose.eye).all()
 
 
 def test_cameras_at_frames_are_those_that_are_read(scene, tmp_path):
@@ -77,10 +76,10 @@ def test_a_multi_view_scene_has_the_camera_of_each_view(scene, tmp_path):
 
 
 def test_slits_paths_and_times_come_back_from_a_file(scene, tmp_path):
-    own = scene.camera.data.camera_ray_caster
+    settings = scene.camera.data.camera_ray_caster
     bpy.ops.curve.primitive_bezier_curve_add(location=(1, 2, 3), rotation=(0.3, 0, 0))
-    own.model, own.path = "STRIP", bpy.context.object
-    own.time_mode, own.time_start, own.time_end = "COLUMNS", 1, 11
+    settings.model, settings.path = "STRIP", bpy.context.object
+    settings.time_mode, settings.time_start, settings.time_end = "COLUMNS", 1, 11
     _, (path,) = exports.write(scene, "json", [scene.camera], [5], tmp_path)
     there, back = read_camera(scene), camera_from_json(path)
     assert same(there, back)

@@ -14,25 +14,25 @@ BEFORE = json.loads(Path(__file__).with_name("properties_of_0_1.json").read_text
 GROUPS = {group.__name__: group for group in (CameraProperties, ObjectProperties, SceneProperties)}
 
 
-def said(found):
+def facts_of(prop):
     """What Blender says of a property, as lists, words and numbers, but for its description, which no file needs."""
-    facts = {"type": found.type, "name": found.name}
-    if found.type in ("FLOAT", "INT"):
-        facts["default"] = list(found.default_array) if found.is_array else found.default
-        facts["hard"], facts["soft"] = [found.hard_min, found.hard_max], [found.soft_min, found.soft_max]
-        facts["step"] = found.step
-    if found.type == "FLOAT":
-        facts["precision"] = found.precision
-        facts |= {"unit": "LENGTH"} if found.unit == "LENGTH" else {}
-        facts |= {"subtype": "ANGLE"} if found.unit == "ROTATION" else {}
-    if found.type == "ENUM":
-        facts["items"] = [[item.identifier, item.name, item.description, item.value] for item in found.enum_items]
-    if found.type in ("ENUM", "STRING", "BOOLEAN"):
-        facts["default"] = found.default
-    if found.type == "STRING":
-        facts["subtype"] = found.subtype
-    if found.type == "POINTER":
-        facts["fixed"] = found.fixed_type.identifier
+    facts = {"type": prop.type, "name": prop.name}
+    if prop.type in ("FLOAT", "INT"):
+        facts["default"] = list(prop.default_array) if prop.is_array else prop.default
+        facts["hard"], facts["soft"] = [prop.hard_min, prop.hard_max], [prop.soft_min, prop.soft_max]
+        facts["step"] = prop.step
+    if prop.type == "FLOAT":
+        facts["precision"] = prop.precision
+        facts |= {"unit": "LENGTH"} if prop.unit == "LENGTH" else {}
+        facts |= {"subtype": "ANGLE"} if prop.unit == "ROTATION" else {}
+    if prop.type == "ENUM":
+        facts["items"] = [[item.identifier, item.name, item.description, item.value] for item in prop.enum_items]
+    if prop.type in ("ENUM", "STRING", "BOOLEAN"):
+        facts["default"] = prop.default
+    if prop.type == "STRING":
+        facts["subtype"] = prop.subtype
+    if prop.type == "POINTER":
+        facts["fixed"] = prop.fixed_type.identifier
     return facts
 
 
@@ -40,7 +40,7 @@ def said(found):
 def test_a_property_of_0_1_is_what_it_was(name):
     """A choice may have more items, in another order: a .blend stores their numbers."""
     group, _, name = name.partition(".")
-    before, found = BEFORE[f"{group}.{name}"], said(GROUPS[group].bl_rna.properties[name])
+    before, found = BEFORE[f"{group}.{name}"], facts_of(GROUPS[group].bl_rna.properties[name])
     if "items" in before:
         items = [item for item in found["items"] if item[0] in {key for key, *_ in before["items"]}]
         found["items"] = sorted(items, key=lambda item: item[3])
@@ -60,10 +60,10 @@ def test_every_item_of_a_choice_has_a_number_of_its_own():
 def test_only_objects_of_the_declared_types_can_be_a_slit_or_a_path(blender):
     curve, mesh = blender.data.curves.new("Curve", "CURVE"), blender.data.meshes.new("Mesh")
     items = [blender.data.objects.new("Item", data) for data in (None, curve, mesh)]
-    own = blender.data.cameras.new("Camera").camera_ray_caster
+    settings = blender.data.cameras.new("Camera").camera_ray_caster
     for name, types in (("slit_1", {"EMPTY", "CURVE"}), ("slit_2", {"EMPTY", "CURVE"}), ("path", {"CURVE"})):
         poll = CameraProperties.__annotations__[name].keywords["poll"]
-        assert {item.type for item in items if poll(own, item)} == types
+        assert {item.type for item in items if poll(settings, item)} == types
 
 
 def test_what_a_script_changes_is_evaluated(blender):

@@ -66,8 +66,8 @@ def test_settings_reach_the_camera(blender, scene, key, settings, pixel, origin,
 
 
 def test_the_model_is_stored_in_the_file(blender, scene, tmp_path):
-    own = scene.camera.data.camera_ray_caster
-    own.model, own.tilt = "OMNIMAX", 0.25
+    settings = scene.camera.data.camera_ray_caster
+    settings.model, settings.tilt = "OMNIMAX", 0.25
     blender.ops.wm.save_as_mainfile(filepath=str(tmp_path / "dome.blend"))
     blender.ops.wm.open_mainfile(filepath=str(tmp_path / "dome.blend"))
     camera = read_camera(blender.context.scene)
@@ -78,11 +78,11 @@ def test_the_model_is_stored_in_the_file(blender, scene, tmp_path):
 def test_a_calibration_file_beside_the_blend_is_found_and_a_missing_one_named(blender, scene, tmp_path):
     (tmp_path / "lens.yml").write_text(CALIBRATION)
     blender.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
-    own = blender.context.scene.camera.data.camera_ray_caster
-    own.model, own.calibration_file = "OPENCV_PINHOLE", "//lens.yml"
+    settings = blender.context.scene.camera.data.camera_ray_caster
+    settings.model, settings.calibration_file = "OPENCV_PINHOLE", "//lens.yml"
     found = read_camera(blender.context.scene).rays_at(48 + 48 * 9 / 16, 27).directions
     np.testing.assert_allclose(found, np.array([1, 0, -2]) / np.sqrt(5), rtol=0, atol=1e-15)
-    own.calibration_file = "//lost.yml"
+    settings.calibration_file = "//lost.yml"
     with pytest.raises(InputError, match="lost"):
         read_camera(blender.context.scene)
 
@@ -118,14 +118,14 @@ def test_what_was_read_is_said(scene, tmp_path):
 def test_a_table_of_rays_is_chosen_as_a_calibration_and_its_choices_stay(scene, tmp_path):
     path = tmp_path / "rays.npy"
     np.save(path, pinhole(24, 14))
-    own = scene.camera.data.camera_ray_caster
-    own.ray_interpolation = "LINEAR"
+    settings = scene.camera.data.camera_ray_caster
+    settings.ray_interpolation = "LINEAR"
     said = set_calibration(scene.camera.data, str(path))
     assert said.startswith("Camera without a name: Ray Table, ")
-    assert (own.model, own.calibration_file, own.ray_interpolation) == ("RAY_TABLE", str(path), "LINEAR")
+    assert (settings.model, settings.calibration_file, settings.ray_interpolation) == ("RAY_TABLE", str(path), "LINEAR")
     model = read_camera(scene).model
     assert (model.key, model.grid.kind, model.grid.shape) == ("RAY_TABLE", "LINEAR", (14, 24))
     assert read_camera(scene).model.grid is model.grid, "the table is prepared once"
-    own.calibration_file = ""
+    settings.calibration_file = ""
     with pytest.raises(InputError, match="no table of rays: choose its file"):
         read_camera(scene)

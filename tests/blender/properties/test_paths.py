@@ -14,7 +14,7 @@ def path_of(camera):
     return settings.calibration_file
 
 
-def found(path):
+def resolved(path):
     return Path(bpy.path.abspath(path)).resolve()
 
 
@@ -38,14 +38,14 @@ def test_save_as_and_append(camera, tmp_path):
     assert path_of(camera) == bpy.data.texts["Lens"].filepath == "//../one/lens.yml"
     for name in ("b", "copy"):
         bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "two" / f"{name}.blend"))
-        assert found(path_of(bpy.data.cameras[0])) == (tmp_path / "one" / "lens.yml").resolve()
+        assert resolved(path_of(bpy.data.cameras[0])) == (tmp_path / "one" / "lens.yml").resolve()
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     for saved in (False, True):
         if saved:
             bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "two" / "c.blend"))
         with bpy.data.libraries.load(str(tmp_path / "one" / "a.blend")) as (there, here):
             here.cameras = there.cameras
-        assert found(path_of(here.cameras[0])) == (tmp_path / "one" / "lens.yml").resolve()
+        assert resolved(path_of(here.cameras[0])) == (tmp_path / "one" / "lens.yml").resolve()
         assert path_of(here.cameras[0]).startswith("//") == saved
 
 

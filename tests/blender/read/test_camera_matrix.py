@@ -93,14 +93,14 @@ def test_opencv_projects_as_its_calibrated_lenses_do(scene, name, percentage):
     """Of a frame of another size than the calibrated picture, too: K is scaled with it."""
     set_up(scene, CASES[0])
     scene.render.resolution_percentage = percentage
-    own = scene.camera.data.camera_ray_caster
-    own.model, own.calibration_width, own.calibration_height = name, 640, 480
-    own.fx, own.fy, own.cx, own.cy = 420.0, 415.0, 310.5, 250.25
+    settings = scene.camera.data.camera_ray_caster
+    settings.model, settings.calibration_width, settings.calibration_height = name, 640, 480
+    settings.fx, settings.fy, settings.cx, settings.cy = 420.0, 415.0, 310.5, 250.25
     for key, value in LENSES[name].items():
-        setattr(own, key, value)
+        setattr(settings, key, value)
     camera = crc.read_camera(scene)
     points = points_ahead(camera)
-    found = pixels_of_opencv(camera, points, name, [getattr(own, key) for key in LENSES[name]])
+    found = pixels_of_opencv(camera, points, name, [getattr(settings, key) for key in LENSES[name]])
     np.testing.assert_allclose(found, camera.project(points), rtol=0, atol=NEAR)
 
 

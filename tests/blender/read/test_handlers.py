@@ -71,8 +71,8 @@ def test_a_frame_that_blender_does_not_have_is_refused(scene, frame):
 
 
 @pytest.mark.parametrize("name", ["frame_change_post", "depsgraph_update_post"])
-@pytest.mark.parametrize("given", [False, True])
-def test_a_camera_that_a_handler_deletes_in_a_reading_is_refused_in_one_line(scene, handled, name, given):
+@pytest.mark.parametrize("is_other", [False, True])
+def test_a_camera_that_a_handler_deletes_in_a_reading_is_refused_in_one_line(scene, handled, name, is_other):
     own, other = scene.camera, scene.camera.copy()
     scene.collection.objects.link(other)
 
@@ -84,9 +84,9 @@ def test_a_camera_that_a_handler_deletes_in_a_reading_is_refused_in_one_line(sce
 
     def read():
         for frame in (2, 3):
-            read_scene(scene, frame=frame, camera_object=other if given else None, passes=("flow_forward",))
+            read_scene(scene, frame=frame, camera_object=other if is_other else None, passes=("flow_forward",))
 
     with pytest.raises(InputError, match=r"has no active camera|removed what is read|has been removed") as refusal:
         read()
     assert "\n" not in str(refusal.value)
-    assert given or is_removed(own)
+    assert is_other or is_removed(own)

@@ -21,11 +21,11 @@ def scene(camera_scene):
     return camera_scene
 
 
-def moves(found):
+def moves(read):
     """How far each shape moves to the next frame; NaN where it goes."""
-    rows = rows_in(found.shapes, found.next.shapes)
-    there = np.where((rows >= 0)[:, None], found.next.shapes.center[rows], np.nan)
-    return there - found.shapes.center
+    rows = rows_in(read.shapes, read.next.shapes)
+    there = np.where((rows >= 0)[:, None], read.next.shapes.center[rows], np.nan)
+    return there - read.shapes.center
 
 
 @pytest.mark.parametrize("kind", ["instances", pytest.param("points", marks=pytest.mark.full)])

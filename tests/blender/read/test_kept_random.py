@@ -115,8 +115,8 @@ def cast_as(chance):
 
 
 def exactness(chance):
-    own = bpy.context.scene.camera_ray_caster
-    own.exact_shapes = not own.exact_shapes
+    settings = bpy.context.scene.camera_ray_caster
+    settings.exact_shapes = not settings.exact_shapes
 
 
 def edit_mode(chance):
@@ -151,11 +151,11 @@ def fresh(depsgraph):
         shape_cache._entries.update(before)
 
 
-def differing(one, other):
+def differing(left, right):
     """The names of the fields in which two records differ."""
-    found = []
-    for name in (field.name for field in fields(one)):
-        first, second = getattr(one, name), getattr(other, name)
+    names = []
+    for name in (field.name for field in fields(left)):
+        first, second = getattr(left, name), getattr(right, name)
         if name == "meshes":
             equal = len(first) == len(second) and all(map(same, first, second))
         elif isinstance(first, np.ndarray):
@@ -165,8 +165,8 @@ def differing(one, other):
         else:
             equal = first == second
         if not equal:
-            found.append(name)
-    return found
+            names.append(name)
+    return names
 
 
 @pytest.mark.full

@@ -18,9 +18,9 @@ def test_of_a_still_scene_it_is_the_plain_picture_bit_for_bit(blender, scene, sp
     sphere.location, sphere.scale = (0.3, -0.2, 1.0), (1.5, 1.0, 2.0)
     sphere.rotation_euler = (0.2, 0.3, 0.4)
     blender.ops.mesh.primitive_plane_add(size=5, location=(1, 1, 0), rotation=(0.3, 0.1, 0))
-    own = scene.camera.data.camera_ray_caster
-    own.time_mode = mode
-    own.time_image = gray(blender)
+    settings = scene.camera.data.camera_ray_caster
+    settings.time_mode = mode
+    settings.time_image = gray(blender)
     timed, plain = walked(scene), still(scene)
     for name in PASSES:
         assert np.array_equal(timed[name], plain[name]), name
@@ -96,8 +96,8 @@ def test_what_is_hidden_for_a_few_of_a_hundred_frames_is_hidden_then(scene, sphe
     for frame, hidden in ((1, False), (42, True), (56, False)):
         sphere.hide_render = hidden
         sphere.keyframe_insert("hide_render", frame=frame)
-    own = scene.camera.data.camera_ray_caster
-    own.time_start, own.time_end = 1.0, 100.0
+    settings = scene.camera.data.camera_ray_caster
+    settings.time_start, settings.time_end = 1.0, 100.0
     x, y, _ = coordinates()
     sphere.scale.y = 9.0  # over all rows
     frame = 1 + 99 * (np.arange(SIZE)[:, None] + 0.5) / SIZE
@@ -118,8 +118,8 @@ def test_a_keyed_color_changes_from_row_to_row(blender, scene, sphere):
 
 
 def test_an_image_displaces_time(blender, scene, sphere):
-    own = scene.camera.data.camera_ray_caster
-    own.time_mode, own.time_image = "IMAGE", gray(blender)
+    settings = scene.camera.data.camera_ray_caster
+    settings.time_mode, settings.time_image = "IMAGE", gray(blender)
     key(sphere, "location", (1, -3.0), (25, 3.0), index=0)
     x, y, _ = coordinates()
     level = np.rint(np.linspace(0, 1, 16, dtype=np.float32).reshape(4, 4) * 255) / 255
@@ -131,8 +131,8 @@ def test_an_image_displaces_time(blender, scene, sphere):
 def test_a_fan_of_whole_turns_a_frame_is_resolved(blender, scene):
     """At each whole frame it looks at rest; a slit scan over half a frame shows its half turns."""
     fan(blender, 3)
-    own = scene.camera.data.camera_ray_caster
-    own.time_start, own.time_end = 7.0, 7.5
+    settings = scene.camera.data.camera_ray_caster
+    settings.time_start, settings.time_end = 7.0, 7.5
     camera, found = read_camera(scene), walked(scene)
     assert not camera.motion.unresolved
     assert len(camera.motion.states) > 6
@@ -149,8 +149,8 @@ def test_a_time_image_whose_file_is_missing_is_named_with_its_path(blender, tmp_
     scene.camera = blender.context.object
     image = blender.data.images.new("Times\nof pixels", 2, 2)
     image.source, image.filepath = "FILE", str(tmp_path / "gone.png")
-    own = scene.camera.data.camera_ray_caster
-    own.time_mode, own.time_image = "IMAGE", image
+    settings = scene.camera.data.camera_ray_caster
+    settings.time_mode, settings.time_image = "IMAGE", image
     path = str(tmp_path / "gone.png")
     with pytest.raises(InputError) as refusal:
         read_camera(scene)

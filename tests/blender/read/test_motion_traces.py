@@ -13,8 +13,8 @@ from .time_scene import coordinates, disc, fan, key, same, walked
 
 def test_what_is_not_resolved_is_warned_of_and_in_the_report(blender, scene, capfd):
     fan(blender, 500)
-    own = scene.camera.data.camera_ray_caster
-    own.time_evaluations = 20
+    settings = scene.camera.data.camera_ray_caster
+    settings.time_evaluations = 20
     blender.ops.render.render()
     assert "Warning: NOT RESOLVED" in "".join(capfd.readouterr())
     lines = reports.latest().motion
@@ -101,21 +101,21 @@ def test_a_camera_that_is_hidden_or_not_the_active_one(blender, scene, sphere, h
 
 
 @pytest.mark.parametrize(
-    ("settings", "said"),
+    ("settings", "message"),
     [
         ({"time_mode": "IMAGE"}, "image"),
         ({"time_end": 1.0}, "time_start and time_end"),
         ({"time_end": float("inf")}, "time_end"),
     ],
 )
-def test_bad_settings_are_one_line_and_change_nothing(blender, scene, sphere, settings, said, capfd):
+def test_bad_settings_are_one_line_and_change_nothing(blender, scene, sphere, settings, message, capfd):
     for name, value in settings.items():
         setattr(scene.camera.data.camera_ray_caster, name, value)
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         read_camera(scene)
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         read_shapes(scene)
-    with pytest.raises(RuntimeError, match=said) as error:
+    with pytest.raises(RuntimeError, match=message) as error:
         blender.ops.render.render()
     assert len(str(error.value).strip().splitlines()) == 1
     assert "Traceback" not in "".join(capfd.readouterr())

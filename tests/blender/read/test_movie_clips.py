@@ -35,7 +35,7 @@ FOCAL, CENTER, SIZE = 40.0, (15.0, 13.0), (32, 24)
 NAMES = "k1", "k2", "k3", "k4", "p1", "p2"
 
 
-def seen(model, x, y, k1=0.0, k2=0.0, k3=0.0, k4=0.0, p1=0.0, p2=0.0):
+def bent(model, x, y, k1=0.0, k2=0.0, k3=0.0, k4=0.0, p1=0.0, p2=0.0):
     """The pixel, from the lower left corner, of a point at depth 1, by the models' formulas; of Nuke the point."""
     r = x * x + y * y
     if model == "DIVISION":
@@ -75,7 +75,7 @@ def test_the_lens_of_a_clip_becomes_the_cameras(distortion, terms, key, blender,
         pixel = (x, y)
         x, y = (one / (1 + terms["k1"] * r + terms["k2"] * r * r) for one in pixel)
     else:
-        pixel = seen(distortion, x, y, **terms)
+        pixel = bent(distortion, x, y, **terms)
     direction = camera.pose.basis @ (x, y, -1.0)
     expected = [center + FOCAL * one for center, one in zip(CENTER, pixel, strict=True)]
     np.testing.assert_allclose(camera.project(camera.pose.eye + direction), expected, rtol=0, atol=2e-5)  # of float32

@@ -23,8 +23,8 @@ def slit_scan(camera_scene):
         cube.keyframe_insert("location", frame=frame)
     scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 48, 32, 100
     scene.camera.matrix_world = Matrix.Translation((0, 0, 9))
-    own = scene.camera.data.camera_ray_caster
-    own.time_mode, own.time_start, own.time_end = "ROWS", 1, 21
+    settings = scene.camera.data.camera_ray_caster
+    settings.time_mode, settings.time_start, settings.time_end = "ROWS", 1, 21
     scene.frame_set(5)
     cube.location.y = 0.5  # without a key
     bpy.context.view_layer.update()

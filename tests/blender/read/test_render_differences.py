@@ -40,15 +40,15 @@ def test_numbers_of_curves_metaballs_and_simplify_count(blender, camera_scene):
     ball = blender.context.object.data
     ball.resolution = ball.render_resolution
 
-    def found():
+    def differing():
         return evaluated_otherwise(blender.context.evaluated_depsgraph_get())
 
-    assert found() == ()
+    assert differing() == ()
     curve.render_resolution_u, ball.resolution = 50, 1.0
-    assert found() == ("BézierCircle", "Mball")
+    assert differing() == ("BézierCircle", "Mball")
     curve.render_resolution_u, ball.resolution = curve.resolution_u, ball.render_resolution
     blender.ops.mesh.primitive_cube_add()
     subdivided(blender.context.object)
     camera_scene.render.use_simplify = True
     camera_scene.render.simplify_subdivision, camera_scene.render.simplify_subdivision_render = 1, 6
-    assert found() == ("Cube",)
+    assert differing() == ("Cube",)

@@ -9,7 +9,7 @@ LENS = "Only rays through the center of the lens are shown"
 
 
 @pytest.mark.parametrize(
-    ("mode", "has_lens", "samples", "said"),
+    ("mode", "has_lens", "samples", "differences"),
     [
         ("NONE", False, 16, ()),
         (
@@ -22,12 +22,12 @@ LENS = "Only rays through the center of the lens are shown"
         ("NONE", True, 1, (f"{LENS}, as in a render with 1 sample",)),
     ],
 )
-def test_it_says_where_a_render_differs(camera_scene, mode, has_lens, samples, said):
+def test_it_says_where_a_render_differs(camera_scene, mode, has_lens, samples, differences):
     camera = camera_scene.camera.data
     camera_scene.frame_set(5)
     camera_scene.render.resolution_y = 500  # the middles of the first and the last row are 0.024 from frames 1 and 25
     camera.camera_ray_caster.time_mode, camera.dof.use_dof = mode, has_lens
     camera_scene.camera_ray_caster.samples = samples
-    seen = cached_scene(bpy.context)
-    assert seen.differences == said
-    assert seen.camera.pixel_time is None
+    cached = cached_scene(bpy.context)
+    assert cached.differences == differences
+    assert cached.camera.pixel_time is None

@@ -29,15 +29,15 @@ def scene(blender):
     return made
 
 
-def own(scene):
+def settings_of(scene):
     return scene.camera.data.camera_ray_caster
 
 
 def choose(scene, model, **settings):
     """Give the scene's camera a model and its settings."""
-    own(scene).model = model
+    settings_of(scene).model = model
     for name, value in settings.items():
-        setattr(own(scene), name, value)
+        setattr(settings_of(scene), name, value)
 
 
 def link(scene, item):
@@ -171,7 +171,7 @@ def test_a_line_that_is_gone_is_named(blender, scene, how, model, name):
         with bpy.context.temp_override(selected_objects=[lost], active_object=lost):
             bpy.ops.object.delete()
     else:
-        setattr(own(scene), name, None)
+        setattr(settings_of(scene), name, None)
     with pytest.raises(ValueError, match=f"{name} of camera 'Camera' is not set, or its object is deleted"):
         read_camera(scene)
     with pytest.raises(RuntimeError, match=name):

@@ -108,16 +108,16 @@ def test_both_eyes_are_rendered(blender, scene, tmp_path, kind, mode, pivot):
 def test_a_model_with_eyes_of_its_own_is_rendered_with_each(blender, scene, tmp_path, mode):
     """What either eye shows is what a scene without stereo shows of the model's eye of that name."""
     set_up(scene, "panorama", mode, "CENTER")
-    own = scene.camera.data.camera_ray_caster
-    own.model = "OMNIDIRECTIONAL_STEREO"
+    settings = scene.camera.data.camera_ray_caster
+    settings.model = "OMNIDIRECTIONAL_STEREO"
     render_position(blender, scene, tmp_path)
     scene.render.use_multiview = False
     for view in VIEWS:
-        own.eye = view.upper()
+        settings.eye = view.upper()
         assert_same_position(
             tmp_path, view, cast(read_camera(scene), read_shapes(scene), passes=["position"])["position"]
         )
-    own.eye, scene.render.use_multiview = "TOP_BOTTOM", True
+    settings.eye, scene.render.use_multiview = "TOP_BOTTOM", True
     with pytest.raises(RuntimeError, match="both eyes in one picture"):
         blender.ops.render.render()
 
@@ -152,9 +152,9 @@ def assert_same_position(folder, view, expected):
 @pytest.mark.parametrize("model", ["OPENCV_PINHOLE", "CAMERA_OBSCURA", "FISHEYE_STEREOGRAPHIC"])
 def test_eyes_of_other_models_are_rendered_as_they_are_read(blender, scene, tmp_path, model):
     set_up(scene, "perspective", "OFFAXIS", "LEFT")
-    own = scene.camera.data.camera_ray_caster
-    own.model, own.fx, own.fy, own.cx, own.cy = model, 40.0, 40.0, 20.0, 12.0
-    own.calibration_width = own.calibration_height = 0
+    settings = scene.camera.data.camera_ray_caster
+    settings.model, settings.fx, settings.fy, settings.cx, settings.cy = model, 40.0, 40.0, 20.0, 12.0
+    settings.calibration_width = settings.calibration_height = 0
     render_position(blender, scene, tmp_path)
     for view in VIEWS:
         seen = cast(read_camera(scene, view=view), read_shapes(scene), passes=["position"])["position"]
@@ -247,10 +247,10 @@ def test_an_eye_whose_pole_merge_or_type_changes_during_a_slit_scan(scene, path,
     for frame, value in ((1, before), (13, after)):
         setattr(owner, name, value)
         data.keyframe_insert(path, frame=frame)
-    own = data.camera_ray_caster
-    own.time_mode, own.time_start, own.time_end = "ROWS", 1.0, 25.0
+    settings = data.camera_ray_caster
+    settings.time_mode, settings.time_start, settings.time_end = "ROWS", 1.0, 25.0
     rays = read_camera(scene, view="left").rays()
-    own.time_mode = "NONE"
+    settings.time_mode = "NONE"
     for row in (1, 6, 9, 14):
         still = read_camera(scene, frame=float(rays.time[row, 0]), view="left").rays()
         np.testing.assert_allclose(rays.origins[row], still.origins[row], rtol=0, atol=1e-12)

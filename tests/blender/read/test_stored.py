@@ -34,7 +34,7 @@ def reopened(blender, unregister, tmp_path):
     return reopen
 
 
-def both(scene, reopened):
+def both_cameras(scene, reopened):
     """The camera of a scene, read with the add-on registered and without."""
     return crc.read_camera(scene), crc.read_camera(reopened())
 
@@ -43,19 +43,19 @@ def both(scene, reopened):
 def test_settings_that_were_never_touched_have_the_same_defaults(scene, reopened, model):
     """To the last bit: Blender's properties round them to float32."""
     scene.camera.data.camera_ray_caster.model = model
-    registered, stored = both(scene, reopened)
+    registered, stored = both_cameras(scene, reopened)
     assert stored.model.key == model
     assert stored.settings == registered.settings
 
 
 def test_every_kind_of_setting_is_as_it_was_stored(blender, scene, reopened):
-    own = scene.camera.data.camera_ray_caster
-    own.model, own.tilt = "OMNIMAX", 0.25
-    assert [camera.settings["tilt"] for camera in both(scene, reopened)] == [0.25, 0.25]
+    settings = scene.camera.data.camera_ray_caster
+    settings.model, settings.tilt = "OMNIMAX", 0.25
+    assert [camera.settings["tilt"] for camera in both_cameras(scene, reopened)] == [0.25, 0.25]
     crc.register()
-    own = blender.context.scene.camera.data.camera_ray_caster
-    own.model, own.ray_1, own.eye = "GENERAL_LINEAR", (0.5, 0.25, -1.0, -0.5), "SIDE_BY_SIDE"
-    registered, stored = both(blender.context.scene, reopened)
+    settings = blender.context.scene.camera.data.camera_ray_caster
+    settings.model, settings.ray_1, settings.eye = "GENERAL_LINEAR", (0.5, 0.25, -1.0, -0.5), "SIDE_BY_SIDE"
+    registered, stored = both_cameras(blender.context.scene, reopened)
     assert stored.settings == registered.settings
     assert stored.settings["ray_1"] == [0.5, 0.25, -1.0, -0.5]
     crc.register()
@@ -67,9 +67,9 @@ def test_a_path_and_its_flag_are_as_they_were_stored(blender, scene, reopened):
     curve = blender.data.curves.new("Path", "CURVE")
     curve.splines.new("POLY").points.add(1)
     curve.splines[0].points[1].co = 4, 0, 0, 1
-    own = scene.camera.data.camera_ray_caster
-    own.model, own.path, own.follow_path = "STRIP", new_object("Path", curve), True
-    registered, stored = both(scene, reopened)
+    settings = scene.camera.data.camera_ray_caster
+    settings.model, settings.path, settings.follow_path = "STRIP", new_object("Path", curve), True
+    registered, stored = both_cameras(scene, reopened)
     assert stored.settings == registered.settings
     assert stored.settings["path"] == [[0, 0, 0], [4, 0, 0]]
     assert stored.settings["follow_path"] is True
@@ -88,8 +88,8 @@ def test_what_is_stored_as_an_image_and_is_none_is_refused(scene):
 def test_a_vector_that_is_stored_as_one_number_is_refused(scene, reopened):
     """Blender reads four numbers from the memory of one."""
     data = scene.camera.data
-    own = data.camera_ray_caster
-    own.model = "GENERAL_LINEAR"
+    settings = data.camera_ray_caster
+    settings.model = "GENERAL_LINEAR"
     properties = data.bl_system_properties_get() if bpy.app.version >= (5, 0, 0) else data
     properties["camera_ray_caster"]["ray_1"] = 1.0
     refused = "ray_1 of 'Camera' is stored as one number, not as 4: reset it to its default, then set it again"
@@ -99,9 +99,9 @@ def test_a_vector_that_is_stored_as_one_number_is_refused(scene, reopened):
         crc.read_camera(reopened())
     data = bpy.context.scene.camera.data
     crc.register()
-    own = data.camera_ray_caster
-    own.property_unset("ray_1")
-    own.ray_1 = 0.5, 0.25, -1.0, -0.5
+    settings = data.camera_ray_caster
+    settings.property_unset("ray_1")
+    settings.ray_1 = 0.5, 0.25, -1.0, -0.5
     assert crc.read_camera(bpy.context.scene).settings["ray_1"] == [0.5, 0.25, -1.0, -0.5]
 
 
@@ -109,10 +109,10 @@ def test_the_times_of_pixels_and_their_image_are_as_they_were_stored(blender, sc
     image = blender.data.images.new("Gray", 2, 1, float_buffer=True)
     image.pixels[:] = [0, 0, 0, 1, 1, 1, 1, 1]
     image.pack()
-    own = scene.camera.data.camera_ray_caster
-    own.time_mode, own.time_image, own.time_end = "IMAGE", image, 9.0
+    settings = scene.camera.data.camera_ray_caster
+    settings.time_mode, settings.time_image, settings.time_end = "IMAGE", image, 9.0
     scene.render.resolution_x, scene.render.resolution_y = 8, 4
-    registered, stored = both(scene, reopened)
+    registered, stored = both_cameras(scene, reopened)
     np.testing.assert_array_equal(stored.rays().time, np.repeat([[1.0] * 4 + [9.0] * 4], 4, axis=0))
     np.testing.assert_array_equal(stored.rays().time, registered.rays().time)
 
@@ -126,20 +126,20 @@ def test_what_an_object_stands_for_is_as_it_was_stored(blender, scene, reopened,
     assert stored.left_out == registered.left_out
 
 
-@pytest.mark.parametrize("way", ["keys", "driver", "strip"])
-def test_what_is_animated_is_refused_in_one_line(blender, scene, reopened, way):
+@pytest.mark.parametrize("animation", ["keys", "driver", "strip"])
+def test_what_is_animated_is_refused_in_one_line(blender, scene, reopened, animation):
     data = scene.camera.data
-    own = data.camera_ray_caster
-    own.model = "OMNIMAX"
-    if way == "driver":
+    settings = data.camera_ray_caster
+    settings.model = "OMNIMAX"
+    if animation == "driver":
         data.driver_add("camera_ray_caster.tilt").driver.expression = "frame / 16"
     else:
         for frame, tilt in ((0, 0.0), (16, 1.0)):
-            own.tilt = tilt
+            settings.tilt = tilt
             data.keyframe_insert("camera_ray_caster.tilt", frame=frame)
         for point in data.animation_data.action.layers[0].strips[0].channelbags[0].fcurves[0].keyframe_points:
             point.interpolation = "LINEAR"
-    if way == "strip":
+    if animation == "strip":
         action, slot = data.animation_data.action, data.animation_data.action_slot
         data.animation_data.action = None
         strip = data.animation_data.nla_tracks.new().strips.new("Tilt", 0, action)
@@ -202,8 +202,8 @@ def test_a_calibration_file_beside_the_file_is_found(blender, scene, reopened, t
     (tmp_path / "lens.json").write_text(
         '{"camera_matrix": [10, 0, 4, 0, 10, 3, 0, 0, 1], "distortion": [0], "width": 8, "height": 6}'
     )
-    own = scene.camera.data.camera_ray_caster
-    own.model, own.calibration_file = "OPENCV_PINHOLE", "//lens.json"
+    settings = scene.camera.data.camera_ray_caster
+    settings.model, settings.calibration_file = "OPENCV_PINHOLE", "//lens.json"
     scene.render.resolution_x, scene.render.resolution_y = 8, 6
     camera = crc.read_camera(reopened())
     np.testing.assert_allclose(camera.K, [[10, 0, 4], [0, 10, 3], [0, 0, 1]], atol=1e-14)

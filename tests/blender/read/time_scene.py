@@ -13,10 +13,10 @@ PASSES = ("shape_index", "depth", "position", "valid")
 
 def still(scene):
     """The picture that the scene has with one time for all pixels."""
-    own = scene.camera.data.camera_ray_caster
-    before, own.time_mode = own.time_mode, "NONE"
+    settings = scene.camera.data.camera_ray_caster
+    before, settings.time_mode = settings.time_mode, "NONE"
     found = walked(scene)
-    own.time_mode = before
+    settings.time_mode = before
     return found
 
 
@@ -50,8 +50,8 @@ def disc(x, y, center_x, center_y=0.0, radius=1.0):
     return away <= 0, np.abs(away) < 1e-4
 
 
-def same(found, expected, unsure):
-    assert np.array_equal(found[~unsure], expected[~unsure])
+def same(images, expected, unsure):
+    assert np.array_equal(images[~unsure], expected[~unsure])
     assert expected.any()
 
 

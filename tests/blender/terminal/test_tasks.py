@@ -26,9 +26,9 @@ def farmed(monkeypatch, jobs, *clusters, finished=(), **options):
     made, waiting = {}, list(clusters)
     clock = clusters[0].clock
 
-    def work(some):
+    def work(jobs):
         outcomes = []
-        for job in some:
+        for job in jobs:
             outcomes.append(Outcome(True, job.name not in made))
             made[job.name] = made.get(job.name, 0) + (job.name not in made)
         return outcomes

@@ -14,8 +14,8 @@ def scanned(blender, camera_scene):
     blender.ops.mesh.primitive_plane_add(size=200, location=(0, 0, -3))
     blender.context.object.pass_index = 5
     camera_scene.camera.location, camera_scene.camera.rotation_euler = (0, 0, 0), (np.pi / 2, 0, 0)
-    own = camera_scene.camera.data.camera_ray_caster
-    own.model, own.scanner_device, own.scanner_rate = "SCANNER", "VLP_16", 2.0
+    settings = camera_scene.camera.data.camera_ray_caster
+    settings.model, settings.scanner_device, settings.scanner_rate = "SCANNER", "VLP_16", 2.0
     camera_scene.render.resolution_x, camera_scene.render.resolution_y = 90, 16
     camera_scene.render.resolution_percentage = 100
     blender.context.view_layer.update()

@@ -16,7 +16,7 @@ PANELS = (
 )  # fmt: skip
 
 
-def other(setting):
+def other_value(setting):
     """A value of a setting that is not its default."""
     if setting.kind == "ENUM":
         return next(item.key for item in setting.items if item.key != setting.default)
@@ -49,7 +49,7 @@ def test_what_is_a_number_is_keyed_and_follows_the_frame_and_nothing_else_can_be
             continue
         first = value_of(own, setting.name)
         own.keyframe_insert(setting.name, frame=1)
-        setattr(own, setting.name, other(setting))
+        setattr(own, setting.name, other_value(setting))
         own.keyframe_insert(setting.name, frame=2)
         wanted[setting.name] = first, value_of(own, setting.name)
     for frame in (1, 2):
@@ -63,45 +63,45 @@ def test_what_is_a_number_is_keyed_and_follows_the_frame_and_nothing_else_can_be
 
 def test_a_button_beside_the_menu_which_cannot_be_keyed_keys_the_model(blender, scene):
     assert "camera_ray_caster.key_model" in drawn(blender, camera_panels.SidebarCamera).split()
-    own = scene.camera.data.camera_ray_caster
+    settings = scene.camera.data.camera_ray_caster
     for frame, model in ((1, "OMNIMAX"), (5, "PENCIL")):
         scene.frame_set(frame)
-        own.model = model
+        settings.model = model
         blender.ops.camera_ray_caster.key_model()
     for frame, model in ((1, "OMNIMAX"), (5, "PENCIL")):
         scene.frame_set(frame)
-        assert own.model == model
+        assert settings.model == model
 
 
 def test_the_button_adds_a_driver_with_shift_that_keeps_the_model_until_it_is_edited(blender, scene):
     data = scene.camera.data
-    own = data.camera_ray_caster
-    own.model = "PENCIL"
+    settings = data.camera_ray_caster
+    settings.model = "PENCIL"
     assert blender.ops.camera_ray_caster.key_model(driver=True) == {"FINISHED"}
     blender.context.view_layer.update()
-    assert own.model == "PENCIL"
+    assert settings.model == "PENCIL"
     (curve,) = data.animation_data.drivers
-    number = own.bl_rna.properties["model"].enum_items["OMNIMAX"].value
+    number = settings.bl_rna.properties["model"].enum_items["OMNIMAX"].value
     curve.driver.expression = str(number)
     blender.ops.camera_ray_caster.key_model(driver=True)
     assert [curve.driver.expression for curve in data.animation_data.drivers] == [str(number)]
     scene.frame_set(3)
-    assert own.model == "OMNIMAX"
+    assert settings.model == "OMNIMAX"
 
 
 @pytest.mark.parametrize("name", ["model", "time_mode", "shading", "primitive", "fov"])
 def test_a_driver_that_gives_no_item_is_told_and_one_that_is_muted_drives_nothing(blender, scene, name):
     ball = next(item for item in scene.objects if item.name == "Sphere")
     owners = {"shading": scene, "primitive": ball}
-    own = owners.get(name, scene.camera.data).camera_ray_caster
+    settings = owners.get(name, scene.camera.data).camera_ray_caster
     scene.camera.data.camera_ray_caster.model = "DOME_MASTER"
-    before, curve = getattr(own, name), own.driver_add(name)
+    before, curve = getattr(settings, name), settings.driver_add(name)
     curve.driver.expression, curve.mute = "99", True
     scene.frame_set(2)
-    assert getattr(own, name) == before
+    assert getattr(settings, name) == before
     curve.mute = False
     scene.frame_set(3)
-    assert getattr(own, name) != before
+    assert getattr(settings, name) != before
     pixel_lessons.clicked.choose([(3, 3)])
     try:
         for panel in PANELS:

@@ -21,7 +21,7 @@ def names(folder):
 
 
 @pytest.fixture
-def two(blender, scene):
+def rig_scene(blender, scene):
     """Two cameras; the second one is selected, the first one active."""
     scene.camera.name = "First"
     blender.ops.object.camera_add(location=(1, 2, 3))
@@ -38,20 +38,20 @@ def two(blender, scene):
         ("ALL", "RANGE", [f"{name}_000{frame}" for name in ("First", "Second") for frame in (1, 5, 9)]),
     ],
 )
-def test_the_chosen_cameras_and_frames_are_written(blender, two, tmp_path, cameras, frames, written):
+def test_the_chosen_cameras_and_frames_are_written(blender, rig_scene, tmp_path, cameras, frames, written):
     folder = str(tmp_path / "out")
     done = blender.ops.camera_ray_caster.export(filepath=folder, format="mrcal", cameras=cameras, frames=frames)
     assert done == {"FINISHED"}
     assert names(tmp_path / "out") == [f"{name}.cameramodel" for name in written]
 
 
-def test_a_map_may_lead_to_another_camera(blender, two, tmp_path):
+def test_a_map_may_lead_to_another_camera(blender, rig_scene, tmp_path):
     blender.ops.camera_ray_caster.export(filepath=str(tmp_path), format="stmap", target="Second")
     assert names(tmp_path) == ["First_0001_distort.exr", "First_0001_undistort.exr"]
 
 
-def test_what_cannot_be_written_is_an_error_in_one_line(blender, two, tmp_path):
-    two.camera.data.type = "ORTHO"
+def test_what_cannot_be_written_is_an_error_in_one_line(blender, rig_scene, tmp_path):
+    rig_scene.camera.data.type = "ORTHO"
     with pytest.raises(RuntimeError, match="COLMAP cannot represent the Orthographic of camera 'First': choose one of"):
         blender.ops.camera_ray_caster.export(filepath=str(tmp_path), format="colmap")
     blender.ops.object.select_all(action="DESELECT")
@@ -63,11 +63,11 @@ def test_what_cannot_be_written_is_an_error_in_one_line(blender, two, tmp_path):
 
 
 @pytest.mark.full
-def test_the_nearest_lens_is_written_and_its_error_said_last(blender, two, tmp_path):
-    two.render.resolution_x, two.render.resolution_y, two.frame_end = 24, 18, two.frame_start
-    own = two.camera.data.camera_ray_caster
-    own.model, own.fx, own.fy, own.cx, own.cy = "DOUBLE_SPHERE", 11, 11, 11.5, 8.5
-    own.calibration_width, own.calibration_height = 24, 18
+def test_the_nearest_lens_is_written_and_its_error_said_last(blender, rig_scene, tmp_path):
+    rig_scene.render.resolution_x, rig_scene.render.resolution_y, rig_scene.frame_end = 24, 18, rig_scene.frame_start
+    settings = rig_scene.camera.data.camera_ray_caster
+    settings.model, settings.fx, settings.fy, settings.cx, settings.cy = "DOUBLE_SPHERE", 11, 11, 11.5, 8.5
+    settings.calibration_width, settings.calibration_height = 24, 18
     given = {"filepath": str(tmp_path), "format": "opencv"}
     with pytest.raises(RuntimeError, match=r"cannot represent the Double Sphere .*, or Fit Nearest Lens"):
         blender.ops.camera_ray_caster.export(**given)

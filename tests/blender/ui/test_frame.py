@@ -41,8 +41,8 @@ def test_the_button_sets_the_frame_of_the_camera_once(blender, camera_scene, ren
 
 @pytest.mark.parametrize("path", OURS, ids=lambda path: path.stem)
 def test_a_preset_sets_its_frame_or_is_refused_in_one_line(blender, camera_scene, render, path):
-    own = camera_scene.camera.data.camera_ray_caster
-    before = {name: str(own.get(name)) for name in own.bl_rna.properties.keys()}  # noqa: SIM118 (a collection of RNA)
+    settings = camera_scene.camera.data.camera_ray_caster
+    before = {name: str(settings.get(name)) for name in settings.bl_rna.properties.keys()}  # noqa: SIM118 (a collection of RNA)
     if path.stem not in SIZES:
         assert use(blender, path.stem, set_frame=False) == {"FINISHED"}
         assert size(render) == (1920, 1080)
@@ -51,8 +51,8 @@ def test_a_preset_sets_its_frame_or_is_refused_in_one_line(blender, camera_scene
         use(blender, path.stem, set_frame=False)
     assert "{} × {}".format(*SIZES[path.stem]) in str(refusal.value)
     assert size(render) == (1920, 1080)
-    assert own.model == "BLENDER"
-    after = {name: str(own.get(name)) for name in before}
+    assert settings.model == "BLENDER"
+    after = {name: str(settings.get(name)) for name in before}
     assert {name: value for name, value in after.items() if value != before[name] and before[name] != "None"} == {}
     assert use(blender, path.stem) == {"FINISHED"}
     assert size(render) == SIZES[path.stem]

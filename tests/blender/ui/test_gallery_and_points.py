@@ -38,24 +38,24 @@ def test_the_menus_offer_all_that_has_a_picture():
 def test_the_gallery_has_a_button_for_each_model(blender, scene, model):
     """Blender's own set their types. The menu has each once, too."""
     assert [it.key for _, entries in by_group() for it in entries].count(model.key) == 1
-    own = scene.camera.data.camera_ray_caster
-    own.model = "CAMERA_OBSCURA"
+    settings = scene.camera.data.camera_ray_caster
+    settings.model = "CAMERA_OBSCURA"
     assert blender.ops.camera_ray_caster.choose_type(key=model.key) == {"FINISHED"}
-    own.model = "CAMERA_OBSCURA"
+    settings.model = "CAMERA_OBSCURA"
     setattr(scene.camera.data, GALLERY, model.key)
     assert getattr(scene.camera.data, GALLERY) == model.key
-    assert own.model == ("BLENDER" if model.number is None else model.key)
+    assert settings.model == ("BLENDER" if model.number is None else model.key)
     blender.context.view_layer.update()
     if not any(setting.kind in ("OBJECT", "VECTORS") for setting in model.SETTINGS):  # without slits there is no camera
         assert read_camera(scene).model.key == model.key
 
 
 def test_the_gallery_has_the_times_of_the_pixels(blender, scene):
-    own = scene.camera.data.camera_ray_caster
-    own.model = "OMNIMAX"
+    settings = scene.camera.data.camera_ray_caster
+    settings.model = "OMNIMAX"
     for key in TIMES:
         setattr(scene.camera.data, GALLERY, key)
-        assert (own.model, own.time_mode) == ("OMNIMAX", key)
+        assert (settings.model, settings.time_mode) == ("OMNIMAX", key)
     assert len(pictured()) == len(MODELS) + len(TIMES)
 
 
@@ -83,17 +83,17 @@ def test_a_camera_of_the_gallery_has_its_model_s_name_and_stands_at_the_view_or_
     blender.context.view_layer.update()
     assert camera.name == "Cross-Slit"
     assert np.allclose(camera.matrix_world.translation, (3, -2, 1))
-    own = camera.data.camera_ray_caster
-    slits = [camera.matrix_world.inverted() @ slit.matrix_world for slit in (own.slit_1, own.slit_2)]
+    settings = camera.data.camera_ray_caster
+    slits = [camera.matrix_world.inverted() @ slit.matrix_world for slit in (settings.slit_1, settings.slit_2)]
     area = next(area for area in blender.context.window.screen.areas if area.type == "VIEW_3D")
     view = area.spaces.active.region_3d
     view.view_perspective, view.view_location, view.view_distance = "PERSP", (1, 2, 3), 7
     with blender.context.temp_override(area=area):
         ops.append_camera(name="cross_slit")
     blender.context.view_layer.update()
-    second, own = scene.camera, scene.camera.data.camera_ray_caster
+    second, settings = scene.camera, scene.camera.data.camera_ray_caster
     assert np.allclose(second.matrix_world, view.view_matrix.inverted(), atol=1e-5)
-    for slit, before in zip((own.slit_1, own.slit_2), slits, strict=True):
+    for slit, before in zip((settings.slit_1, settings.slit_2), slits, strict=True):
         assert np.allclose(second.matrix_world.inverted() @ slit.matrix_world, before, atol=1e-5)
 
 

@@ -10,24 +10,24 @@ from camera_ray_caster.blender.view3d import lecture, pixel_lessons
 
 
 @pytest.fixture
-def place(blender):
-    place = blender.context.window_manager.camera_ray_caster_place
-    yield place
-    place.lecture, place.step, place.all_digits = False, 0, False
+def lecture_state(blender):
+    lecture_state = blender.context.window_manager.camera_ray_caster_place
+    yield lecture_state
+    lecture_state.lecture, lecture_state.step, lecture_state.all_digits = False, 0, False
     pixel_lessons.forget()
 
 
-def test_a_lecture_writes_one_step_large_and_keys_stay_within_the_steps(blender, scene, place, monkeypatch):
+def test_a_lecture_writes_one_step_large_and_keys_stay_within_the_steps(blender, scene, lecture_state, monkeypatch):
     written = []
     step = blender.ops.camera_ray_caster.lecture_step
     pixel_lessons.clicked.choose([(12, 8)])
     assert not step.poll()
-    place.lecture = True
+    lecture_state.lecture = True
     (explained,) = pixel_lessons.lessons(blender.context).values()
-    seen = [step(by=by) and place.step for by in (-1, 1, 1, 100, -1)]
+    seen = [step(by=by) and lecture_state.step for by in (-1, 1, 1, 100, -1)]
     assert seen == [0, 1, 2, len(explained.screens) - 1, len(explained.screens) - 2]
     blender.ops.camera_ray_caster.choose_type(key="PERSP")
-    assert place.step == 0, "another model begins with its formula"
+    assert lecture_state.step == 0, "another model begins with its formula"
     note = lambda view, lines, place, size, corner: written.append((lines, size))  # noqa: E731
     monkeypatch.setattr(lecture.text, "write", note)
     monkeypatch.setattr(lecture.text, "wrapped", lambda context, line, width, size: [line])
@@ -46,15 +46,15 @@ def test_a_lecture_writes_one_step_large_and_keys_stay_within_the_steps(blender,
 
 
 def test_a_lecture_without_a_pixel_begins_in_the_middle_with_four_digits_until_more_are_asked_for(
-    blender, scene, place
+    blender, scene, lecture_state
 ):
-    place.lecture = True
+    lecture_state.lecture = True
     width, height = scene.render.resolution_x, scene.render.resolution_y
     assert pixel_lessons.clicked.pixels == [(width // 2, height // 2)]
     (few,) = pixel_lessons.lessons(blender.context).values()
-    place.all_digits = True
+    lecture_state.all_digits = True
     (all_digits,) = pixel_lessons.lessons(blender.context).values()
-    place.lecture = False
+    lecture_state.lecture = False
     (usual,) = pixel_lessons.lessons(blender.context).values()
     assert len(str(few)) < len(str(all_digits))
     assert str(all_digits) == str(usual)
@@ -62,7 +62,7 @@ def test_a_lecture_without_a_pixel_begins_in_the_middle_with_four_digits_until_m
 
 @pytest.mark.parametrize("side", ["SIDE", "ABOVE"])
 def test_a_view_of_the_ray_shows_eye_and_hit_below_the_text_and_beside_the_sidebar(
-    blender, scene, place, monkeypatch, side
+    blender, scene, lecture_state, monkeypatch, side
 ):
     pixel_lessons.clicked.choose([(12, 8)])
     (explained,) = pixel_lessons.lessons(blender.context).values()
@@ -76,11 +76,11 @@ def test_a_view_of_the_ray_shows_eye_and_hit_below_the_text_and_beside_the_sideb
     right, up, _ = np.array(view.view_rotation.to_matrix()).T
     pixel = view.view_distance * 72 / space.lens / region.width
 
-    def seen(point):
+    def projected(point):
         away = point - view.view_location
         return away @ right / pixel + region.width / 2, away @ up / pixel + region.height / 2
 
-    eye, hit = seen(explained.seen.origin), seen(explained.point)
+    eye, hit = projected(explained.seen.origin), projected(explained.point)
     assert all(60 <= x <= 640 and 0 <= y <= 330 for x, y in (eye, hit)), (eye, hit)
     axis = 0 if side == "SIDE" else 1
     assert hit[axis] - eye[axis] > 150

@@ -129,9 +129,9 @@ def drawn(bpy, panel, data, engine="CYCLES", width=WIDTH):
 
 
 def test_the_settings_of_the_chosen_model_are_shown_in_order(blender, data):
-    own = data.camera_ray_caster
-    assert set(SHOWN) <= {item.identifier for item in own.bl_rna.properties["model"].enum_items}
-    for own.model, names in SHOWN.items():
+    settings = data.camera_ray_caster
+    assert set(SHOWN) <= {item.identifier for item in settings.bl_rna.properties["model"].enum_items}
+    for settings.model, names in SHOWN.items():
         assert drawn(blender, ModelPanel, data) == (names, ())
 
 
@@ -157,8 +157,8 @@ def test_in_a_narrow_editor_the_same_is_shown_with_labels_that_are_not_cut_off(b
 
 
 def test_what_blender_shows_for_another_type_of_camera_is_shown(blender, data):
-    own = data.camera_ray_caster
-    data.type, own.model = "ORTHO", "PUSHBROOM"
+    settings = data.camera_ray_caster
+    data.type, settings.model = "ORTHO", "PUSHBROOM"
     assert drawn(blender, ModelPanel, data)[0] == ("slit_1", "lens")
     data.type = "PANO"
     assert drawn(blender, ModelPanel, data)[0] == ("slit_1", "ortho_scale", "lens")
@@ -207,16 +207,16 @@ def test_a_sensor_that_the_model_does_not_read_is_gray(blender, data):
 
 
 def test_beside_blender_s_own_panel_ours_says_what_the_model_does_not_use(blender, data):
-    def said(engine="CYCLES"):
+    def labels_in(engine="CYCLES"):
         drawn(blender, ModelPanel, data, engine)
         return " ".join(drawn.labels)
 
-    assert said() == ""
+    assert labels_in() == ""
     data.camera_ray_caster.model = "OMNIMAX"
-    assert said() == "The model does not use Blender's Type, Focal Length, Sensor Fit, Sensor Width, Sensor Height"
-    assert said("CAMERA_RAY_CASTER") == ""
+    assert labels_in() == "The model does not use Blender's Type, Focal Length, Sensor Fit, Sensor Width, Sensor Height"
+    assert labels_in("CAMERA_RAY_CASTER") == ""
     data.camera_ray_caster.model = "PUSHBROOM"
-    assert said().endswith("The model does not use Blender's Type")
+    assert labels_in().endswith("The model does not use Blender's Type")
 
 
 def test_a_missing_slit_or_path_is_added_where_the_camera_sees_something(blender, camera_scene):
@@ -241,23 +241,23 @@ def test_a_missing_slit_or_path_is_added_where_the_camera_sees_something(blender
 
 
 def test_a_calibration_file_hides_the_numbers_that_it_replaces(blender, data):
-    own = data.camera_ray_caster
-    own.model, own.calibration_file = "OPENCV_FISHEYE", "//lens.yml"
+    settings = data.camera_ray_caster
+    settings.model, settings.calibration_file = "OPENCV_FISHEYE", "//lens.yml"
     assert drawn(blender, ModelPanel, data) == (("calibration_file", "calibration_camera"), ())
 
 
 def test_lengths_in_millimeters_are_blender_s_own_and_the_panel_says_so(blender, data):
-    def said():
+    def labels_in():
         return [drawn(blender, ModelPanel, data, "CAMERA_RAY_CASTER"), " ".join(drawn.labels)][1]
 
-    own = data.camera_ray_caster
-    data.type, own.model = "PANO", "DIVISION"
-    assert said() == "In pixels of a picture of 1920 × 1080, scaled to the frame"
-    own.calibration_unit = "MILLIMETERS"
-    assert said() == "In millimeters on Blender's sensor; Shift sets the center"
+    settings = data.camera_ray_caster
+    data.type, settings.model = "PANO", "DIVISION"
+    assert labels_in() == "In pixels of a picture of 1920 × 1080, scaled to the frame"
+    settings.calibration_unit = "MILLIMETERS"
+    assert labels_in() == "In millimeters on Blender's sensor; Shift sets the center"
     assert drawn(blender, ModelPanel, data)[0] == (*FILE, "lens", "division_lambda")
-    own.calibration_file = "//lens.yml"
-    assert said() == "In pixels of the file's picture, scaled to the frame"
+    settings.calibration_file = "//lens.yml"
+    assert labels_in() == "In pixels of the file's picture, scaled to the frame"
     assert drawn(blender, ModelPanel, data) == (("calibration_file", "calibration_camera"), ())
 
 
@@ -286,9 +286,9 @@ def test_the_buttons_go_there_and_back(osl, blender, camera_scene):
 
 
 def test_the_settings_of_the_chosen_time_are_shown_in_order(blender, data):
-    own = data.camera_ray_caster
-    assert set(TIMES) == {item.identifier for item in own.bl_rna.properties["time_mode"].enum_items}
-    for own.time_mode, names in TIMES.items():
+    settings = data.camera_ray_caster
+    assert set(TIMES) == {item.identifier for item in settings.bl_rna.properties["time_mode"].enum_items}
+    for settings.time_mode, names in TIMES.items():
         assert drawn(blender, TimePanel, data) == (("time_mode", *names), ())
 
 

@@ -65,15 +65,15 @@ def rows(blender):
     return len(called)
 
 
-@pytest.mark.parametrize("what", [stretched, missing, unknown, sharp, wide_open, still, all_at_once])
-def test_a_note_moves_nothing_below_it(blender, scene, what):
+@pytest.mark.parametrize("deviate", [stretched, missing, unknown, sharp, wide_open, still, all_at_once])
+def test_a_note_moves_nothing_below_it(blender, scene, deviate):
     scene.render.engine = "CAMERA_RAY_CASTER"
     assert "No notes" in drawn(blender, SidebarCamera)
     before = rows(blender)
-    said = what(scene, scene.camera.data)
+    note = deviate(scene, scene.camera.data)
     blender.context.view_layer.update()
-    assert " ".join(said.split()[:4]) in drawn(blender, SidebarCamera), "as many words as fit"
-    assert said.removeprefix("3 notes: ") in drawn(blender, CameraNotes)
+    assert " ".join(note.split()[:4]) in drawn(blender, SidebarCamera), "as many words as fit"
+    assert note.removeprefix("3 notes: ") in drawn(blender, CameraNotes)
     assert rows(blender) == before
 
 

@@ -31,10 +31,10 @@ def asked(blender, monkeypatch):
 @pytest.fixture
 def fisheye(scene):
     """The scene, with a calibrated fisheye."""
-    own = scene.camera.data.camera_ray_caster
-    own.model = "OPENCV_FISHEYE"
-    own.calibration_width, own.calibration_height = 24, 16
-    own.fx, own.fy, own.cx, own.cy, own.k1 = 9.5, 9.25, 11.0, 7.0, 0.03
+    settings = scene.camera.data.camera_ray_caster
+    settings.model = "OPENCV_FISHEYE"
+    settings.calibration_width, settings.calibration_height = 24, 16
+    settings.fx, settings.fy, settings.cx, settings.cy, settings.k1 = 9.5, 9.25, 11.0, 7.0, 0.03
     scene.camera.name = "Left: eye"
     return scene
 

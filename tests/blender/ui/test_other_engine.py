@@ -19,15 +19,15 @@ SAID = [
 ]
 
 
-@pytest.mark.parametrize(("engine", "model", "kind", "mode", "said"), SAID)
-def test_a_sentence_says_what_is_rendered_instead(blender, camera_scene, engine, model, kind, mode, said):
+@pytest.mark.parametrize(("engine", "model", "kind", "mode", "beginning"), SAID)
+def test_a_sentence_says_what_is_rendered_instead(blender, camera_scene, engine, model, kind, mode, beginning):
     data = camera_scene.camera.data
     camera_scene.render.engine = engine
     data.type, data.camera_ray_caster.model, data.camera_ray_caster.time_mode = kind, model, mode
     if kind == "PANO":
         data.panorama_type = "FISHEYE_EQUIDISTANT"
-    found = other_engine.ignored(camera_scene, camera_scene.camera)
-    assert found.startswith(said) if said else found == ""
+    sentence = other_engine.ignored(camera_scene, camera_scene.camera)
+    assert sentence.startswith(beginning) if beginning else sentence == ""
 
 
 def test_a_camera_that_cycles_knows_is_named_for_others_only(osl, blender, camera_scene):

@@ -89,16 +89,16 @@ def test_the_camera_of_euroc_projects_as_opencv_does(blender, camera_scene):
 
 def test_a_preset_is_added_chosen_and_removed(blender, camera_scene):
     camera = camera_scene.camera.data
-    own = camera.camera_ray_caster
-    own.model, own.fov, own.tilt = "DOME_MASTER", 2.5, 0.25
+    settings = camera.camera_ray_caster
+    settings.model, settings.fov, settings.tilt = "DOME_MASTER", 2.5, 0.25
     with blender.context.temp_override(camera=camera):
         blender.ops.camera_ray_caster.preset_add(name="Mine")
         assert "Mine" in listed()
-        own.model, own.fov, own.tilt = "OMNIMAX", 1.0, 0.0
+        settings.model, settings.fov, settings.tilt = "OMNIMAX", 1.0, 0.0
         (path,) = (folder / "Mine.py" for folder in map(Path, bpy.utils.preset_paths("camera_ray_caster"))
                    if (folder / "Mine.py").is_file())  # fmt: skip
         blender.ops.script.execute_preset(filepath=str(path), menu_idname=presets.ModelPresets.bl_idname)
-        assert (own.model, own.fov, own.tilt) == ("DOME_MASTER", 2.5, 0.25)
+        assert (settings.model, settings.fov, settings.tilt) == ("DOME_MASTER", 2.5, 0.25)
         blender.ops.camera_ray_caster.preset_add(name="Mine", remove_name=True)
     assert "Mine" not in listed()
 

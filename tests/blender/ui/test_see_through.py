@@ -164,10 +164,10 @@ def test_a_slit_that_the_sidebar_adds_is_selected_to_be_moved(blender, scene):
     assert blender.context.object == scene.camera
     with blender.context.temp_override(area=area):
         blender.ops.camera_ray_caster.add_line(setting="slit_2")
-    own = data.camera_ray_caster
-    assert blender.context.selected_objects == [blender.context.object] == [own.slit_2]
+    settings = data.camera_ray_caster
+    assert blender.context.selected_objects == [blender.context.object] == [settings.slit_2]
     blender.ops.camera_ray_caster.select_line(setting="slit_1")
-    assert blender.context.selected_objects == [blender.context.object] == [own.slit_1]
-    own.slit_1 = None
+    assert blender.context.selected_objects == [blender.context.object] == [settings.slit_1]
+    settings.slit_1 = None
     with pytest.raises(RuntimeError, match="not in this view layer"):
         blender.ops.camera_ray_caster.select_line(setting="slit_1")

@@ -19,7 +19,7 @@ IN_A_VIEW = {"see_through", "select_seen"}
 PLAIN = ("FLOAT", "INT", "BOOLEAN", "ENUM", "TEXT", "FILE")
 
 
-def own(**values):
+def change_settings(**values):
     """Set the scene's camera's own settings."""
     for name, value in values.items():
         setattr(bpy.context.scene.camera.data.camera_ray_caster, name, value)
@@ -32,18 +32,18 @@ def second_camera(folder):
 
 
 def with_slit(folder):
-    own(model="PUSHBROOM")
+    change_settings(model="PUSHBROOM")
     OURS.add_line(setting="slit_1")
     return {"setting": "slit_1"}
 
 
 def without_slit(folder):
-    own(model="PUSHBROOM")
+    change_settings(model="PUSHBROOM")
     return {"setting": "slit_1"}
 
 
 def in_cycles(folder):
-    own(model="OMNIMAX")
+    change_settings(model="OMNIMAX")
     OURS.use_in_cycles()
     return {}
 
@@ -92,16 +92,16 @@ def a_pixel(folder):
 CALLS = {
     "add_line": without_slit,
     "select_line": with_slit,
-    "add_gradient": lambda folder: own(time_mode="IMAGE"),
+    "add_gradient": lambda folder: change_settings(time_mode="IMAGE"),
     "use_camera": second_camera,
     "points_to_mesh": lambda folder: None,
-    "use_in_cycles": lambda folder: own(model="OMNIMAX"),
+    "use_in_cycles": lambda folder: change_settings(model="OMNIMAX"),
     "back_to_blender": in_cycles,
-    "choose_lens": lambda folder: own(model="REAL_LENS") or {"name": "tessar_100mm"},
-    "own_focal_length": lambda folder: own(model="REAL_LENS"),
-    "fit_lens": lambda folder: own(model="OPENCV_PINHOLE"),
-    "add_projector": lambda folder: own(model="OMNIMAX"),
-    "follow_timeline": lambda folder: own(time_mode="ROWS"),
+    "choose_lens": lambda folder: change_settings(model="REAL_LENS") or {"name": "tessar_100mm"},
+    "own_focal_length": lambda folder: change_settings(model="REAL_LENS"),
+    "fit_lens": lambda folder: change_settings(model="OPENCV_PINHOLE"),
+    "add_projector": lambda folder: change_settings(model="OMNIMAX"),
+    "follow_timeline": lambda folder: change_settings(time_mode="ROWS"),
     "set_frame": stretched,
     "append_camera": lambda folder: {"name": "cross_slit"},
     "key_model": lambda folder: {},

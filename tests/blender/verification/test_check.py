@@ -37,7 +37,7 @@ def add_camera(bpy):
     return scene, camera, parents
 
 
-def place(camera, parents, rng):
+def set_random_pose(camera, parents, rng):
     """Give the camera a random pose: scales negative, not uniform, sheared by turned parents, or plain."""
     kind = rng.choice(["plain", "scaled", "sheared"])
     for item in (camera, *parents):
@@ -69,7 +69,7 @@ def test_random_cameras_agree_with_blender_within_its_rounding(blender, count):
     ratios = []
     for case in (CASES * (1 + count // len(CASES)))[:: max(1, len(CASES) // count)][:count]:
         set_up(scene, data, case)
-        place(camera, parents, rng)
+        set_random_pose(camera, parents, rng)
         data.lens, data.ortho_scale = 10 ** rng.uniform(0, 3.5), 10 ** rng.uniform(-2, 3)
         data.sensor_width, data.sensor_height = rng.uniform(4, 70, 2)
         data.clip_start = 10 ** rng.uniform(-4, 1)
