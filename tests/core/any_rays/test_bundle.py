@@ -63,3 +63,14 @@ def test_rays_that_begin_far_apart_are_left_to_a_tree(bundles):
     origin = np.random.default_rng(1).uniform(-3, 3, ALL_AROUND.shape)
     crc.cast_rays(origin, ALL_AROUND, SHAPES)
     assert bundles == [None]
+
+
+def test_rays_that_begin_in_a_flat_mesh_hit_it_at_once(bundles, monkeypatch):
+    monkeypatch.setattr("camera_ray_caster.core.any_rays.bundle.MOST_PAIRS", 10_000)
+    grid = np.array([(x, y, 0.0) for y in range(-4, 5) for x in range(-4, 5)])
+    corner = np.array([9 * row + column for row in range(8) for column in range(8)])
+    quads = crc.mesh(grid, np.stack((corner, corner + 1, corner + 10, corner + 9), axis=1))
+    across = np.abs(ALL_AROUND[:, 2]) > 0.1
+    depth = crc.cast_rays((0.25, 0.5, 0.0), ALL_AROUND[across], quads, passes=("depth",))["depth"]
+    assert bundles[-1] is not None
+    np.testing.assert_array_equal(depth, 0.0)

@@ -128,7 +128,7 @@ def _face(rays: np.ndarray, ahead, places, boxes: tuple[np.ndarray, ...], body, 
     def cell(values: np.ndarray) -> np.ndarray:
         return np.clip((values - start) * (cells / length), 0, cells - 1).astype(np.intp)
 
-    ahead_of = np.flatnonzero((far > 0) & (low <= far).all(axis=0) & (high >= -far).all(axis=0))
+    ahead_of = np.flatnonzero((far >= 0) & (low <= far).all(axis=0) & (high >= -far).all(axis=0))
     near, far = near[ahead_of], far[ahead_of]
     least, largest = (_slopes(near, far, taken(ends, ahead_of), sign) for ends, sign in ((low, 1), (high, -1)))
     seen = np.flatnonzero(((least <= end) & (largest >= start)).all(axis=0))
