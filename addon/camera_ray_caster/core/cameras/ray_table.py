@@ -263,10 +263,11 @@ def _sum(weights, values):
 def _grid(directions, origins, kind: str, axes: str, slide: bool, block: tuple[int, int]) -> RayGrid:
     """Return the table of some arrays, which are kept with it: the same arrays give the same table."""
     asked = (id(directions), id(origins), kind, axes, slide, block)
-    if asked not in _latest:
+    kept = _latest.get(asked)  # other threads may clear the tables
+    if kept is None:
         flip = FROM_BLENDER.diagonal()[:3] if axes == OPENCV else 1.0
         grid = RayGrid(directions * flip, None if origins is None else origins * flip, kind, block)
         if len(_latest) >= TABLES_KEPT:
             _latest.clear()
-        _latest[asked] = directions, origins, grid.slid() if slide else grid
-    return _latest[asked][-1]
+        kept = _latest[asked] = directions, origins, grid.slid() if slide else grid
+    return kept[-1]
