@@ -39,6 +39,14 @@ def test_damaged_images_are_refused_in_one_line():
     assert "EXR image 'rays.exr' is damaged, or cut off" in refused
 
 
+def test_a_channel_of_an_unknown_type_is_damage():
+    content = bytearray(exr(np.float32(fisheye(20, 16))))
+    kind = content.index(b"B\0") + 2
+    content[kind : kind + 4] = b"\xff" * 4
+    with pytest.raises(crc.InputError, match="damaged"):
+        channels_of(bytes(content), "rays.exr")
+
+
 @pytest.mark.parametrize(("pixels", "size", "says"), [
     (np.float32(fisheye(20, 16)), 700, "'.*rays.exr' is damaged, or cut off"),
     (np.float32(fisheye(20, 16)), 30, "'.*rays.exr' is damaged, or cut off"),

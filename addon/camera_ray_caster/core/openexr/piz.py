@@ -65,6 +65,8 @@ def _numbers(packed: bytes, count: int) -> np.ndarray:
             position += 8
         else:
             numbers.append(symbol)
+        if len(numbers) > count:
+            break
     if len(numbers) != count or max(present) > LONGEST:
         raise ValueError(f"{len(numbers)} numbers in place of {count}")
     return np.array(numbers, np.int32)

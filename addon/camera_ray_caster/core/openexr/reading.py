@@ -76,7 +76,7 @@ def _channels(value: bytes, path: str) -> Channels:
     channels = {}
     while value[0]:
         name, value = value.split(b"\0", 1)
-        kind, _, *steps = struct.unpack_from("<iI2i", value)
+        kind, _, *steps = struct.unpack_from("<II2i", value)
         if steps != [1, 1]:
             raise InputError(f"channel {name.decode()!r} of EXR image {path!r} does not have all pixels")
         channels[name.decode()], value = np.dtype(TYPES[kind]), value[16:]
