@@ -77,6 +77,17 @@ def test_what_is_exported_as_poses_is_read_as_a_trajectory(tmp_path):
     assert mounted(str(path), "", (64, 48), 10.0)[0].frames == [1]
 
 
+def test_numbers_before_poses_are_frames_or_times_of_all(tmp_path):
+    path, row = tmp_path / "poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n"
+    path.write_text(f"0 {row}0.5 {row}1 {row}")  # 10 frames in a second
+    assert mounted(str(path), "", (64, 48), 10.0)[0].frames == [1, 6, 11]
+    path.write_text(f"3 {row}5 {row}")
+    assert mounted(str(path), "", (64, 48), 10.0)[0].frames == [3, 5]
+    path.write_text(f"3 {row}{row}")
+    with pytest.raises(crc.InputError, match="pose 2 has 12 numbers, and the first one 13"):
+        mounted(str(path), "", (64, 48), 10.0)
+
+
 def test_names_of_lenses_are_those_of_their_lines(tmp_path):
     path = tmp_path / "calib.txt"
     path.write_text(RAW)

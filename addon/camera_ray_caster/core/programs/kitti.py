@@ -54,7 +54,8 @@ def poses(document: Document) -> list[Placed]:
     """See ProgramFiles: those of the cameras of a calibration, in the frame of the first one, or of poses.txt."""
     if _has_rows(document):
         rows = [line.split() for line in document.text.splitlines() if line.strip()]
-        return [_moved(document, number, row) for number, row in enumerate(rows, 1)]
+        have_frames = all(row[0].isdecimal() and float(row[0]) <= LAST_FRAME for row in rows)
+        return [_moved(document, number, row, len(rows[0]), have_frames) for number, row in enumerate(rows, 1)]
     lines = _lines(document)
     return [Placed(lens.name, "", None, _pose(document, lines, lens)) for lens in read(document)]
 
@@ -101,13 +102,15 @@ def _pose(document: Document, lines: dict[str, list[str]], lens: Lens) -> np.nda
     return inverted(moved @ checked(document, turned, REFERENCE))
 
 
-def _moved(document: Document, number: int, row: list[str]) -> Placed:
+def _moved(document: Document, number: int, row: list[str], count: int, have_frames: bool) -> Placed:
     document.check()
+    if len(row) != count:
+        raise document.refusal(f"pose {number} has {len(row)} numbers, and the first one {count}")
     pose = pose_of(document, row[len(row) % 4 :], f"pose {number}")
     if len(row) % 4 == 0:
         return Placed("", "", float(number), pose, moves=True)
     (moment,) = document.numbers(row[:1], f"the time of pose {number}", 1)
-    if row[0].isdecimal() and moment <= LAST_FRAME:
+    if have_frames:
         return Placed("", "", moment, pose, moves=True)
     return Placed("", "", None, pose, seconds(moment))
 
