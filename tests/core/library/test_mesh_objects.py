@@ -110,6 +110,7 @@ FROM_0 = "must be whole numbers from 0 to 255, or numbers from 0 to 1"
         ({"vertex_colors": np.full((4, 4), np.nan)}, FROM_0),
         ({"vertex_colors": 7}, r"of shape \(\)"),
         ({"vertex_colors": "red"}, "colors"),
+        ({"vertex_colors": [(0, 0, 0), (1, 1)]}, "colors"),
         ({"material": SimpleNamespace(main_color="red")}, "the material's color"),
         ({"material": SimpleNamespace(baseColorFactor=(2.0, 0, 0))}, FROM_0),
         ({"uv": UV, "material": SimpleNamespace(image=TEXELS[:0])}, "the texture of the mesh"),
@@ -131,3 +132,8 @@ def test_a_mesh_of_trimesh():
     np.testing.assert_array_equal(albedo(textured), albedo(same))
     with pytest.raises(crc.InputError, match=r"scene.to_mesh\(\)"):
         crc.mesh(trimesh.Scene([mesh]))
+
+
+def test_colors_may_be_rounded():
+    white = albedo(thing(vertex_colors=np.full((4, 3), np.nextafter(np.float32(1), np.float32(2)))))
+    assert white[20, 20] == pytest.approx((1, 1, 1))

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..arguments import number, numbers, shown
+from ..conventions import EPS32
 from ..materials.surface import Surface
 from ..materials.textures import Texels, Texture, linear
 from ..materials.values import UV, Coordinates, Layer, channel, function_of
@@ -39,7 +40,7 @@ def _rgba(values: Any, name: str, count: int) -> np.ndarray:
     if colors.ndim != 2 or len(colors) < count or colors.shape[1] not in (3, 4):
         raise InputError(f"{name} of the mesh are of shape {colors.shape}: they must be ({count}, 3) or ({count}, 4)")
     colors = colors / 255 if np.asarray(values).dtype.kind in "iu" else colors
-    if not ((colors >= 0) & (colors <= 1)).all():
+    if not ((colors >= 0) & (colors <= 1 + 4 * EPS32)).all():
         raise InputError(f"{name} of the mesh must be whole numbers from 0 to 255, or numbers from 0 to 1")
     return colors if colors.shape[1] == 4 else np.column_stack((colors, np.ones(len(colors))))
 
@@ -51,7 +52,7 @@ def with_colors(shapes: Shapes, mesh: Any) -> Shapes:
     visual = getattr(mesh, "visual", mesh)
     names = {"vertex": ("vertex_colors",), "face": ("face_colors",), "any": ("vertex_colors", "face_colors")}
     candidates = {name: getattr(visual, name, None) for name in names.get(getattr(visual, "kind", "any"), ())}
-    known = {name: colors for name, colors in candidates.items() if colors is not None and np.size(colors)}
+    known = {name: colors for name, colors in candidates.items() if colors is not None and numbers(colors, name).size}
     name, colors = next(iter(known.items()), ("", None))
     if not len(shapes):
         return shapes
