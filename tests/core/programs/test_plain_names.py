@@ -58,6 +58,7 @@ def test_photon_vision_called_its_distortion_extrinsics(tmp_path):
         {"radial_distortion_map": {"a": [-0.3]}}, {"k7": 0.5}, {"lens": {"distortion": [-0.3, 0.05]}},
         {"lens_model": {"coefficients": [-0.3, 0.05]}}, {"type_params": [-0.3, 0.05]}, {"values": [-0.3, 0.05]},
         {"fov_distortion": 0.5}, {"radial_distortion_1": -0.3}, {"alpha": 0.5, "beta": 0.05}, {"polynomial": [0.5]},
+        {"distortion_value": 0.5}, {"barrel": 0.5}, {"lens_warp": 0.5},
     ],
     ids=repr,
 )  # fmt: skip

@@ -61,7 +61,8 @@ INSIDE = "distortion."
 """What stands before other names in it, as no plain name begins."""
 COEFFICIENT = re.compile(
     r"(.*(dist(ortion)?|lens|radial|tangential|coef\w*?|cam))?"
-    r"(k|p|s|d|kappa|dist(ortion)?|radial|tangential|coeff?)[0-9]|.*distortion|omega"
+    r"(k|p|s|d|kappa|dist(ortion)?|radial|tangential|coeff?)[0-9]|.*distortion(value|amount)?|"
+    r"(lens)?(barrel|warp|aberration)|omega"
 )
 """Names of a distortion's coefficients."""
 SHAPES = {"alpha", "beta"}, {"alpha", "xi"}
