@@ -135,5 +135,5 @@ def test_a_mesh_of_trimesh():
 
 
 def test_colors_may_be_rounded():
-    white = albedo(thing(vertex_colors=np.full((4, 3), np.nextafter(np.float32(1), np.float32(2)))))
+    white = albedo(mesh_like(vertex_colors=np.full((4, 3), np.nextafter(np.float32(1), np.float32(2)))))
     assert white[20, 20] == pytest.approx((1, 1, 1))
