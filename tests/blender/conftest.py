@@ -9,6 +9,7 @@ sys.path.append(str(Path(__file__).resolve().parents[2] / "scripts"))
 import make_zip
 
 from ..exr import read_exr
+from .processes import blender_command, run
 
 
 @pytest.fixture(autouse=True)
@@ -55,9 +56,13 @@ def slow(monkeypatch):
 
 @pytest.fixture
 def render(blender, tmp_path):
-    """A function that renders the current frame by Blender's own operator to an EXR and reads it back."""
+    """A function that renders the current frame by Blender's own operator to an EXR and reads it back.
 
-    def render(**options):
+    elsewhere: in a Blender of its own. In a process that many tests have used Cycles now and then gives no pixels, and
+    Blender crashes as it writes them.
+    """
+
+    def render(elsewhere=False, **options):
         path = tmp_path / "picture.exr"
         settings = blender.context.scene.render.image_settings
         if hasattr(settings, "media_type"):
@@ -70,7 +75,12 @@ def render(blender, tmp_path):
             blender.context.scene.render.filepath = str(tmp_path / "frame_")
             blender.ops.render.render(animation=True)
             return {int(path.stem[-4:]): read_exr(path) for path in sorted(tmp_path.glob("frame_*.exr"))}
-        blender.ops.render.render(write_still=True)
+        if elsewhere:
+            blender.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"), copy=True)
+            script = Path(__file__).with_name("render_file.py")
+            run(*blender_command(str(script)), str(tmp_path / "scene.blend"))
+        else:
+            blender.ops.render.render(write_still=True)
         return read_exr(path)
 
     return render

@@ -83,9 +83,10 @@ def test_a_kind_of_shape(copy):
         ("from .kind import Kind", "from .disc import DISCS\nfrom .kind import Kind"),
         ("INFINITE_PLANES, MESHES", "INFINITE_PLANES, MESHES, DISCS"),
     )
-    copy.change(f"{CORE}/records.py", ("MESH = 0, 1, 2, 3", "MESH, DISC = 0, 1, 2, 3, 3"))
+    copy.change(f"{CORE}/shape_records.py", ("MESH = 0, 1, 2, 3", "MESH, DISC = 0, 1, 2, 3, 3"))
+    copy.change(f"{CORE}/records.py", ("import AREA, ", "import AREA, DISC, "))
     assert "the number 3 of mesh is taken: 4 is free" in said_by(copy, KINDS, "-k", "ships_has")
-    copy.change(f"{CORE}/records.py", ("2, 3, 3", "2, 3, 4"))
+    copy.change(f"{CORE}/shape_records.py", ("2, 3, 3", "2, 3, 4"))
     said = said_by(copy, KINDS, "-k", "ships_has")
     assert "EQUATIONS in core/lesson/meetings.py has no equation of round disc" in said
     copy.change(
@@ -132,6 +133,9 @@ def mesh(''',
         ("shapes import mesh, planes", "shapes import discs, mesh, planes"),
         ('"mesh planes', '"discs mesh planes'),
         ('"explain", ', '"discs", "explain", '),
+    )
+    copy.change(
+        "tests/core/library/every_name.py", ("infinite=True))", "infinite=True), crc.discs((0, 0, -2)))")
     )
     copy.change(
         f"{PACKAGE}/blender/properties/declared.py",

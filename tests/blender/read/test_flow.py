@@ -76,7 +76,7 @@ def test_blenders_vector_pass_is_the_same_flow(scene, render):
     scene.cycles.samples, scene.cycles.filter_width = 1, 0.01
     scene.cycles.use_adaptive_sampling = scene.cycles.use_denoising = False
     bpy.context.view_layer.use_pass_vector = True
-    channels = render()
+    channels = render(elsewhere=True)
     backward, forward = (np.stack([channels[f"ViewLayer.Vector.{c}"] for c in both], -1) for both in ("XY", "ZW"))
     for name, vector in (("flow_backward", backward), ("flow_forward", -forward)):
         flow = images[name]

@@ -183,8 +183,8 @@ class _Starts:
     def __init__(self, grid: RayGrid):
         sides, axes = [max(1, REGIONS // count) * count for count in grid.blocks.per_axis], []
         for axis, (side, count) in enumerate(zip(*grid.blocks, strict=True)):
-            entries = np.unique(np.linspace(0, side - 1, max(IN_BLOCK, STARTS // count)).round().astype(int))
-            axes.append((grid.blocks.starts(axis)[:, None] + entries).ravel())
+            in_block = np.unique(np.linspace(0, side - 1, max(IN_BLOCK, STARTS // count)).round().astype(int))
+            axes.append((grid.blocks.starts(axis)[:, None] + in_block).ravel())
         entries = np.ix_(*axes)
         if not grid.known[entries].any():
             entries = np.ix_(*map(np.arange, grid.shape))
