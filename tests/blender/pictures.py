@@ -58,9 +58,9 @@ def expected(scene, name, **keywords):
     """A pass as the caster returns it, in the form in which Blender stores it."""
     from camera_ray_caster.blender.read.scene_reader import read_scene
 
-    found = read_scene(scene, **keywords, passes=[name])
-    camera = found.camera
-    image = cast(camera, found.shapes, passes=[name])[name].astype(np.float32)
+    read = read_scene(scene, **keywords, passes=[name])
+    camera = read.camera
+    image = cast(camera, read.shapes, passes=[name])[name].astype(np.float32)
     if name == "depth":
         image[np.isinf(image)] = FAR
     return image.reshape(*camera.raster.shape, -1)

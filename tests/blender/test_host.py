@@ -106,5 +106,5 @@ def projection():
 
 @pytest.mark.skipif(sys.platform != "linux", reason="mallopt is the GNU C library's")
 def test_scripts_keep_memory_in_processes_of_their_own_only():
-    said = run(*map(str, [*blender_command(THROUGH_THE_DOOR), SCRIPTS]))
-    assert f"asked for mallopt: {not bpy.app.binary_path}" in said
+    output = run(*map(str, [*blender_command(THROUGH_THE_DOOR), SCRIPTS]))
+    assert f"asked for mallopt: {not bpy.app.binary_path}" in output

@@ -62,9 +62,9 @@ def test_a_rig_stands_below_an_empty_and_a_trajectory_moves_it(blender, camera_s
     place = np.array(right.matrix_world)
     assert np.allclose(place[:3, 3], (1, 2.1, 3), atol=1e-6)
     camera_scene.render.resolution_x, camera_scene.render.resolution_y = right["resolution"]
-    found = read_camera(camera_scene, right)
-    assert found.model.key == "DOUBLE_SPHERE"
-    assert found.settings["unified_xi"] == -0.2  # all digits: from the file, not Blender's float32
+    cam = read_camera(camera_scene, right)
+    assert cam.model.key == "DOUBLE_SPHERE"
+    assert cam.settings["unified_xi"] == -0.2  # all digits: from the file, not Blender's float32
     with pytest.raises(InputError, match="the files have two movements"):
         add_rig(camera_scene, [transforms(tmp_path), str(tmp_path / "path.txt")])
 

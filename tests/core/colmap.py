@@ -17,10 +17,10 @@ def read(folder):
     """The names of the models of the cameras by number, and the images by number: name, camera, camera from world."""
     import pycolmap
 
-    found = pycolmap.Reconstruction(folder)
-    cameras = {number: camera.model.name for number, camera in found.cameras.items()}
+    model = pycolmap.Reconstruction(folder)
+    cameras = {number: camera.model.name for number, camera in model.cameras.items()}
     images = {
-        number: (image.name, image.camera_id, image.cam_from_world().matrix()) for number, image in found.images.items()
+        number: (image.name, image.camera_id, image.cam_from_world().matrix()) for number, image in model.images.items()
     }
     return cameras, images
 
@@ -29,11 +29,11 @@ def write(folder, kinds):
     """Write cameras of these models, as binary and as text."""
     import pycolmap
 
-    found = pycolmap.Reconstruction()
+    reconstruction = pycolmap.Reconstruction()
     for number, kind in enumerate(kinds, 1):
-        found.add_camera(pycolmap.Camera.create_from_model_name(number, kind, 300.125, 640, 480))
-    found.write_binary(folder)
-    found.write_text(folder)
+        reconstruction.add_camera(pycolmap.Camera.create_from_model_name(number, kind, 300.125, 640, 480))
+    reconstruction.write_binary(folder)
+    reconstruction.write_text(folder)
 
 
 def errors(folder):
@@ -41,10 +41,10 @@ def errors(folder):
     import numpy
     import pycolmap
 
-    found = pycolmap.Reconstruction(folder)
+    reconstruction = pycolmap.Reconstruction(folder)
     results = []
-    for point in found.points3D.values():
-        own = [(found.images[one.image_id], one.point2D_idx) for one in point.track.elements]
+    for point in reconstruction.points3D.values():
+        own = [(reconstruction.images[one.image_id], one.point2D_idx) for one in point.track.elements]
         apart = [numpy.abs(image.project_point(point.xyz) - image.points2D[k].xy).max() for image, k in own]
         results.append((max(apart), len(own)))
     return results

@@ -65,8 +65,8 @@ def test_times_of_an_image_that_do_not_fit_are_refused_border_or_not(little):
 
 def test_a_border_of_what_does_not_fit_is_cast_as_the_part_that_it_is(little):
     camera = camera_from(BORDER)
-    found = cast(camera, BALL, passes=("shape_index", "depth"), dtype=np.float64)
-    assert found["depth"].shape == (65, 65)
+    images = cast(camera, BALL, passes=("shape_index", "depth"), dtype=np.float64)
+    assert images["depth"].shape == (65, 65)
     raster = camera.raster
     assert (raster.x0, raster.y0) == (32768, 16384)
     directions = camera.rays().directions
@@ -76,7 +76,7 @@ def test_a_border_of_what_does_not_fit_is_cast_as_the_part_that_it_is(little):
         directions[..., 1] / -directions[..., 2], np.broadcast_to(y, directions.shape[:2]), rtol=1e-12
     )
     seen = 25 - 24 * (1 + x * x + y * y) >= 0  # the discriminant of the ball's nearest point
-    assert np.array_equal(found["shape_index"] >= 0, seen)
+    assert np.array_equal(images["shape_index"] >= 0, seen)
 
 
 def test_memory_is_known_here_and_never_asked_for_in_vain():

@@ -102,5 +102,5 @@ def test_it_keeps_the_contract_of_camera_models(copy):
     """All that is asked of a model, and that its error bounds hold against its own formula with 60 digits."""
     tests = [f"tests/core/{name}" for name in CONTRACT]
     words = "-q", "-m", "", "-k", "MERCATOR", "-p", "no:cacheprovider"
-    said = run(sys.executable, "-m", "pytest", *tests, *words, folder=copy)
-    assert int(said.split(" passed")[0].split()[-1]) > 12
+    output = run(sys.executable, "-m", "pytest", *tests, *words, folder=copy)
+    assert int(output.split(" passed")[0].split()[-1]) > 12

@@ -27,8 +27,8 @@ def grid(scene, materials):  # noqa: F811
     scene.camera.location = (COLUMNS - 1) / 2, (rows - 1) / 2, 5
     scene.render.resolution_x, scene.render.resolution_y = COLUMNS * CELL, rows * CELL
     shapes = read_shapes(scene)
-    found = cast(read_camera(scene), shapes, passes=("albedo", "object_index"))
-    return found, shapes, list(cycles(scene, "Diffuse Color", "Glossy Color", "Transmission Color", "Emission"))
+    images = cast(read_camera(scene), shapes, passes=("albedo", "object_index"))
+    return images, shapes, list(cycles(scene, "Diffuse Color", "Glossy Color", "Transmission Color", "Emission"))
 
 
 def test_colors_are_those_of_cycles(scene):  # noqa: F811

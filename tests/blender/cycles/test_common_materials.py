@@ -19,11 +19,11 @@ def common(function):
         new, link, out, _ = material(item)
 
         def node(kind, **inputs):
-            made = new(f"ShaderNode{kind}")
+            shader_node = new(f"ShaderNode{kind}")
             for name, value in inputs.items():
-                socket = made.inputs[int(name[1:])] if name.startswith("_") else made.inputs[name.replace("_", " ")]
-                socket.default_value = value
-            return made
+                key = int(name[1:]) if name.startswith("_") else name.replace("_", " ")
+                shader_node.inputs[key].default_value = value
+            return shader_node
 
         link(function(node, link, item).outputs[0], out)
 
@@ -43,16 +43,16 @@ def image_of(color, space="sRGB"):
 
 
 def painted(node, color, space="sRGB"):
-    made = node("TexImage")
-    made.image, made.interpolation = image_of(color, space), "Closest"
-    return made
+    shader_node = node("TexImage")
+    shader_node.image, shader_node.interpolation = image_of(color, space), "Closest"
+    return shader_node
 
 
 def principled(node, **inputs):
     """A Principled BSDF that reflects nothing, which would add to its color."""
-    made = node("BsdfPrincipled", **inputs)
-    made.inputs["Specular IOR Level"].default_value = 0.0
-    return made
+    shader_node = node("BsdfPrincipled", **inputs)
+    shader_node.inputs["Specular IOR Level"].default_value = 0.0
+    return shader_node
 
 
 @common

@@ -28,12 +28,12 @@ def added(make, index=0, **options):
 
 def material(item, name="Material"):
     """Give an object a material without nodes but the output; return it, its tree and the output."""
-    made = bpy.data.materials.new(name)
+    material_data = bpy.data.materials.new(name)
     if bpy.app.version < (5, 0):
-        made.use_nodes = True
-    made.node_tree.nodes.clear()
-    item.data.materials.append(made)
-    return made, made.node_tree, made.node_tree.nodes.new("ShaderNodeOutputMaterial")
+        material_data.use_nodes = True
+    material_data.node_tree.nodes.clear()
+    item.data.materials.append(material_data)
+    return material_data, material_data.node_tree, material_data.node_tree.nodes.new("ShaderNodeOutputMaterial")
 
 
 def linked(tree, kind, socket, output=0):

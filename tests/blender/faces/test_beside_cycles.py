@@ -16,7 +16,7 @@ from ..processes import ROOT
 def test_in_a_process_of_its_own(kind):
     words = "-q", "--numprocesses", "0", "-m", "", "-p", "no:cacheprovider", "--timeout", "550", "-k", kind
     path = Path(__file__).with_name("beside_cycles.py")
-    made = subprocess.run(
+    process = subprocess.run(
         [sys.executable, "-m", "pytest", *words, str(path)], cwd=ROOT, capture_output=True, text=True, timeout=580
     )
-    assert made.returncode == 0, made.stdout[-3000:]
+    assert process.returncode == 0, process.stdout[-3000:]

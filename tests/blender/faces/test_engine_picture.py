@@ -169,11 +169,11 @@ def test_without_a_driver_it_says_so_in_a_line():
     """In a process of its own, whose EGL has no drivers: Blender would end the process."""
     words = script_command("cast.py", ROOT / "blend_scenes" / "toys.blend")
     no_drivers = {"__EGL_VENDOR_LIBRARY_FILENAMES": os.devnull, "LIBGL_DRIVERS_PATH": os.devnull}
-    made = subprocess.run(
+    process = subprocess.run(
         [*words, "--engine", WORKBENCH], env=os.environ | no_drivers, capture_output=True, text=True, timeout=100
     )
-    assert made.returncode == 2
-    assert made.stderr.splitlines()[-1].startswith("cast.py: WORKBENCH renders on a GPU, and this machine")
+    assert process.returncode == 2
+    assert process.stderr.splitlines()[-1].startswith("cast.py: WORKBENCH renders on a GPU, and this machine")
 
 
 @pytest.mark.full

@@ -79,9 +79,9 @@ def test_an_option_lets_them_write_and_the_report_has_the_paths(scene, tmp_path,
         assert report["warnings"] == []
         assert [path.split("/")[-2] for path in report["file_outputs"]] == ["below", "elsewhere"]
         assert set(appeared) <= set(report["file_outputs"])
-        said = capfd.readouterr()
-        assert not [line for line in said.err.splitlines() if line.startswith("cast.py")]
-        assert "Written by File Output nodes" in said.out
+        output = capfd.readouterr()
+        assert not [line for line in output.err.splitlines() if line.startswith("cast.py")]
+        assert "Written by File Output nodes" in output.out
     assert (tmp_path / "beside" / "below").is_dir()
 
 

@@ -110,9 +110,9 @@ def test_the_model_follows_from_a_calibration_file(blender, scene, tmp_path):
 def test_what_was_read_is_said(scene, tmp_path):
     path = tmp_path / "cameras.txt"
     path.write_text(CAMERAS)
-    said = set_calibration(scene.camera.data, str(path), "2")
-    assert said.startswith("Camera 2: OpenCV Fisheye, ")
-    assert "fx 300, fy 301" in said
+    message = set_calibration(scene.camera.data, str(path), "2")
+    assert message.startswith("Camera 2: OpenCV Fisheye, ")
+    assert "fx 300, fy 301" in message
 
 
 def test_a_table_of_rays_is_chosen_as_a_calibration_and_its_choices_stay(scene, tmp_path):
@@ -120,8 +120,8 @@ def test_a_table_of_rays_is_chosen_as_a_calibration_and_its_choices_stay(scene, 
     np.save(path, pinhole(24, 14))
     settings = scene.camera.data.camera_ray_caster
     settings.ray_interpolation = "LINEAR"
-    said = set_calibration(scene.camera.data, str(path))
-    assert said.startswith("Camera without a name: Ray Table, ")
+    message = set_calibration(scene.camera.data, str(path))
+    assert message.startswith("Camera without a name: Ray Table, ")
     assert (settings.model, settings.calibration_file, settings.ray_interpolation) == ("RAY_TABLE", str(path), "LINEAR")
     model = read_camera(scene).model
     assert (model.key, model.grid.kind, model.grid.shape) == ("RAY_TABLE", "LINEAR", (14, 24))

@@ -33,6 +33,6 @@ def test_it_is_in_the_menu_and_is_read_with_its_setting(tmp_path):
     script = tmp_path / "use.py"
     folder = Path(__file__).parents[2] / "core" / "library"
     script.write_text(USE.format(addon=str(SOURCE.parent), folder=str(folder)))
-    said = run(*map(str, blender_command(script)), BLENDER_USER_RESOURCES=str(tmp_path / "resources"))
-    assert "seen: 1001 EQUAL_AREA {'equal_area_top': 1.25} True True" in said
-    assert "without: EQUAL_AREA" in said
+    output = run(*map(str, blender_command(script)), BLENDER_USER_RESOURCES=str(tmp_path / "resources"))
+    assert "seen: 1001 EQUAL_AREA {'equal_area_top': 1.25} True True" in output
+    assert "without: EQUAL_AREA" in output

@@ -49,11 +49,11 @@ def surface(blender):
     scene.camera = new_object("Camera", blender.data.cameras.new("Camera"))
     scene.camera.location.z = 3
     scene.render.resolution_x = scene.render.resolution_y = 16
-    made = blender.data.materials.new("Paint")
+    material = blender.data.materials.new("Paint")
     if blender.app.version < (5, 0):
-        made.use_nodes = True
-    made.diffuse_color = 0.25, 0.5, 0.75, 1
-    made.node_tree.nodes.clear()
-    mesh.materials.append(made)
-    new, link = made.node_tree.nodes.new, made.node_tree.links.new
-    return new, link, new("ShaderNodeOutputMaterial"), made
+        material.use_nodes = True
+    material.diffuse_color = 0.25, 0.5, 0.75, 1
+    material.node_tree.nodes.clear()
+    mesh.materials.append(material)
+    new, link = material.node_tree.nodes.new, material.node_tree.links.new
+    return new, link, new("ShaderNodeOutputMaterial"), material

@@ -27,10 +27,10 @@ def ball(name="Ball", collection=None, **options):
 
 def plain(name, color, index=0):
     """A material of one color, whether this Blender gives nodes to a new one or not; and its pass index."""
-    made = bpy.data.materials.new(name)
-    made.pass_index = index
-    paint(made, color)
-    return made
+    material_data = bpy.data.materials.new(name)
+    material_data.pass_index = index
+    paint(material_data, color)
+    return material_data
 
 
 def paint(material, color):

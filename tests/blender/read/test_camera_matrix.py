@@ -83,8 +83,8 @@ def test_opencv_projects_as_blenders_camera_does(scene, case):
     set_up(scene, case)
     camera = crc.read_camera(scene)
     points = points_ahead(camera)
-    found = pixels_of_opencv(camera, points, "OPENCV_PINHOLE", [0.0] * 4)
-    np.testing.assert_allclose(found, camera.project(points), rtol=0, atol=NEAR)
+    pixels = pixels_of_opencv(camera, points, "OPENCV_PINHOLE", [0.0] * 4)
+    np.testing.assert_allclose(pixels, camera.project(points), rtol=0, atol=NEAR)
 
 
 @pytest.mark.parametrize("percentage", [100, 25])
@@ -100,8 +100,8 @@ def test_opencv_projects_as_its_calibrated_lenses_do(scene, name, percentage):
         setattr(settings, key, value)
     camera = crc.read_camera(scene)
     points = points_ahead(camera)
-    found = pixels_of_opencv(camera, points, name, [getattr(settings, key) for key in LENSES[name]])
-    np.testing.assert_allclose(found, camera.project(points), rtol=0, atol=NEAR)
+    pixels = pixels_of_opencv(camera, points, name, [getattr(settings, key) for key in LENSES[name]])
+    np.testing.assert_allclose(pixels, camera.project(points), rtol=0, atol=NEAR)
 
 
 def test_a_model_without_a_matrix_has_none(scene):

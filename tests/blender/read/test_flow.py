@@ -70,8 +70,8 @@ def test_blenders_vector_pass_is_the_same_flow(scene, render):
     1e-4 pixel; where rays pass an edge Cycles may see another surface.
     """
     scene.camera_ray_caster.exact_shapes = False
-    found = read_scene(scene, passes=BOTH)
-    images = cast(found.camera, found.shapes, passes=(*BOTH, "shape_index"), dtype=float)
+    read = read_scene(scene, passes=BOTH)
+    images = cast(read.camera, read.shapes, passes=(*BOTH, "shape_index"), dtype=float)
     scene.render.engine = "CYCLES"
     scene.cycles.samples, scene.cycles.filter_width = 1, 0.01
     scene.cycles.use_adaptive_sampling = scene.cycles.use_denoising = False
@@ -93,29 +93,29 @@ def test_a_deforming_mesh_is_followed_and_a_new_topology_is_not(scene):
     monkey.animation_data_clear()
     wave = monkey.modifiers.new("Wave", "WAVE")
     wave.height = 0.2
-    found = read_scene(scene, passes=("flow_forward",))
-    row = [name for name in found.shapes.names].index("Suzanne")
-    images = cast(found.camera, found.shapes, passes=("flow_forward", "shape_index"), dtype=float)
+    read = read_scene(scene, passes=("flow_forward",))
+    row = [name for name in read.shapes.names].index("Suzanne")
+    images = cast(read.camera, read.shapes, passes=("flow_forward", "shape_index"), dtype=float)
     here = images["shape_index"] == row
     assert not np.isnan(images["flow_forward"][here]).any()
-    still = Scene(found.next.camera, replace(found.next.shapes, meshes=found.shapes.meshes))
-    rigid = cast(found.with_timeline(next=still), passes=("flow_forward",), dtype=float)["flow_forward"]
+    still = Scene(read.next.camera, replace(read.next.shapes, meshes=read.shapes.meshes))
+    rigid = cast(read.with_timeline(next=still), passes=("flow_forward",), dtype=float)["flow_forward"]
     assert 0.05 < np.abs(rigid - images["flow_forward"])[here].max() < 5
     build = monkey.modifiers.new("Build", "BUILD")
     build.frame_start, build.frame_duration = 1, 10
-    found = read_scene(scene, passes=("flow_forward",))
-    images = cast(found.camera, found.shapes, passes=("flow_forward", "shape_index"), dtype=float)
-    here = images["shape_index"] == list(found.shapes.names).index("Suzanne")
+    read = read_scene(scene, passes=("flow_forward",))
+    images = cast(read.camera, read.shapes, passes=("flow_forward", "shape_index"), dtype=float)
+    here = images["shape_index"] == list(read.shapes.names).index("Suzanne")
     assert here.any()
     assert np.isnan(images["flow_forward"][here]).all()
 
 
 def test_a_rolling_shutter_comes_with_the_motion_of_its_neighbors(scene):
     scene.camera.data.camera_ray_caster.time_mode = "ROLLING_SHUTTER"
-    found = read_scene(scene, passes=BOTH)
-    assert None not in (found.next.motion, found.previous.motion)
-    images = cast(found.camera, found.shapes, passes=(*BOTH, "shape_index"), dtype=float)
-    for name, image in cast(found, passes=BOTH, dtype=float).items():
+    read = read_scene(scene, passes=BOTH)
+    assert None not in (read.next.motion, read.previous.motion)
+    images = cast(read.camera, read.shapes, passes=(*BOTH, "shape_index"), dtype=float)
+    for name, image in cast(read, passes=BOTH, dtype=float).items():
         np.testing.assert_array_equal(images[name], image)
     hit = images["shape_index"] >= 0
     assert 5 < np.nanmax(images["flow_forward"][hit]) < 50

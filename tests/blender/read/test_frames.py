@@ -27,11 +27,11 @@ def stretched(scene, sphere):
 
 
 def test_flow_is_that_of_the_neighboring_frames(stretched):
-    found = read_scene(stretched, passes=("flow_forward", "flow_backward"))
-    assert found.camera.record.settings["frame"] == 10
-    assert [found.shapes.center[0, 0], found.next.shapes.center[0, 0]] == pytest.approx([0, 0.1], abs=1e-6)
+    read = read_scene(stretched, passes=("flow_forward", "flow_backward"))
+    assert read.camera.record.settings["frame"] == 10
+    assert [read.shapes.center[0, 0], read.next.shapes.center[0, 0]] == pytest.approx([0, 0.1], abs=1e-6)
     assert read_shapes(stretched, frame=12.5).center[0, 0] == pytest.approx(0.25)
-    images = cast(found.camera, found.shapes, passes=("flow_forward", "shape_index"), dtype=float)
+    images = cast(read.camera, read.shapes, passes=("flow_forward", "shape_index"), dtype=float)
     seen = images["shape_index"] == 0
     np.testing.assert_allclose(images["flow_forward"][seen][:, 0], 0.1 * 4, atol=1e-5)  # 4 pixels a unit
     assert (stretched.frame_current, stretched.frame_subframe) == (10, 0)

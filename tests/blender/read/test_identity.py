@@ -55,15 +55,15 @@ def test_points_with_an_id_are_the_points_of_that_id(scene, kind):
         return scatter.outputs[0]
 
     geometry_nodes(carrier, build)
-    found = read_scene(scene, frame=2, passes=("flow_forward", "flow_hidden"))
-    here = found.shapes.center[:, 0] < 20
-    assert sorted(found.shapes.center[here, 0]) == [2, 3, 4, 5, 6]
-    gone = here & (found.shapes.center[:, 0] == 2)
-    away = moves(found)
+    read = read_scene(scene, frame=2, passes=("flow_forward", "flow_hidden"))
+    here = read.shapes.center[:, 0] < 20
+    assert sorted(read.shapes.center[here, 0]) == [2, 3, 4, 5, 6]
+    gone = here & (read.shapes.center[:, 0] == 2)
+    away = moves(read)
     np.testing.assert_array_equal(away[here & ~gone], 0)
     assert np.isnan(away[gone]).all()
-    assert not matched(found.shapes, found.next.shapes), "between the frames they are other shapes"
-    flow = cast(found.camera, found.shapes, passes=("flow_forward", "shape_index"), dtype=float)
+    assert not matched(read.shapes, read.next.shapes), "between the frames they are other shapes"
+    flow = cast(read.camera, read.shapes, passes=("flow_forward", "shape_index"), dtype=float)
     row = flow["shape_index"]
     np.testing.assert_allclose(flow["flow_forward"][(row >= 0) & ~gone[row]], 0, atol=1e-9)
     assert np.isnan(flow["flow_forward"][(row >= 0) & gone[row]]).all()
@@ -90,9 +90,9 @@ def test_particles_are_those_that_blender_numbers(scene):
     here, there = places(12), places(13)
     assert len(here) == len(there) > 3
     assert here.keys() != there.keys()
-    found = read_scene(scene, frame=12, passes=("flow_forward",))
-    away, seen = moves(found), 0
-    for center, move in zip(found.shapes.center, away, strict=True):
+    read = read_scene(scene, frame=12, passes=("flow_forward",))
+    away, seen = moves(read), 0
+    for center, move in zip(read.shapes.center, away, strict=True):
         (number,) = [k for k, place in here.items() if np.allclose(place, center, atol=1e-5)] or [None]
         if number is not None:
             seen += 1

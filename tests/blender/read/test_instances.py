@@ -89,9 +89,9 @@ def test_instances_on_vertices_and_their_instancer(scene):
         child.parent = parent
     parent.show_instancer_for_viewport = False
     expected = {"Shown": 1, "Shown child": 12, "Hidden child": 12}
-    found = read_shapes(scene)
-    assert counts(found) == counts(in_a_render(scene)) == expected
-    assert found.left_out == ()
+    shapes = read_shapes(scene)
+    assert counts(shapes) == counts(in_a_render(scene)) == expected
+    assert shapes.left_out == ()
 
 
 def test_particles_show_their_object_and_their_emitter_as_set(scene):

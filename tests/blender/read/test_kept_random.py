@@ -190,7 +190,7 @@ def test_what_is_kept_is_what_is_read_afresh(camera_scene, seed):
         if chance.random() < 0.3:
             continue  # several edits at once
         shown = scene_cache.cached_scene(bpy.context).shapes
-        found = read_shapes(bpy.context.scene)
+        shapes = read_shapes(bpy.context.scene)
         expected = fresh(bpy.context.evaluated_depsgraph_get())
-        assert differing(found, expected) == [], done
+        assert differing(shapes, expected) == [], done
         assert differing(shown, expected) == [], done

@@ -94,8 +94,8 @@ def test_a_camera_that_is_hidden_or_not_the_active_one(blender, scene, sphere, h
     scene.camera = new_object("Other", blender.data.cameras.new("Other"))
     if hide != "not active":
         setattr(camera, hide, True)
-    found = read_camera(scene, camera_object=camera)
-    assert np.array_equal(found.rays().origins, expected)
+    cam = read_camera(scene, camera_object=camera)
+    assert np.array_equal(cam.rays().origins, expected)
     assert scene.camera.name == "Other"
     assert scene.frame_current == 7
 

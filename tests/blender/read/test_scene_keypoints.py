@@ -29,5 +29,5 @@ def test_vertex_groups_of_a_joined_mesh_are_told_apart_by_name(theirs_first):
         return join.outputs[0]
 
     geometry_nodes(ours, joined)
-    found = key_points(bpy.context.scene, bpy.context.evaluated_depsgraph_get(), ["Ours"])
-    assert [(point.name, point.position) for point in found] == [("Tip", (1, 2, 3)), ("Foot", (4, 5, 6))]
+    points = key_points(bpy.context.scene, bpy.context.evaluated_depsgraph_get(), ["Ours"])
+    assert [(point.name, point.position) for point in points] == [("Tip", (1, 2, 3)), ("Foot", (4, 5, 6))]

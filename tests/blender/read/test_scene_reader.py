@@ -29,12 +29,12 @@ def test_camera_and_shapes_are_what_the_doors_give(scene, sphere):
     key(scene.camera, "location", (1, -3.0), (25, 3.0), index=0)
     scene.frame_set(7)
     for arguments in ({}, {"frame": 12.5}, {"camera_object": scene.camera, "frame": 3}):
-        found = read_scene(scene, **arguments)
+        read = read_scene(scene, **arguments)
         camera, shapes = read_camera(scene, **arguments), read_shapes(scene, **arguments)
-        np.testing.assert_array_equal(found.camera.rays().origins, camera.rays().origins)
-        np.testing.assert_array_equal(found.shapes.center, shapes.center)
-        assert found.camera.name == camera.name == "Camera"
-        assert (found.shapes.motion, camera.motion, shapes.motion) == (None, None, None)
+        np.testing.assert_array_equal(read.camera.rays().origins, camera.rays().origins)
+        np.testing.assert_array_equal(read.shapes.center, shapes.center)
+        assert read.camera.name == camera.name == "Camera"
+        assert (read.shapes.motion, camera.motion, shapes.motion) == (None, None, None)
 
 
 @pytest.mark.parametrize("read", [read_scene, read_shapes])
@@ -56,14 +56,14 @@ def test_arguments_by_place_are_read_with_a_warning(scene, sphere, read):
 def test_motion_is_evaluated_once_for_camera_and_shapes(scene, sphere, counted):
     key(sphere, "location", (1, -3.0), (25, 3.0), index=0)
     scene.frame_set(7)
-    found = read_scene(scene)
-    assert found.camera.motion is found.shapes.motion is found.motion is not None
+    read = read_scene(scene)
+    assert read.camera.motion is read.shapes.motion is read.motion is not None
     once = len(counted)
-    assert once == len(found.motion.states) + 4 + 1  # beside: the checks, and the frame itself
+    assert once == len(read.motion.states) + 4 + 1  # beside: the checks, and the frame itself
     read_camera(scene), read_shapes(scene)
     assert len(counted) == 3 * once - 1  # a camera alone needs no shapes at the frame itself
     x, y, frame = coordinates()
-    same(cast(found.camera, found.shapes, passes=PASSES)["shape_index"] == 0, *disc(x, y, (frame - 13) / 4))
+    same(cast(read.camera, read.shapes, passes=PASSES)["shape_index"] == 0, *disc(x, y, (frame - 13) / 4))
 
 
 def test_a_camera_of_one_time_is_read_without_shapes(scene, sphere, counted):
@@ -101,10 +101,10 @@ def test_shapes_are_read_where_there_is_no_camera_or_one_that_cannot_be_cast(ble
 def test_the_shapes_of_an_eye_are_read_for_that_eye(scene, sphere):
     key(sphere, "location", (1, -3.0), (25, 3.0), index=0)
     scene.render.use_multiview = True
-    found = read_scene(scene, view="right")
-    np.testing.assert_array_equal(found.camera.pose.eye, read_camera(scene, view="right").pose.eye)
+    read = read_scene(scene, view="right")
+    np.testing.assert_array_equal(read.camera.pose.eye, read_camera(scene, view="right").pose.eye)
     motion = read_shapes(scene, view="right").motion
-    assert motion.camera_at(3.0).pose.eye[0] == found.camera.at(3.0).pose.eye[0]
-    assert found.camera.pose.eye[0] != read_camera(scene).pose.eye[0]
+    assert motion.camera_at(3.0).pose.eye[0] == read.camera.at(3.0).pose.eye[0]
+    assert read.camera.pose.eye[0] != read_camera(scene).pose.eye[0]
     with pytest.raises(InputError, match="'middle' is not an eye"):
         read_shapes(scene, view="middle")

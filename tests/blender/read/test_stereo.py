@@ -178,11 +178,11 @@ def test_cycles_sees_the_same_with_each_eye(scene, kind, mode, pivot, view):
     expected = cast(camera, read_shapes(scene), passes=["position"], dtype=np.float64)["position"]
     for one in scene.render.views:
         one.use, one.file_suffix = one.name == view, ""
-    found = cycles_surface(scene, "Position", 256.0)
+    surface = cycles_surface(scene, "Position", 256.0)
     far = np.linalg.norm(expected - camera.pose.eye, axis=2)
-    both = expected.any(axis=2) & ~np.isnan(found).any(axis=2) & (far < 30)
+    both = expected.any(axis=2) & ~np.isnan(surface).any(axis=2) & (far < 30)
     assert both.mean() > 0.25
-    error = np.linalg.norm(found - expected, axis=2)
+    error = np.linalg.norm(surface - expected, axis=2)
     # directions to 32 EPS32, seen on the floor at its slope; what the witness stores is good to its reach's EPS32
     bound = (32 * far * far / 6 + 256 + 32 * 6) * EPS32 * np.sqrt(3)
     assert (error <= bound)[both].all()

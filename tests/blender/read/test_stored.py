@@ -171,9 +171,9 @@ def test_a_file_that_never_had_the_add_on_has_blenders_cameras(blender, unregist
     scene = blender.context.scene
     scene.camera = new_object("Camera", blender.data.cameras.new("Camera"))
     ball("Ball")
-    found = crc.read_scene(scene)
-    assert found.camera.model.key == "PERSP"
-    assert len(found.shapes) == 1
+    read = crc.read_scene(scene)
+    assert read.camera.model.key == "PERSP"
+    assert len(read.shapes) == 1
     scene.camera.data.type = "PANO"
     assert crc.read_camera(scene).model.key == scene.camera.data.panorama_type
 

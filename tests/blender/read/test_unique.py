@@ -50,11 +50,11 @@ def test_names_of_linked_objects_are_their_own(linked):
 
 def test_indices_and_annotations_have_them(linked):
     shapes = read_shapes(linked)
-    found = indices_of(shapes)
-    assert sorted(found["object_index"]["3"]) == sorted(NAMES)
-    assert sorted(run["object"] for run in found["shape_index"]) == sorted(NAMES)
-    assert sorted(found["material_index"]["0"]) == ["Fur", "Fur [zoo.blend.001]", "Fur [zoo.blend]"]
-    made = document({"file_name": "a.png"}, Sheet(8, 8), read_camera(linked), shapes, category_of)
-    objects = {entry["object"]: entry["category_id"] for part in ("annotations", "hidden") for entry in made[part]}
-    names = {category["id"]: category["name"] for category in made["categories"]}
+    indices = indices_of(shapes)
+    assert sorted(indices["object_index"]["3"]) == sorted(NAMES)
+    assert sorted(run["object"] for run in indices["shape_index"]) == sorted(NAMES)
+    assert sorted(indices["material_index"]["0"]) == ["Fur", "Fur [zoo.blend.001]", "Fur [zoo.blend]"]
+    coco = document({"file_name": "a.png"}, Sheet(8, 8), read_camera(linked), shapes, category_of)
+    objects = {entry["object"]: entry["category_id"] for part in ("annotations", "hidden") for entry in coco[part]}
+    names = {category["id"]: category["name"] for category in coco["categories"]}
     assert [names[objects[name]] for name in NAMES] == ["here", "one", "two"]

@@ -60,15 +60,15 @@ def test_points_have_the_steps_of_their_device(blender, scanned):
 def test_the_timeline_shows_how_far_a_sweep_is(blender, scanned):
     from camera_ray_caster.blender.read.scene_reader import read_scene
 
-    found = read_scene(scanned)
-    cloud = scan(found)
+    read = read_scene(scanned)
+    cloud = scan(read)
     scanned.render.fps, scanned.frame_start = 24, 1
     for frame, share in ((1, 1 / 12), (6, 6 / 12), (12, 1.0), (13, 1 / 12)):
         scanned.frame_set(frame)
-        some = points_by_now(cloud, found.camera, swept(scanned, found.camera))
+        some = points_by_now(cloud, read.camera, swept(scanned, read.camera))
         assert some.mean() == pytest.approx(share, abs=0.03)
         assert cloud.column[some].max(initial=0) <= 90 * share + 1
-    assert points_by_now(cloud, found.camera, None).all()
+    assert points_by_now(cloud, read.camera, None).all()
 
 
 @pytest.mark.parametrize("by", [RING, RANGE, LABEL])

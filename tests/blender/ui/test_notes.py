@@ -80,10 +80,10 @@ def test_a_note_moves_nothing_below_it(blender, scene, deviate):
 def test_every_note_is_in_the_popover_with_its_buttons(blender, scene):
     all_at_once(scene, scene.camera.data)
     blender.context.view_layer.update()
-    found = drawn(blender, CameraNotes)
+    text = drawn(blender, CameraNotes)
     assert len(notes(blender.context)) == 3
     for said in ("set_frame", "use_this_engine", "use_in_cycles", "No blur", "samples"):
-        assert said in found
+        assert said in text
 
 
 def test_of_two_missing_slits_each_is_added_by_the_same_button(blender, scene):

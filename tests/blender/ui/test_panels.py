@@ -47,10 +47,10 @@ def test_the_panels_say_what_the_camera_is_and_why_it_is_none(blender, scene):
     sidebar = [camera_panels.SidebarCamera, verify, *cast_panels.CLASSES[1:], overlay_panels.SidebarOverlay]
     popovers = cast_panels.CastReport, verify_panels.VerifyErrors
     assert "camera_ray_caster.see_through" not in drawn(blender, camera_panels.SidebarCamera)  # there is no view
-    said = drawn(blender, facts_panels.SidebarFacts)
+    labels = drawn(blender, facts_panels.SidebarFacts)
     eye, copy = "Eye X 0 m Y 0 m Z 6 m", "camera_ray_caster.copy_k"
     for text in (eye, "24 × 16 px", "39.6°", "Distance d", "2.77778", "K", copy):
-        assert text in said
+        assert text in labels
     own = scene.camera.data.camera_ray_caster
     own.model = "PUSHBROOM"
     settings = drawn(blender, camera_panels.SidebarSettings).split()
@@ -114,9 +114,9 @@ def test_the_panels_say_how_right_the_hits_are(blender, scene):
 def test_the_render_panel_leads_to_cycles_and_the_passes_have_the_alpha_threshold(blender, scene):
     from camera_ray_caster.blender.ui import render_panels
 
-    said = drawn(blender, render_panels.RenderPanel)
-    assert "Cycles renders materials and light" in said
-    assert "camera_ray_caster.use_in_cycles" in said
+    text = drawn(blender, render_panels.RenderPanel)
+    assert "Cycles renders materials and light" in text
+    assert "camera_ray_caster.use_in_cycles" in text
     assert "use_pass_albedo pass_alpha_threshold" in " ".join(
         word for word in drawn(blender, render_panels.PassesPanel).split()
         if word in {"use_pass_albedo", "pass_alpha_threshold"}
@@ -128,10 +128,10 @@ def test_sentences_of_a_lesson_begin_with_a_capital_and_formulas_as_they_are(ble
     from camera_ray_caster.blender.view3d import pixel_lessons
 
     pixel_lessons.clicked.choose([(12, 8)])
-    said = drawn(blender, SidebarLesson)
-    assert "Unit normal" in said
-    assert "u = (1, 0, 0)" in said
-    assert "U = " not in said
+    text = drawn(blender, SidebarLesson)
+    assert "Unit normal" in text
+    assert "u = (1, 0, 0)" in text
+    assert "U = " not in text
     pixel_lessons.forget()
 
 
@@ -163,9 +163,9 @@ def test_the_verdict_on_both_eyes_stands_until_the_camera_changes(blender, scene
     (blender.ops.camera_ray_caster.cast if how == "cast" else blender.ops.render.render)()
     assert len(reports.verified().findings) > 0
     assert reports.latest().camera["eye"] != reports.verified().camera["eye"] == list(scene.camera.location)
-    said = drawn(blender, SidebarVerify)
-    assert "All reference checks passed" in said
-    assert "has changed" not in said
+    text = drawn(blender, SidebarVerify)
+    assert "All reference checks passed" in text
+    assert "has changed" not in text
     scene.camera.location.x = 1
     assert "has changed since" in drawn(blender, SidebarVerify)
 
@@ -276,9 +276,9 @@ def test_results_are_named_as_passes_are(blender, scene):
     keys = ["combined", "uv", "object_index", "distance", "distance_bound"]
     pass_properties.tick(scene, blender.context.view_layer, keys)
     blender.ops.camera_ray_caster.cast()
-    said = drawn(blender, ResultsMenu)
+    text = drawn(blender, ResultsMenu)
     for label in (entry.label for entry in pass_properties.PASSES if entry.key in keys):
-        assert f"{label} camera_ray_caster.show_result" in said
+        assert f"{label} camera_ray_caster.show_result" in text
     scene.render.use_multiview = True
     blender.ops.camera_ray_caster.cast()
     assert "Distance Bound left camera_ray_caster.show_result" in drawn(blender, ResultsMenu)

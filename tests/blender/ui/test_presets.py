@@ -58,8 +58,8 @@ def test_a_preset_projects_as_opencv_does_and_sees_in_every_corner(blender, came
     project = cv2.projectPoints if OPENCV[name] == PINHOLE else cv2.fisheye.projectPoints
     lens = np.array([getattr(own, key) for key in OPENCV[name]])
     expected = project(points, np.zeros(3), np.zeros(3), matrix, lens)[0].reshape(-1, 2)
-    found = read_camera(camera_scene).project(points[0] * (1, -1, -1))
-    assert np.abs(found - (expected + 0.5) * (1, -1) - (0, height)).max() < 1e-9 * width
+    pixels = read_camera(camera_scene).project(points[0] * (1, -1, -1))
+    assert np.abs(pixels - (expected + 0.5) * (1, -1) - (0, height)).max() < 1e-9 * width
 
 
 @pytest.mark.parametrize(("name", "degrees"), [("Project_Aria_RGB", 110), ("Project_Aria_SLAM_left", 150)])
@@ -83,8 +83,8 @@ def test_the_camera_of_euroc_projects_as_opencv_does(blender, camera_scene):
     matrix = np.array([[458.654, 0, 367.215], [0, 457.296, 248.375], [0, 0, 1]])
     lens = np.array([-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05])
     expected = cv2.projectPoints(points, np.zeros(3), np.zeros(3), matrix, lens)[0].reshape(-1, 2)
-    found = read_camera(camera_scene).project(points * (1, -1, -1))
-    assert np.abs(found - (expected + 0.5) * (1, -1) - (0, 480)).max() < 1e-4  # the file's numbers, as float32
+    pixels = read_camera(camera_scene).project(points * (1, -1, -1))
+    assert np.abs(pixels - (expected + 0.5) * (1, -1) - (0, 480)).max() < 1e-4  # the file's numbers, as float32
 
 
 def test_a_preset_is_added_chosen_and_removed(blender, camera_scene):

@@ -23,16 +23,16 @@ def pixels_of(image):
 def test_cast_stores_every_pass_as_it_is(blender, scene, key):
     pass_properties.tick(scene, blender.context.view_layer, [key])
     assert blender.ops.camera_ray_caster.cast() == {"FINISHED"}
-    found = pixels_of(blender.data.images[image_datablocks.image_name(key)])
+    pixels = pixels_of(blender.data.images[image_datablocks.image_name(key)])
     read = read_scene(scene, passes=[key])
     expected = cast(read.camera, read.shapes, passes=[key])[key].reshape(HEIGHT, WIDTH, -1).astype(np.float32)
     if key == "depth":
         expected[np.isinf(expected)] = pass_properties.FAR
     channels = expected.shape[2]
-    assert np.array_equal(found[..., :channels], expected, equal_nan=True)
+    assert np.array_equal(pixels[..., :channels], expected, equal_nan=True)
     if channels == 1:
-        assert np.array_equal(found[..., 2], found[..., 0])
-    assert channels == 4 or (found[..., 3] == 1).all()
+        assert np.array_equal(pixels[..., 2], pixels[..., 0])
+    assert channels == 4 or (pixels[..., 3] == 1).all()
 
 
 @pytest.mark.parametrize("kind", ["PERSP", "PANO", "OMNIDIRECTIONAL_STEREO", "SPHERICAL", "MULTIVIEW"])
@@ -178,8 +178,8 @@ def test_without_a_shape_the_images_show_the_background(blender, scene, capfd):
         blender.data.objects.remove(blender.data.objects[name])
     scene.world = blender.data.worlds.new("World")
     blender.ops.camera_ray_caster.cast()
-    found = pixels_of(blender.data.images["Ray Caster combined"])
-    assert (found == found[0, 0]).all()
+    pixels = pixels_of(blender.data.images["Ray Caster combined"])
+    assert (pixels == pixels[0, 0]).all()
     assert "the images show the background" in "".join(capfd.readouterr())
 
 

@@ -37,26 +37,26 @@ def unpacked(lengths):
 
 
 def annotated(camera=CAMERA, shapes=WALLS, sheet=SHEET, points=(), file_name="a.png"):
-    found = document({"file_name": file_name}, sheet, camera, shapes, lambda name: "wall", points)
-    return json.loads(json.dumps(found))
+    annotations = document({"file_name": file_name}, sheet, camera, shapes, lambda name: "wall", points)
+    return json.loads(json.dumps(annotations))
 
 
 def test_boxes_masks_and_areas_by_hand():
     """The square is 16 pixels wide; the one before it covers 8 x 12 of them."""
-    found = annotated()
-    assert found["images"] == [{"id": 1, "file_name": "a.png", "width": 64, "height": 48}]
-    assert found["categories"] == [{"id": 1, "name": "wall", "supercategory": ""}]
-    behind, before = found["annotations"]
+    annotations = annotated()
+    assert annotations["images"] == [{"id": 1, "file_name": "a.png", "width": 64, "height": 48}]
+    assert annotations["categories"] == [{"id": 1, "name": "wall", "supercategory": ""}]
+    behind, before = annotations["annotations"]
     assert behind["bbox"] == behind["bbox_whole"] == [24, 16, 16, 16]
     assert (behind["area"], behind["area_whole"], behind["visible_fraction"]) == (160, 256, 0.625)
     assert before["bbox"] == before["bbox_whole"] == [32, 12, 16, 16]
     assert before["visible_fraction"] == 1
-    assert [one["object"] for one in found["hidden"]] == ["shape 2"]
-    assert found["hidden"][0]["bbox_whole"] == [28, 20, 8, 8]
+    assert [one["object"] for one in annotations["hidden"]] == ["shape 2"]
+    assert annotations["hidden"][0]["bbox_whole"] == [28, 20, 8, 8]
     index = cast(CAMERA, WALLS, passes=("shape_index",))["shape_index"][::-1]
-    for one in found["annotations"]:
+    for one in annotations["annotations"]:
         assert (unpacked(one["segmentation"]) == (index == one["shape_index"])).all()
-    amodal = unpacked(found["annotations"][0]["segmentation_whole"])
+    amodal = unpacked(annotations["annotations"][0]["segmentation_whole"])
     assert amodal[16:32, 24:40].all()
     assert amodal.sum() == 256
 
@@ -181,12 +181,12 @@ def test_key_points_have_pixels_depths_and_are_hidden_as_they_are():
     assert [one.visibility.name for one in seen] == ["SEEN", "HIDDEN", "OUTSIDE", "SEEN"]
     assert seen[0].pixel == pytest.approx((24, 16))
     assert [one.depth for one in seen] == pytest.approx([5, 5, 5, 7])
-    found = annotated(points=seen)
-    assert found["categories"][0]["keypoints"] == ["corner", "covered", "away"]
-    first, second = found["annotations"]
+    annotations = annotated(points=seen)
+    assert annotations["categories"][0]["keypoints"] == ["corner", "covered", "away"]
+    first, second = annotations["annotations"]
     assert first["keypoints"] == pytest.approx([24, 32, 2, 38.4, 17.6, 1, 0, 0, 0])
     assert (first["num_keypoints"], second["num_keypoints"]) == (2, 0)
-    assert found["keypoints"][3] == {
+    assert annotations["keypoints"][3] == {
         "image_id": 1, "name": "free", "object": "", "world": [0, 1, -7], "pixel": [32, 8], "depth": 7,
         "visibility": "seen",
     }  # fmt: skip

@@ -76,8 +76,8 @@ def test_no_ray_slips_through_an_edge_or_a_vertex():
         start, end = corners[which, first], corners[which, (first + 1) % 3]
         aim = start + share[:, None] * (end - start)
         origin = rng.uniform(-0.2, 0.2, (count, 3))
-        found = crc.cast_rays(origin, aim - origin, BALL, passes=("depth", "valid"))
-        assert (found["depth"] <= 1 + 1e-9).all(), kind
+        hits = crc.cast_rays(origin, aim - origin, BALL, passes=("depth", "valid"))
+        assert (hits["depth"] <= 1 + 1e-9).all(), kind
         outside = 3 * aim / np.linalg.norm(aim, axis=1, keepdims=True)
-        found = crc.cast_rays(outside, origin - outside, BALL, passes="depth")
-        assert (found["depth"] < 1).all(), kind
+        hits = crc.cast_rays(outside, origin - outside, BALL, passes="depth")
+        assert (hits["depth"] < 1).all(), kind

@@ -43,15 +43,15 @@ def test_rays_of_a_camera_see_what_it_sees(key):
     passes = (*PASSES, *BOUND.values())
     picture = crc.cast(camera, shapes, passes=passes, dtype=np.float64)
     rays = camera.rays()
-    found = crc.cast_rays(rays.origins, rays.directions, shapes, passes=passes, near=1e-3)
+    hits = crc.cast_rays(rays.origins, rays.directions, shapes, passes=passes, near=1e-3)
     for name in ("shape_index", "face_index", "object_index", "valid"):
-        assert (found[name] == picture[name]).mean() > 0.999, name  # pixels nearer to an edge than the bounds
-    same = (found["shape_index"] == picture["shape_index"]) & (picture["shape_index"] >= 0)
-    same &= found["face_index"] == picture["face_index"]
+        assert (hits[name] == picture[name]).mean() > 0.999, name  # pixels nearer to an edge than the bounds
+    same = (hits["shape_index"] == picture["shape_index"]) & (picture["shape_index"] >= 0)
+    same &= hits["face_index"] == picture["face_index"]
     for name, bound in BOUND.items():
-        off = np.abs(found[name][same] - picture[name][same])
+        off = np.abs(hits[name][same] - picture[name][same])
         off = off.max(axis=-1) if off.ndim > 1 else off
-        assert (off <= found[bound][same] + picture[bound][same] + 1e-13).all(), name  # the rays' own rounding
+        assert (off <= hits[bound][same] + picture[bound][same] + 1e-13).all(), name  # the rays' own rounding
 
 
 def plain_test(corners, origin, direction):
@@ -74,12 +74,12 @@ def test_random_rays_beside_a_plain_test_of_each_triangle(spread):
     shapes = crc.mesh(corners.reshape(-1, 3), np.arange(900).reshape(-1, 3))
     origin, direction = random.uniform(-spread, spread, (4000, 3)), random.normal(size=(4000, 3))
     face, t = plain_test(corners.swapaxes(0, 1), origin, direction)
-    found = crc.cast_rays(origin, direction, shapes, passes=("depth", "face_index"))
+    hits = crc.cast_rays(origin, direction, shapes, passes=("depth", "face_index"))
     hit = np.isfinite(t)
     assert hit.sum() > 400
-    assert (np.isfinite(found["depth"]) == hit).all()
-    assert (found["face_index"][hit] == face[hit]).all()
-    np.testing.assert_allclose(found["depth"][hit], t[hit], rtol=1e-9)
+    assert (np.isfinite(hits["depth"]) == hit).all()
+    assert (hits["face_index"][hit] == face[hit]).all()
+    np.testing.assert_allclose(hits["depth"][hit], t[hit], rtol=1e-9)
 
 
 def test_a_ray_is_the_same_in_any_company():
@@ -101,23 +101,23 @@ def test_many_rays_from_one_point_are_those_from_many_points():
     random = np.random.default_rng(9)
     along = places[random.integers(0, len(places), 500)] * [1, 0, 1] + [0, eye[1], 0]
     directions = np.concatenate([places - eye, along - eye, random.normal(size=(2000, 3))])
-    one = crc.cast_rays(eye, directions, shapes, passes=PASSES)
+    hits = crc.cast_rays(eye, directions, shapes, passes=PASSES)
     other = np.concatenate([directions, [[0, 0, 1.0]]])
     many = crc.cast_rays(
         np.concatenate([np.tile(eye, (len(directions), 1)), [[9.0, 9, 9]]]), other, shapes, passes=PASSES
     )
-    assert (one["face_index"] >= 0).sum() > 1000
+    assert (hits["face_index"] >= 0).sum() > 1000
     for name in PASSES:
-        assert one[name].tobytes() == many[name][:-1].tobytes(), name
+        assert hits[name].tobytes() == many[name][:-1].tobytes(), name
 
 
 def test_directions_of_any_length_and_shapes_that_broadcast():
     shapes = crc.spheres([[0.0, 0.0, -5.0]], 1.0)
     directions = [[[0, 0, -2.0]], [[0, 0, 1.0]], [[np.nan, 0, 1]]]
-    found = crc.cast_rays([0.0, 0.0, 0.0], directions, shapes, passes=("depth", "distance", "valid"))
-    assert found["depth"].tolist() == [[2.0], [math.inf], [math.inf]]
-    assert found["distance"].tolist() == [[4.0], [math.inf], [math.inf]]
-    assert found["valid"].tolist() == [[True], [True], [False]]
+    hits = crc.cast_rays([0.0, 0.0, 0.0], directions, shapes, passes=("depth", "distance", "valid"))
+    assert hits["depth"].tolist() == [[2.0], [math.inf], [math.inf]]
+    assert hits["distance"].tolist() == [[4.0], [math.inf], [math.inf]]
+    assert hits["valid"].tolist() == [[True], [True], [False]]
 
 
 def test_hits_count_from_near_to_far():
@@ -133,14 +133,14 @@ def test_hits_count_from_near_to_far():
 
 def test_all_hits_come_by_ray_and_distance():
     shapes = crc.join(crc.spheres([[0.0, 0.0, -5.0]], 1.0), crc.planes([0.0, 0.0, -8.0], [[9, 0], [0, 9], [0, 0]]))
-    found = crc.cast_rays(
+    hits = crc.cast_rays(
         [[0.0, 0, 0], [0, 5, 0], [0, 0, 0]], [[0.0, 0, -1], [0, 0, -1], [0, 0, 1]], shapes,
         passes=("distance", "shape_index"), all_hits=True,
     )  # fmt: skip
-    assert found["distance"].tolist() == [4.0, 6.0, 8.0, 8.0]
-    assert found["shape_index"].tolist() == [0, 0, 1, 1]
-    assert found["ray"].tolist() == [0, 0, 0, 1]
-    assert found["count"].tolist() == [3, 1, 0]
+    assert hits["distance"].tolist() == [4.0, 6.0, 8.0, 8.0]
+    assert hits["shape_index"].tolist() == [0, 0, 1, 1]
+    assert hits["ray"].tolist() == [0, 0, 0, 1]
+    assert hits["count"].tolist() == [3, 1, 0]
 
 
 def test_all_hits_of_many_rays_begin_with_the_nearest():
@@ -247,9 +247,9 @@ def test_short_and_long_directions_reach_as_far(length):
     expected = crc.cast_rays([0.0, 0, 0], [0, 0, -1.0], scene(), passes="distance")["distance"]
     for count in (1, 5000):
         directions = np.tile([0.0, 0.0, -length], (count, 1))
-        found = crc.cast_rays([0.0, 0, 0], directions, scene(), passes=("depth", "distance", "normal"))
-        np.testing.assert_allclose(found["distance"], expected)
-        np.testing.assert_allclose(found["depth"] * length, found["distance"])
+        hits = crc.cast_rays([0.0, 0, 0], directions, scene(), passes=("depth", "distance", "normal"))
+        np.testing.assert_allclose(hits["distance"], expected)
+        np.testing.assert_allclose(hits["depth"] * length, hits["distance"])
 
 
 def test_nothing_to_see_and_no_rays():

@@ -77,16 +77,16 @@ def test_each_ray_meets_what_moves_as_a_cast_at_its_time_does(name):
     middle = shapes.center[1] * (np.abs(shapes.center[1]) > 1e6)
     origin, towards = (middle + random.uniform(-span, span, (count, 3)) for span in (4, 1))
     rays = origin, towards - origin
-    found = crc.cast_rays(*rays, shapes, passes=PASSES, times=times)
+    hits = crc.cast_rays(*rays, shapes, passes=PASSES, times=times)
     every = crc.cast_rays(*rays, shapes, passes=PASSES, times=times, all_hits=True)
     hidden = crc.occluded(origin, towards, shapes, times=times)
     assert 20 < np.count_nonzero(hidden) < count - 20
-    assert set(apart.rows[: 3 if name == "spheres and planes" else 1].tolist()) <= set(found["shape_index"].tolist())
+    assert set(apart.rows[: 3 if name == "spheres and planes" else 1].tolist()) <= set(hits["shape_index"].tolist())
     for time in np.unique(times).tolist():
         some, then = times == time, motion.shapes_at(time)
         expected = crc.cast_rays(*(part[some] for part in rays), then, passes=PASSES)
         for each, image in expected.items():
-            np.testing.assert_array_equal(found[each][some], image, err_msg=f"{each} at {time}")
+            np.testing.assert_array_equal(hits[each][some], image, err_msg=f"{each} at {time}")
         expected, own = (
             crc.cast_rays(*(part[some] for part in rays), then, passes=PASSES, all_hits=True),
             some[every["ray"]],

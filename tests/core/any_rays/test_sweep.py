@@ -82,7 +82,7 @@ def test_the_points_are_those_of_a_cast_at_each_time(sweep):
     rays = camera.rays()
     for row, column in [(3, 10), (8, 90), (9, 95), (7, 200), (1, 350)]:
         then = shapes.at(float(rays.time[row, column]))
-        found = crc.cast_rays(
+        hits = crc.cast_rays(
             rays.origins[row, column],
             rays.directions[row, column],
             then,
@@ -92,7 +92,7 @@ def test_the_points_are_those_of_a_cast_at_each_time(sweep):
             far=100.0,
         )
         for name in PASSES:
-            np.testing.assert_array_equal(found[name], images[name][row, column])
+            np.testing.assert_array_equal(hits[name], images[name][row, column])
 
 
 def test_a_moving_wall_is_bent():
@@ -154,13 +154,13 @@ def test_rays_near_what_moves_are_found_whatever_it_is():
     rng = np.random.default_rng(5)
     times = np.round(rng.uniform(0, 1, 600), 2)
     rays = rng.normal(size=(600, 3)), rng.normal(size=(600, 3))
-    found = crc.cast_rays(*rays, shapes, passes=PASSES, times=times)
-    assert set(found["shape_index"].tolist()) == {-1, 0, 1, 2, 3, 4}
+    hits = crc.cast_rays(*rays, shapes, passes=PASSES, times=times)
+    assert set(hits["shape_index"].tolist()) == {-1, 0, 1, 2, 3, 4}
     for time in np.unique(times).tolist():
         some = times == time
         expected = crc.cast_rays(rays[0][some], rays[1][some], motion.shapes_at(time), passes=PASSES)
         for name in PASSES:
-            np.testing.assert_array_equal(found[name][some], expected[name])
+            np.testing.assert_array_equal(hits[name][some], expected[name])
 
 
 def test_few_rays_without_a_tree_hit_what_many_hit_with_it():
@@ -199,5 +199,5 @@ def test_times_beyond_the_frames_that_were_read_are_refused(sweep, times):
 
 def test_no_rays_have_no_hits_at_any_time(sweep):
     none = np.zeros((0, 3))
-    found = crc.cast_rays(none, [1.0, 0, 0], sweep[1], passes="distance", times=3.0, all_hits=True)
-    assert [found[name].shape for name in ("distance", "ray", "count")] == [(0,)] * 3
+    hits = crc.cast_rays(none, [1.0, 0, 0], sweep[1], passes="distance", times=3.0, all_hits=True)
+    assert [hits[name].shape for name in ("distance", "ray", "count")] == [(0,)] * 3

@@ -50,14 +50,14 @@ def test_a_model_that_fits_any_frame_asks_for_none(key):
 
 
 def test_pixels_that_are_twice_as_high_make_a_frame_twice_as_wide():
-    found = asked_size(raw_of("EQUIRECTANGULAR", WIDE | {"pixel_aspect_y": 2.0}))
-    assert (found.width, found.height) == (1920, 480)
+    size = asked_size(raw_of("EQUIRECTANGULAR", WIDE | {"pixel_aspect_y": 2.0}))
+    assert (size.width, size.height) == (1920, 480)
 
 
 def test_a_calibrated_picture_has_its_own_size():
     lens = WIDE | {"calibration_width": 1241, "calibration_height": 376}
-    found = asked_size(raw_of("OPENCV_PINHOLE", lens))
-    assert (found.width, found.height) == (1241, 376)
+    size = asked_size(raw_of("OPENCV_PINHOLE", lens))
+    assert (size.width, size.height) == (1241, 376)
     for given in (
         {"resolution_x": 1241, "resolution_y": 376, "resolution_percentage": 37},
         {"calibration_width": 0},

@@ -17,48 +17,48 @@ K = {"fx": 500.25, "fy": 500.25, "cx": 330.5, "cy": 228.0}
 @pytest.mark.parametrize("change", [{}, {"fy": 450.5}, {"resolution_x": 480, "resolution_y": 640}])
 def test_a_pinhole_is_blenders_perspective(fit, change):
     cam = camera("OPENCV_PINHOLE", SIZE | K | {"sensor_fit": fit} | change)
-    found = blender_lens(cam)
-    assert found.camera.model.key == "PERSP"
-    assert found.worst < 1e-3  # settings of float32
-    assert np.allclose(found.camera.K, cam.K, rtol=1e-6, atol=1e-4)
-    assert "EEVEE and Workbench render it" in found.message
+    lens = blender_lens(cam)
+    assert lens.camera.model.key == "PERSP"
+    assert lens.worst < 1e-3  # settings of float32
+    assert np.allclose(lens.camera.K, cam.K, rtol=1e-6, atol=1e-4)
+    assert "EEVEE and Workbench render it" in lens.message
 
 
 def test_a_bent_pinhole_has_the_error_that_the_pixels_show():
     cam = camera("OPENCV_PINHOLE", SIZE | K | {"k1": -0.02})
-    found = blender_lens(cam)
-    assert found.camera.model.key == "PERSP" or found.worst < 1
+    lens = blender_lens(cam)
+    assert lens.camera.model.key == "PERSP" or lens.worst < 1
     rays = cam.rays()
-    seen = found.camera.project(rays.origins + rays.directions)
+    seen = lens.camera.project(rays.origins + rays.directions)
     x, y = np.meshgrid(np.arange(640) + 0.5, np.arange(480) + 0.5)
     apart = np.hypot(seen[..., 0] - x, seen[..., 1] - y)
-    assert apart.max() == pytest.approx(found.worst, rel=1e-6)
-    assert apart.mean() == pytest.approx(found.mean, rel=0.05)
+    assert apart.max() == pytest.approx(lens.worst, rel=1e-6)
+    assert apart.mean() == pytest.approx(lens.mean, rel=0.05)
 
 
 def test_a_fisheye_is_nearly_a_polynomial_of_blenders_by_opencv_s_projection():
     cam = camera("OPENCV_FISHEYE", SIZE | {"fx": 300.0, "fy": 300.0, "cx": 322.0, "cy": 236.5, "k1": -0.02, "k2": 3e-3})
-    found = blender_lens(cam)
-    assert found.camera.model.key == "FISHEYE_LENS_POLYNOMIAL"
-    assert found.worst < 0.5
-    rays = found.camera.rays()
+    lens = blender_lens(cam)
+    assert lens.camera.model.key == "FISHEYE_LENS_POLYNOMIAL"
+    assert lens.worst < 0.5
+    rays = lens.camera.rays()
     ahead = (rays.directions[rays.valid] * (1, -1, -1))[:, None]
     K_ = np.array([[300.0, 0, 322], [0, 300.0, 236.5], [0, 0, 1]])
     seen, _ = cv2.fisheye.projectPoints(ahead, np.zeros(3), np.zeros(3), K_, np.array((-0.02, 3e-3, 0, 0)))
     x, y = np.meshgrid(np.arange(640.0), np.arange(480.0)[::-1])
     apart = np.hypot(seen[:, 0, 0] - x[rays.valid], seen[:, 0, 1] - y[rays.valid])
-    assert apart.max() == pytest.approx(found.worst, rel=0.05)
-    assert apart.mean() == pytest.approx(found.mean, rel=0.05)
-    assert "EEVEE and Workbench do not" in found.message
+    assert apart.max() == pytest.approx(lens.worst, rel=0.05)
+    assert apart.mean() == pytest.approx(lens.mean, rel=0.05)
+    assert "EEVEE and Workbench do not" in lens.message
 
 
 def test_a_lens_of_blenders_is_found_again():
     given = {"resolution_x": 400, "resolution_y": 300, "fisheye_fov": 3.0, "shift_x": 0.02,
              "fisheye_polynomial_k0": 0.0, "fisheye_polynomial_k1": -0.08, "fisheye_polynomial_k2": 0.0,
              "fisheye_polynomial_k3": 2e-5, "fisheye_polynomial_k4": 0.0}  # fmt: skip
-    found = blender_lens(camera("FISHEYE_LENS_POLYNOMIAL", given))
-    assert found.worst < 1e-3
-    assert found.settings["fisheye_polynomial_k1"] == pytest.approx(-0.08, rel=1e-5)
+    lens = blender_lens(camera("FISHEYE_LENS_POLYNOMIAL", given))
+    assert lens.worst < 1e-3
+    assert lens.settings["fisheye_polynomial_k1"] == pytest.approx(-0.08, rel=1e-5)
 
 
 @pytest.mark.parametrize("fit", ["AUTO", "VERTICAL"])
@@ -66,11 +66,11 @@ def test_parallel_rays_are_blenders_orthographic(fit):
     """The rays of three corners, 6 by 3 units around (0.5, -0.25), on 96 x 54 pixels."""
     three = {f"ray_{k}": (x, y, x, y) for k, (x, y) in enumerate(((-2.5, -1.75), (3.5, -1.75), (-2.5, 1.25)), 1)}
     cam = camera("GENERAL_LINEAR", {"sensor_fit": fit} | three)
-    found = blender_lens(cam)
-    assert found.camera.model.key == "ORTHO"
-    assert found.worst < 1e-4  # settings of float32
-    assert found.camera.project([(3.5, 1.25, -7.0)])[0] == pytest.approx((96, 54), abs=1e-4)
-    assert "EEVEE and Workbench render it" in found.message
+    lens = blender_lens(cam)
+    assert lens.camera.model.key == "ORTHO"
+    assert lens.worst < 1e-4  # settings of float32
+    assert lens.camera.project([(3.5, 1.25, -7.0)])[0] == pytest.approx((96, 54), abs=1e-4)
+    assert "EEVEE and Workbench render it" in lens.message
 
 
 @pytest.mark.parametrize(
@@ -85,16 +85,16 @@ def test_parallel_rays_are_blenders_orthographic(fit):
 def test_the_lens_of_a_dome_is_blenders_turned_up(key, settings, angle):
     """A dome master is an equidistant fisheye: k1 alone, in float32, to the last pixel of its rim."""
     cam = camera(key, settings)
-    found = blender_lens(cam)
-    assert found.elevation == pytest.approx(angle, abs=1e-12)
-    rays, lens = cam.rays(), found.camera.rays()
+    nearest = blender_lens(cam)
+    assert nearest.elevation == pytest.approx(angle, abs=1e-12)
+    rays, lens = cam.rays(), nearest.camera.rays()
     assert lens.valid[rays.valid].all()
     pixel = 2 * np.pi / min(cam.raster.size)  # radians, at most
     apart = np.linalg.norm(lens.directions - rays.directions, axis=-1)[rays.valid].max()
-    assert apart <= found.worst * pixel + 1e-6
-    assert found.beyond == pytest.approx((lens.valid & ~rays.valid).mean(), abs=1e-12)
+    assert apart <= nearest.worst * pixel + 1e-6
+    assert nearest.beyond == pytest.approx((lens.valid & ~rays.valid).mean(), abs=1e-12)
     if key == "DOME_MASTER":
-        assert (found.worst < 1e-4, found.beyond, apart < 1e-6) == (True, 0, True)
+        assert (nearest.worst < 1e-4, nearest.beyond, apart < 1e-6) == (True, 0, True)
 
 
 @pytest.mark.parametrize(

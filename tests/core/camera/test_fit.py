@@ -54,8 +54,8 @@ def scipy_s(cam, fitted):
         return np.nan_to_num(model.project(rays) - np.stack((columns, rows), axis=-1) - 0.5, nan=1e3).ravel()
 
     start = np.array(list(fitted.parameters.values())) * (1 + 1e-4 * np.cos(np.arange(len(names))))
-    found = least_squares(residuals, start, x_scale="jac", xtol=1e-12, ftol=1e-12, gtol=1e-12, max_nfev=300)
-    return found.fun.reshape(-1, 2)
+    solution = least_squares(residuals, start, x_scale="jac", xtol=1e-12, ftol=1e-12, gtol=1e-12, max_nfev=300)
+    return solution.fun.reshape(-1, 2)
 
 
 @pytest.mark.full

@@ -177,9 +177,9 @@ def test_a_border_cuts_and_moves_nothing(key):
 @pytest.mark.parametrize("key", ["PERSP", "ORTHO", "EQUIRECTANGULAR"])
 def test_what_has_no_ray_or_no_pixel_has_no_derivatives(key):
     cam = camera(key)
-    found = cam.rays_jacobian_at([np.nan, np.inf, 1.0], [1.0, 1.0, 1.0])
-    assert np.isnan(found.directions[:2]).all()
-    assert np.isfinite(found.directions[2]).all()
+    jacobian = cam.rays_jacobian_at([np.nan, np.inf, 1.0], [1.0, 1.0, 1.0])
+    assert np.isnan(jacobian.directions[:2]).all()
+    assert np.isfinite(jacobian.directions[2]).all()
     pixel, moves = cam.project([[np.nan, 0, -1], [0.1, np.inf, -1], [0.1, 0.1, -1]], jacobian=True)
     assert np.isnan(pixel[:2]).all()
     assert np.isnan(moves[:2]).all()
@@ -221,9 +221,9 @@ def test_pixels_with_their_own_times_have_the_camera_s_own_derivatives():
         assert still.pixel_time is not None
         moving = replace(still, motion=Sliding(plain))
         for cam in (still, moving):
-            found = cam.rays_jacobian()
-            np.testing.assert_array_equal(found.directions, plain.rays_jacobian().directions)
-            np.testing.assert_array_equal(found.origins, plain.rays_jacobian().origins)
+            jacobian = cam.rays_jacobian()
+            np.testing.assert_array_equal(jacobian.directions, plain.rays_jacobian().directions)
+            np.testing.assert_array_equal(jacobian.origins, plain.rays_jacobian().origins)
         for one, other in zip(still.project(points, jacobian=True), plain.project(points, jacobian=True), strict=True):
             np.testing.assert_array_equal(one, other)
         with pytest.raises(InputError, match=r"camera\.at\(frame\)\.project") as caught:

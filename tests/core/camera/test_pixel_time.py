@@ -245,8 +245,8 @@ def test_a_zoom_is_interpolated():
     assert not motion.unresolved
     assert len(motion.states) < 40
     for frame in (10.7, 13.33, 19.1):
-        found = motion.camera_at(frame).project(np.array([1.0, 0.0, -4.0]))
-        assert found == pytest.approx([32 + zoom(frame) / 36 * 16, 24], abs=0.05)
+        pixels = motion.camera_at(frame).project(np.array([1.0, 0.0, -4.0]))
+        assert pixels == pytest.approx([32 + zoom(frame) / 36 * 16, 24], abs=0.05)
     assert np.isfinite(cam.rays().directions).all()
 
 

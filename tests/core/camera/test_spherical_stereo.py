@@ -63,11 +63,11 @@ def test_rays_are_those_of_the_formula_with_50_digits_within_their_bound(key, mo
     for view, side in (("left", -1), ("right", 1)):
         cam = eye(key, view, matrix, **mode)
         x, y = inner_pixels(cam, 12)
-        found = world_rays(cam, x, y)
+        rays = world_rays(cam, x, y)
         origin, direction = (
-            np.stack(np.broadcast_arrays(*part, x)[:3], axis=-1) for part in (found.origin, found.direction)
+            np.stack(np.broadcast_arrays(*part, x)[:3], axis=-1) for part in (rays.origin, rays.direction)
         )
-        bounds = np.broadcast_arrays(found.origin_error, found.direction_error, x)
+        bounds = np.broadcast_arrays(rays.origin_error, rays.direction_error, x)
         plain = np.stack(np.broadcast_arrays(*cam.model.lens.rays(x, y)[1], x)[:3], axis=-1)
         for k in range(len(x)):
             with mp.workdps(50):

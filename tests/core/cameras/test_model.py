@@ -182,12 +182,12 @@ def test_the_pose_is_each_axis_normalized_for_itself(key):
         matrix = np.array(TURNED)
         matrix[:3, :3] = matrix[:3, :3] @ linear
         axes = matrix[:3, :3] / np.sqrt((matrix[:3, :3] ** 2).sum(axis=0))
-        found = camera(key, {"matrix_world": matrix}).rays()
+        rays = camera(key, {"matrix_world": matrix}).rays()
         expected = plain.directions @ axes.T
         expected /= np.linalg.norm(expected, axis=-1, keepdims=True)
         reach = np.abs(plain.origins).max() + np.abs(matrix[:3, 3]).max()
-        np.testing.assert_allclose(found.directions, expected, rtol=0, atol=16 * EPS)
-        np.testing.assert_allclose(found.origins, plain.origins @ axes.T + matrix[:3, 3], rtol=0, atol=16 * EPS * reach)
+        np.testing.assert_allclose(rays.directions, expected, rtol=0, atol=16 * EPS)
+        np.testing.assert_allclose(rays.origins, plain.origins @ axes.T + matrix[:3, 3], rtol=0, atol=16 * EPS * reach)
 
 
 @pytest.mark.parametrize(("key", "point"), rows_of(UNSEEN))

@@ -80,15 +80,15 @@ def opencv_fisheye(points, coefficients):
 @pytest.mark.parametrize("lens", LENSES)
 def test_a_point_is_where_opencv_projects_it(lens):
     points = points_ahead(0.5, 10_000)
-    found = pinhole(*LENSES[lens]).project(points)
-    assert np.abs(found - opencv_pinhole(points, LENSES[lens])).max() < PROJECTION
+    pixels = pinhole(*LENSES[lens]).project(points)
+    assert np.abs(pixels - opencv_pinhole(points, LENSES[lens])).max() < PROJECTION
 
 
 @pytest.mark.parametrize("lens", FISHEYES)
 def test_a_point_is_where_opencv_s_fisheye_projects_it(lens):
     points = points_ahead(3.0, 10_000)
-    found = fisheye(*FISHEYES[lens]).project(points)
-    assert np.abs(found - opencv_fisheye(points, FISHEYES[lens])).max() < PROJECTION
+    pixels = fisheye(*FISHEYES[lens]).project(points)
+    assert np.abs(pixels - opencv_fisheye(points, FISHEYES[lens])).max() < PROJECTION
 
 
 def by_camera_point(moved):

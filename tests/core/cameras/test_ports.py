@@ -20,9 +20,9 @@ AHEAD = 0.0, 0.0, -1.0
 
 
 def unit_directions(count=200, seed=1):
-    found = np.random.default_rng(seed).normal(size=(3, count))
-    found[2] = -np.abs(found[2]) - 0.1
-    return found / np.linalg.norm(found, axis=0)
+    directions = np.random.default_rng(seed).normal(size=(3, count))
+    directions[2] = -np.abs(directions[2]) - 0.1
+    return directions / np.linalg.norm(directions, axis=0)
 
 
 @pytest.mark.parametrize("model", [model for model in MODELS if takes_port(model)], ids=lambda model: model.key)

@@ -186,9 +186,9 @@ def test_arrays_of_numpy_are_tables(tmp_path):
     six = np.concatenate((pinhole() * (1, 1, 0), pinhole()), axis=2).astype(np.float32)
     (tmp_path / "six.npy").write_bytes(array_file(six))
     (tmp_path / "three.npy").write_bytes(array_file(pinhole()))
-    found = crc.load_calibration(tmp_path / "six.npy")
-    assert found.raster.size == (24, 18)
-    rays = found.rays()
+    loaded = crc.load_calibration(tmp_path / "six.npy")
+    assert loaded.raster.size == (24, 18)
+    rays = loaded.rays()
     np.testing.assert_allclose(rays.origins, six[..., :3], rtol=0, atol=8 * EPS)
     unit = six[..., 3:] / np.linalg.norm(six[..., 3:], axis=2)[..., None]
     np.testing.assert_allclose(rays.directions, unit, rtol=0, atol=1e-7)

@@ -141,8 +141,8 @@ def card_before_wall():
 
 def test_a_point_behind_a_transparent_point_is_seen():
     points = [(-0.5, 0, -3), (0.5, 0, -3), (-0.5, 0, -2), (-0.5, 0, -5)]
-    found = visible(camera_at(), card_before_wall(), points)
-    assert found.tolist() == [Visibility.SEEN, Visibility.HIDDEN, Visibility.SEEN, Visibility.HIDDEN]
+    is_visible = visible(camera_at(), card_before_wall(), points)
+    assert is_visible.tolist() == [Visibility.SEEN, Visibility.HIDDEN, Visibility.SEEN, Visibility.HIDDEN]
 
 
 def test_flow_is_that_of_what_is_seen_through_the_card():
@@ -151,12 +151,12 @@ def test_flow_is_that_of_what_is_seen_through_the_card():
     moved = card_before_wall()
     moved.center[0, 0] -= 1.0
     camera, shapes = with_others(camera, shapes, camera, moved)
-    found = cast(camera, shapes, passes=("shape_index", "flow_forward", "flow_hidden", "position"), dtype=float)
-    wall = found["shape_index"] == 1
-    through = wall & (np.abs(found["position"][..., 0] + 1) < 0.9) & (np.abs(found["position"][..., 1]) < 1.9)
+    images = cast(camera, shapes, passes=("shape_index", "flow_forward", "flow_hidden", "position"), dtype=float)
+    wall = images["shape_index"] == 1
+    through = wall & (np.abs(images["position"][..., 0] + 1) < 0.9) & (np.abs(images["position"][..., 1]) < 1.9)
     assert through.any()
-    np.testing.assert_allclose(found["flow_forward"][wall], 0, atol=1e-9)
-    assert found["flow_hidden"][through, 0].all()
+    np.testing.assert_allclose(images["flow_forward"][wall], 0, atol=1e-9)
+    assert images["flow_hidden"][through, 0].all()
 
 
 def test_a_threshold_is_met_by_the_same_alpha_and_constants_are_all_or_nothing():

@@ -215,10 +215,10 @@ def test_dtype_is_only_what_is_stored():
 
 def test_what_is_not_needed_is_said():
     images = cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0), (SPHERE, (0, 0, 5), 1.0)), passes=("depth",))
-    said = "\n".join(images.plan.left_out())
-    assert "1 of 2 shapes" in said
+    lines = "\n".join(images.plan.left_out())
+    assert "1 of 2 shapes" in lines
     for word in ("plane", "normal", "start at the eye", "clip end"):
-        assert word in said
+        assert word in lines
     slanted = cast(camera_at(type="ORTHO", clip_end=5.5), shapes_of((SPHERE, (0, 0, -5), 1.0)), passes=("depth",))
     assert not any("eye" in line or "clip" in line for line in slanted.plan.left_out())
 

@@ -92,17 +92,17 @@ def test_six_faces_of_a_cube_tend_to_the_whole_sphere():
 def test_a_sheared_camera_s_are_the_cross_products_of_its_jacobian(key):
     cam = camera(key, {"matrix_world": SHEARED})
     by_x, by_y = np.moveaxis(cam.rays_jacobian().directions, -1, 0)
-    found = area_pass(cam, "solid_angle")
+    areas = area_pass(cam, "solid_angle")
     np.testing.assert_allclose(
-        found, np.linalg.norm(np.cross(by_x, by_y), axis=-1), rtol=0, atol=64 * EPS * found.max()
+        areas, np.linalg.norm(np.cross(by_x, by_y), axis=-1), rtol=0, atol=64 * EPS * areas.max()
     )
 
 
 def test_what_is_parallel_has_no_solid_angle_and_what_sees_nothing_no_footprint():
     cam = camera("ORTHO")
     assert not area_pass(cam, "solid_angle").any()
-    found = cast(cam, BALL, passes=("footprint", "distance"), dtype=np.float32)
-    np.testing.assert_array_equal(np.isinf(found["footprint"]), np.isinf(found["distance"]))
+    images = cast(cam, BALL, passes=("footprint", "distance"), dtype=np.float32)
+    np.testing.assert_array_equal(np.isinf(images["footprint"]), np.isinf(images["distance"]))
     rimmed = camera("FISHEYE_EQUIDISTANT")
     assert (area_pass(rimmed, "footprint")[~rimmed.rays().valid] == np.inf).all()
 
@@ -195,12 +195,12 @@ def test_footprints_on_a_mesh_sum_to_its_area_and_are_those_of_its_plane():
 
 def test_an_orthographic_camera_s_footprints_grow_with_the_slope():
     cam = camera("ORTHO")
-    found = area_pass(cam, "footprint")
+    areas = area_pass(cam, "footprint")
     x, y = cam.model.window.plane_from_pixels(cam.raster.columns(), cam.raster.rows())
     rise = 1 - ((x - 0.3) ** 2 + (y + 0.2) ** 2) / 1.5**2
     seen = rise > 0.01
     expected = cam.model.window.pitch_x * cam.model.window.pitch_y / np.sqrt(np.where(seen, rise, 1))
-    np.testing.assert_allclose(found[seen], expected[seen], rtol=100 * ROUNDED)
+    np.testing.assert_allclose(areas[seen], expected[seen], rtol=100 * ROUNDED)
 
 
 def test_pictures_that_do_not_ask_pay_nothing(monkeypatch):

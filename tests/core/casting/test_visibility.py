@@ -52,11 +52,11 @@ def test_what_pixels_see_is_seen_what_is_behind_is_hidden_and_what_is_before_is_
     origins, directions, distance = rays.origins[hit], rays.directions[hit], images["distance"][hit]
     for share, expected in ((0.999, SEEN), (1.0, SEEN), (1.001, HIDDEN)):
         points = origins + share * distance[:, None] * directions
-        found = visible(camera, shapes, points)
+        is_visible = visible(camera, shapes, points)
         back = camera.project(points)
         elsewhere = np.linalg.norm(back - np.argwhere(hit)[:, ::-1] - 0.5, axis=1) > 1e-6  # another pixel sees it, too
         assert (elsewhere.mean() < 0.05) or not camera.model.smooth
-        wrong = (found != expected) & ~elsewhere & ~np.isnan(back[:, 0])
+        wrong = (is_visible != expected) & ~elsewhere & ~np.isnan(back[:, 0])
         behind = distance * abs(share - 1) > 4 * images["distance_bound"][hit]
         assert not (wrong & (behind | (share == 1))).any()
 
@@ -69,9 +69,9 @@ def test_no_vertex_of_a_mesh_is_hidden_by_the_triangles_that_it_is_a_corner_of()
     points = (ball.vertices - ball.middle[:, None]).T + shapes.center[0]
     normal = points - shapes.center[0]
     towards = ((points - camera.pose.eye) * normal).sum(axis=1) / np.linalg.norm(points - camera.pose.eye, axis=1)
-    found = visible(camera, shapes, points)
-    assert (found[towards < -0.02] == SEEN).all()
-    assert (found[towards > 0.1] == HIDDEN).all()
+    is_visible = visible(camera, shapes, points)
+    assert (is_visible[towards < -0.02] == SEEN).all()
+    assert (is_visible[towards > 0.1] == HIDDEN).all()
 
 
 def test_many_points_in_one_pixel_are_each_asked_for_themselves(monkeypatch):

@@ -83,24 +83,24 @@ def agrees(measured, passes, rounded=2.0**-9):
 def test_the_bounds_are_those_of_the_passes_at_the_sampled_pixels(rows, settings):
     case = Case("", "", rows, settings)
     images = cast(case.camera, case.shapes, passes=(*BOUNDS, "shape_index", "distance", "position"), dtype=np.float64)
-    found = accuracy(case.camera, case.shapes, images.plan)
+    measured = accuracy(case.camera, case.shapes, images.plan)
     x, y = sample(case.camera.raster)
-    assert found.pixels == x.size * y.size < images["distance"].size
-    agrees(found, expected(images, case.camera, x, y))
+    assert measured.pixels == x.size * y.size < images["distance"].size
+    agrees(measured, expected(images, case.camera, x, y))
 
 
 def test_errors_are_below_the_worst_bound_and_the_relative_one_is_of_the_distance():
     case = Case("", "", around(), {"resolution_x": 5, "resolution_y": 5})
     images = cast(case.camera, case.shapes, passes=("distance", "shape_index"), dtype=np.float64)
-    found = accuracy(case.camera, case.shapes, images.plan)
+    measured = accuracy(case.camera, case.shapes, images.plan)
     for (j, i), distance in np.ndenumerate(images["distance"]):
         if images["shape_index"][j, i] >= 0:
             ray = truth.ray(case.raw, i + 0.5, j + 0.5)
             exact = truth.nearest(case.shapes, ray, case.camera.clip_start, case.camera.clip_end).distance
             error = abs(truth.mpf(float(distance)) - exact)
-            assert error <= found.worst("distance") + float(np.spacing(distance))
-            assert error / exact <= found.worst("relative_distance") + np.finfo(float).eps
-    ratio = found.bounds[:, 0] / found.bounds[:, 1]
+            assert error <= measured.worst("distance") + float(np.spacing(distance))
+            assert error / exact <= measured.worst("relative_distance") + np.finfo(float).eps
+    ratio = measured.bounds[:, 0] / measured.bounds[:, 1]
     np.testing.assert_allclose(np.sort(ratio), np.sort(images["distance"][images["shape_index"] >= 0]))
 
 
@@ -114,19 +114,19 @@ def test_the_search_is_one_in_float64():
 @pytest.mark.parametrize("rows", [[], [(SPHERE, (0, 0, 5), 1.0)]], ids=["no shapes", "a shape behind"])
 def test_where_nothing_is_hit_there_is_no_bound(rows):
     case = Case("", "", rows)
-    found = accuracy(case.camera, case.shapes, cast(case.camera, case.shapes, passes=("depth",)).plan)
-    assert (found.pixels, found.hits) == (81, 0)
-    assert [found.worst(name) for name in QUANTITIES] == [found.median(name) for name in QUANTITIES] == [None] * 4
-    assert (found + Accuracy()).hits == 0
+    measured = accuracy(case.camera, case.shapes, cast(case.camera, case.shapes, passes=("depth",)).plan)
+    assert (measured.pixels, measured.hits) == (81, 0)
+    assert [measured.worst(name) for name in QUANTITIES] == [measured.median(name) for name in QUANTITIES] == [None] * 4
+    assert (measured + Accuracy()).hits == 0
 
 
 def test_where_there_is_no_ray_there_is_no_hit():
     case = Case("", "", [(SPHERE, (0, 0, 0), 3.0)], {"type": "FISHEYE_EQUIDISTANT", "resolution_x": 31,
                 "resolution_y": 31})  # fmt: skip
     images = cast(case.camera, case.shapes, passes=("valid",))
-    found = accuracy(case.camera, case.shapes, images.plan)
-    assert found.hits == np.count_nonzero(images["valid"]) < found.pixels
-    assert np.isfinite(found.bounds).all()
+    measured = accuracy(case.camera, case.shapes, images.plan)
+    assert measured.hits == np.count_nonzero(images["valid"]) < measured.pixels
+    assert np.isfinite(measured.bounds).all()
 
 
 @dataclass(frozen=True)
@@ -163,19 +163,19 @@ def test_each_pixel_is_asked_at_its_own_moment(pixel_time):
     camera, shapes = timed(pixel_time)
     images = cast(camera, shapes, passes=(*BOUNDS, "shape_index", "distance", "position"), dtype=np.float64)
     assert cast(camera.at(-2.0), shapes.at(-2.0), passes=("shape_index",))["shape_index"].max() == -1
-    found = accuracy(camera, shapes, images.plan)
+    measured = accuracy(camera, shapes, images.plan)
     x, y = sample(camera.raster)
     x, y = (places.ravel() for places in np.broadcast_arrays(x, y))
     frames = pixel_time.frame_at(x, y)
     every = np.unique(frames)
     times = every[:: -(-len(every) // MOMENTS)]
     asked = np.isin(frames, times)
-    assert found.pixels == np.count_nonzero(asked)
-    agrees(found, expected(images, camera, x[asked], y[asked]))
+    assert measured.pixels == np.count_nonzero(asked)
+    agrees(measured, expected(images, camera, x[asked], y[asked]))
 
 
 def test_no_more_than_so_many_moments_are_asked():
     levels = np.linspace(0, 1, 256)[np.random.default_rng(3).integers(0, 256, (80, 70))]
     camera, shapes = timed(ImageTime(levels, 0.1, 256))
-    found = accuracy(camera, shapes, cast(camera.at(0.5), shapes, passes=("depth",)).plan)
-    assert 0 < found.pixels <= PIXELS * MOMENTS / 256 * 1.5
+    measured = accuracy(camera, shapes, cast(camera.at(0.5), shapes, passes=("depth",)).plan)
+    assert 0 < measured.pixels <= PIXELS * MOMENTS / 256 * 1.5

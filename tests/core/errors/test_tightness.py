@@ -56,7 +56,7 @@ def test_bounds_are_small_multiples_of_roundoff_times_condition(key):
 
 @pytest.mark.parametrize("key", ["PERSP", "MIRRORBALL", "STRIP"])
 def test_a_bound_that_is_four_times_as_large_is_found(key):
-    found = factors(key)
-    assert_tight(found)
+    ratios = factors(key)
+    assert_tight(ratios)
     with pytest.raises(AssertionError):
-        assert_tight(4 * found)
+        assert_tight(4 * ratios)

@@ -33,7 +33,7 @@ def tables_of(model):
 @pytest.mark.one_for_each("model")
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)
 def test_a_model_by_its_key_is_that_of_its_declared_defaults(model):
-    found = crc.camera(model.key, SIZE, **lines_of(model), **tables_of(model))
+    cam = crc.camera(model.key, SIZE, **lines_of(model), **tables_of(model))
     settings = {one.name: one.default for one in model.SETTINGS if one.name not in RECORD_FIELDS} | tables_of(model)
     for name, line in lines_of(model).items():
         points = np.array(line) if name == "path" else np.array((line[0], np.add(*line)))
@@ -41,28 +41,28 @@ def test_a_model_by_its_key_is_that_of_its_declared_defaults(model):
     raw = BlenderCamera("Camera", "PERSP", np.eye(4), resolution_x=96, resolution_y=54, model=model.key,
                         settings=settings, **model.following({}))  # fmt: skip
     expected = camera_from(raw).rays()
-    np.testing.assert_array_equal(found.rays().directions, expected.directions)
-    np.testing.assert_array_equal(found.rays().origins, expected.origins)
-    assert found == found
-    assert found == crc.camera(model.key, SIZE, **lines_of(model), **tables_of(model))
-    assert len({found, found}) == 1
+    np.testing.assert_array_equal(cam.rays().directions, expected.directions)
+    np.testing.assert_array_equal(cam.rays().origins, expected.origins)
+    assert cam == cam
+    assert cam == crc.camera(model.key, SIZE, **lines_of(model), **tables_of(model))
+    assert len({cam, cam}) == 1
 
 
 def test_numbers_in_pixels_are_those_of_the_picture():
     K, terms = np.array([[301.5, 0, 322.25], [0, 299.0, 238.5], [0, 0, 1]]), [0.05, -0.01, 0.002, 1e-4]
     k1, k2, k3, k4 = terms
-    found = crc.camera(
+    cam = crc.camera(
         "OPENCV_FISHEYE", (640, 480), fx=301.5, fy=299.0, cx=322.25, cy=238.5, k1=k1, k2=k2, k3=k3, k4=k4
     )
     points = np.random.default_rng(1).normal(size=(50, 3)) * (1, 1, 0.1) - (0, 0, 2)
     theirs, _ = cv2.fisheye.projectPoints((points * (1, -1, -1))[:, None], np.zeros(3), np.zeros(3), K, np.array(terms))
-    np.testing.assert_allclose(found.project(points) * (1, -1) + (-0.5, 479.5), theirs[:, 0], rtol=0, atol=1e-9)
-    np.testing.assert_array_equal(found.K, K)
+    np.testing.assert_allclose(cam.project(points) * (1, -1) + (-0.5, 479.5), theirs[:, 0], rtol=0, atol=1e-9)
+    np.testing.assert_array_equal(cam.K, K)
 
 
 def test_what_is_left_out_of_a_calibration_belongs_to_the_picture():
-    found = crc.camera("OPENCV_PINHOLE", (640, 480), fx=500.0, fy=500.0)
-    np.testing.assert_array_equal(found.K, [[500, 0, 319.5], [0, 500, 239.5], [0, 0, 1]])
+    cam = crc.camera("OPENCV_PINHOLE", (640, 480), fx=500.0, fy=500.0)
+    np.testing.assert_array_equal(cam.K, [[500, 0, 319.5], [0, 500, 239.5], [0, 0, 1]])
     scaled = crc.camera("OPENCV_PINHOLE", (960, 540), fx=500.0, calibration_width=1920, calibration_height=1080)
     assert scaled.K[0, 0] == 250
 
@@ -152,10 +152,10 @@ def test_a_calibration_file_is_a_camera_of_its_size(tmp_path):
     camera = crc.camera("OPENCV_FISHEYE", (640, 480), name="left", fx=301.5, fy=299.0, cx=322.25, cy=238.5, k1=0.05)
     (path,) = crc.export(camera, tmp_path, "opencv").paths
     pose = crc.look_at((1, 2, 3), (0, 0, 0))
-    found = crc.load_calibration(path, pose=pose)
-    np.testing.assert_array_equal(found.K, camera.K)
-    np.testing.assert_array_equal(found.pose.eye, (1, 2, 3))
-    assert found.model.key == "OPENCV_FISHEYE"
+    loaded = crc.load_calibration(path, pose=pose)
+    np.testing.assert_array_equal(loaded.K, camera.K)
+    np.testing.assert_array_equal(loaded.pose.eye, (1, 2, 3))
+    assert loaded.model.key == "OPENCV_FISHEYE"
     assert crc.load_calibration(Path(path), size=(320, 240)).K[0, 0] == camera.K[0, 0] / 2
     for words, said in (
         (("/no/such.yml",), "No such file"),
@@ -188,7 +188,7 @@ def test_the_size_of_a_camera_does_not_change_alone():
 
 
 def test_the_list_of_models_is_a_table():
-    found = crc.models()
-    assert list(found) == [model.key for model in MODELS]
-    assert "PUSHBROOM" in repr(found)
-    assert "slit_1" in next(line for line in repr(found).splitlines() if line.startswith("PUSHBROOM"))
+    table = crc.models()
+    assert list(table) == [model.key for model in MODELS]
+    assert "PUSHBROOM" in repr(table)
+    assert "slit_1" in next(line for line in repr(table).splitlines() if line.startswith("PUSHBROOM"))

@@ -71,12 +71,12 @@ def given_with(model, setting):
 def test_what_is_left_out_follows_or_is_refused(model, setting):
     given = given_with(model, setting)
     if setting.left_out == SAME:
-        found = crc.camera(model.key, SIZE, **given)
-        assert found.settings[setting.name] == given[setting.partner]
+        cam = crc.camera(model.key, SIZE, **given)
+        assert cam.settings[setting.name] == given[setting.partner]
     elif setting.left_out == MIDDLE:
-        found = crc.camera(model.key, SIZE, **given)
+        cam = crc.camera(model.key, SIZE, **given)
         side = given["calibration_width" if setting.name == "cx" else "calibration_height"]
-        assert found.settings[setting.name] == (side - 1) / 2
+        assert cam.settings[setting.name] == (side - 1) / 2
     else:
         assert setting.left_out in (DECLARED, NEEDED, OF_FRAME)
         with pytest.raises(crc.InputError, match=setting.name):
@@ -102,13 +102,13 @@ def test_the_declared_lens_has_square_pixels_in_any_frame(model, size):
     """A point as far to the right as another is above the axis lies as many pixels away; the field of view of the
     longer side is that of the declared picture.
     """
-    found = crc.camera(model.key, size)
-    right, up = found.project([(0.1, 0.0, -1.0), (0.0, 0.1, -1.0)]) - np.divide(size, 2)
+    cam = crc.camera(model.key, size)
+    right, up = cam.project([(0.1, 0.0, -1.0), (0.0, 0.1, -1.0)]) - np.divide(size, 2)
     assert right[0] == pytest.approx(up[1], rel=1e-12)
     wide = crc.camera(model.key, (1920, 1080)).project([(0.1, 0.0, -1.0)])[0, 0] - 960
     assert right[0] == pytest.approx(wide * 64 / 1920, rel=1e-9)
-    again = crc.camera(model.key, size, **found.settings)
-    np.testing.assert_array_equal(again.rays().directions, found.rays().directions)
+    again = crc.camera(model.key, size, **cam.settings)
+    np.testing.assert_array_equal(again.rays().directions, cam.rays().directions)
 
 
 @pytest.mark.parametrize(

@@ -62,8 +62,8 @@ def test_every_door_refuses_what_is_no_pose(flaw, tmp_path):
 
 def test_rounding_and_scale_are_no_flaws():
     for matrix in (POSE.astype(np.float32), POSE[:3], POSE @ np.diag([2.0, 0.5, 3.0, 1.0])):
-        found = crc.camera("PERSP", SIZE, matrix)
-        np.testing.assert_allclose(found.pose.basis, POSE[:3, :3], atol=1e-7)
+        cam = crc.camera("PERSP", SIZE, matrix)
+        np.testing.assert_allclose(cam.pose.basis, POSE[:3, :3], atol=1e-7)
         np.testing.assert_allclose(crc.camera("PERSP", SIZE).with_pose(matrix).pose.eye, (1, 2, 3), atol=1e-7)
     world_to_camera = crc.camera("PERSP", SIZE, POSE).opencv_from_world
     np.testing.assert_allclose(

@@ -49,8 +49,8 @@ def test_a_program_with_every_name(tmp_path):
     """A type checker reads it in tests/core/camera/test_description.py."""
     text = PROGRAM.with_name("every_name.py").read_text()
     assert [name for name in crc.__all__ if f"crc.{name}" not in text] == []
-    said = run(f"exec(compile({text!r}, 'every_name', 'exec'))", tmp_path)
-    assert "<Camera 'Camera', OPENCV_FISHEYE, 64 x 48" in said
+    output = run(f"exec(compile({text!r}, 'every_name', 'exec'))", tmp_path)
+    assert "<Camera 'Camera', OPENCV_FISHEYE, 64 x 48" in output
 
 
 def test_the_first_program_of_the_readme():
@@ -77,9 +77,9 @@ def test_every_name_is_there_with_its_help():
     for name in set(crc.__all__) - blenders:
         assert getattr(crc, name).__doc__, name
     assert re.fullmatch(r"\d+\.\d+\.\d+", crc.__version__)
-    said = run("import camera_ray_caster as crc, pydoc; print(pydoc.render_doc(crc, renderer=pydoc.plaintext))")
+    output = run("import camera_ray_caster as crc, pydoc; print(pydoc.render_doc(crc, renderer=pydoc.plaintext))")
     for name in set(crc.__all__) - blenders:
-        assert re.search(rf"\b{name}\b", said), name
+        assert re.search(rf"\b{name}\b", output), name
 
 
 def test_what_needs_blender_says_so():

@@ -68,10 +68,10 @@ def test_ranges_hold_the_rays_of_every_model(key):
     width, height = cam.raster.size
     rng = np.random.default_rng(2)
     corner = rng.uniform(-2, 1, (2, 100, 1)) + np.array((width, height))[:, None, None] * rng.uniform(size=(2, 100, 1))
-    found = ranges(cam.model.recorded, [(low, low + 3) for low in corner])
+    bounds = ranges(cam.model.recorded, [(low, low + 3) for low in corner])
     x, y = corner + 3 * rng.uniform(size=(2, 100, 20))
     rays = np.array(np.broadcast_arrays(*cam.model.recorded.evaluate(NUMPY, (x, y))))
     off = 1e-9 * np.maximum(1, np.abs(rays))
-    for component, its_range, most in zip(rays, found, off, strict=True):
+    for component, its_range, most in zip(rays, bounds, off, strict=True):
         inside = (its_range.low <= component + most) & (component <= its_range.high + most)
         assert (inside | np.isnan(rays[3])).all()

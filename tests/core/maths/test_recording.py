@@ -48,10 +48,10 @@ def test_every_model_is_recorded_and_its_record_gives_its_rays(key):
         rays = record(six, 2)
         x, y = (part.ravel() for part in np.meshgrid(cam.raster.columns(), cam.raster.rows()))
         with np.errstate(all="ignore"):  # an iteration goes on where there is no ray
-            found = rays.evaluate(NUMPY, (x, y))
+            values = rays.evaluate(NUMPY, (x, y))
         allowed = ITERATED if any(step.operation == "loop" for step in rays.steps) else 0.0
         assert allowed == 0.0 or key in ITERATE
-        for one, other in zip(found, six(x, y), strict=True):
+        for one, other in zip(values, six(x, y), strict=True):
             np.testing.assert_allclose(*np.broadcast_arrays(x, one, other)[1:], rtol=0, atol=allowed, equal_nan=True)
 
 

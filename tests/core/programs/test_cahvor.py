@@ -23,9 +23,9 @@ def vectors(file):
 
 def pixel_of(file, point, linearity):
     """The pixel of a point in the frame of a file."""
-    found = vectors(file)
-    axis, (r0, r1, r2), (e0, e1, e2) = found["O"] / np.linalg.norm(found["O"]), found["R"], found.get("E", np.zeros(3))
-    to_point = point - found["C"]
+    lens = vectors(file)
+    axis, (r0, r1, r2), (e0, e1, e2) = lens["O"] / np.linalg.norm(lens["O"]), lens["R"], lens.get("E", np.zeros(3))
+    to_point = point - lens["C"]
     along = to_point @ axis
     across = to_point - along * axis
     low, high = 1e-9, 1.5
@@ -36,7 +36,7 @@ def pixel_of(file, point, linearity):
     chi = tan(linearity * theta) / linearity
     assert theta == pytest.approx(atan(hypot(*across) / (along - pupil)))
     ray = axis + across / hypot(*across) * chi * (1 + r0 + r1 * chi**2 + r2 * chi**4)
-    return np.array((found["H"] @ ray, found["V"] @ ray)) / (found["A"] @ ray)
+    return np.array((lens["H"] @ ray, lens["V"] @ ray)) / (lens["A"] @ ray)
 
 
 @pytest.mark.parametrize(

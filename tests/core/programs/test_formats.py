@@ -181,11 +181,11 @@ SAID = [
 
 @pytest.mark.parametrize(("name", "text", "key", "settings"), SAID)
 def test_a_file_is_the_camera_of_its_numbers(tmp_path, name, text, key, settings):
-    found = of_file(tmp_path / name, text, key)
+    lens = of_file(tmp_path / name, text, key)
     expected = camera(key, FRAME | SIZE | K | settings)
     for setting, value in expected.settings.items():
-        assert isinstance(value, str) or found.settings[setting] == pytest.approx(value, rel=1e-15), setting
-    assert found.model == expected.model or "camera_angle" in text
+        assert isinstance(value, str) or lens.settings[setting] == pytest.approx(value, rel=1e-15), setting
+    assert lens.model == expected.model or "camera_angle" in text
     wrong = "FOV" if key != "FOV" else "EUCM"
     with pytest.raises(InputError, match=f"{name}.* is a calibration for .*: choose that model"):
         of_file(tmp_path / name, text, wrong)

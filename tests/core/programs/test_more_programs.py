@@ -224,8 +224,8 @@ def test_points_are_where_the_formula_has_them(name, tmp_path):
     camera = crc.load_calibration(file, camera="left" if name == "Metashape, project" else None, pose=np.eye(4))
     assert camera.raster.size == SIZE
     u, v = formula(POINTS)
-    found = camera.project(POINTS * (1, -1, -1))
-    np.testing.assert_allclose(found, np.stack((u + 0.5, 480 - (v + 0.5)), axis=-1), rtol=0, atol=1e-9)
+    pixels = camera.project(POINTS * (1, -1, -1))
+    np.testing.assert_allclose(pixels, np.stack((u + 0.5, 480 - (v + 0.5)), axis=-1), rtol=0, atol=1e-9)
 
 
 REFUSED = {

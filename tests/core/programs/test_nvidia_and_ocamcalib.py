@@ -99,9 +99,9 @@ def of_file(path, text, key, **settings):
 def test_a_file_is_the_camera_of_its_numbers(tmp_path, name):
     text, settings = FILES[name]
     key = "OCAM" if "ocam_c" in settings else "FTHETA"
-    found = of_file(tmp_path / "lens", text, key)
-    assert found.model == camera(key, FRAME | settings).model
-    ahead = found.project([(0.0, 0.0, -2.0)])[0]
+    lens = of_file(tmp_path / "lens", text, key)
+    assert lens.model == camera(key, FRAME | settings).model
+    ahead = lens.project([(0.0, 0.0, -2.0)])[0]
     assert ahead == pytest.approx((321.25 + 0.5, 480 - 238.5 - 0.5), abs=1e-9)  # (0, 0): the first pixel's center
     with pytest.raises(InputError, match=r"lens.* is a calibration for .*: choose that model"):
         of_file(tmp_path / "lens", text, "FOV")

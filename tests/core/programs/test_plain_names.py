@@ -36,9 +36,9 @@ def lens(tmp_path, entries):
     ids=repr,
 )
 def test_a_distortion_under_another_name_is_read(entries, tmp_path):
-    found = lens(tmp_path, entries)
-    assert found.model == "OPENCV_PINHOLE"
-    assert found.values(("k1", "k2", "p1", "p2", "k3")) == [-0.3, 0.05, 0, 0, 0]
+    read_lens = lens(tmp_path, entries)
+    assert read_lens.model == "OPENCV_PINHOLE"
+    assert read_lens.values(("k1", "k2", "p1", "p2", "k3")) == [-0.3, 0.05, 0, 0, 0]
 
 
 def test_photon_vision_called_its_distortion_extrinsics(tmp_path):

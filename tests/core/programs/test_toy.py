@@ -60,15 +60,15 @@ def test_a_toy_is_in_help_refusals_menu_and_table(tmp_path):
         check=False,
     )
     assert done.returncode == 0, done.stderr
-    said = json.loads(done.stdout)
+    facts = json.loads(done.stdout)
     row = "| Lens Cards | lens_cards.txt | pinholes | `cards`: lens_cards.txt: pinholes and poses | distortion |\n"
-    assert row in said["table"]
-    assert ["cards", "Lens Cards", "lens_cards.txt: pinholes and poses"] in said["menu"]
-    assert '"cards"' in said["help"]
-    assert said["read"].startswith("Lens Cards, OpenCV")
-    assert said["placed"].startswith("Lens Cards")
-    unknown, refused = said["refusals"]
+    assert row in facts["table"]
+    assert ["cards", "Lens Cards", "lens_cards.txt: pinholes and poses"] in facts["menu"]
+    assert '"cards"' in facts["help"]
+    assert facts["read"].startswith("Lens Cards, OpenCV")
+    assert facts["placed"].startswith("Lens Cards")
+    unknown, refused = facts["refusals"]
     assert "of no format that is read: these are Lens Cards, OpenCV" in unknown
     assert "Lens Cards cannot represent the Orthographic of camera 'Camera': choose one of" in refused
-    assert said["rays"]
-    assert said["rig"] == {"left": [1, 2, 3]}
+    assert facts["rays"]
+    assert facts["rig"] == {"left": [1, 2, 3]}

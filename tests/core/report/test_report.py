@@ -208,24 +208,24 @@ def test_facts_of_a_pinhole_by_hand():
 
 @pytest.mark.parametrize("settings", [{}, {"pixel_aspect_y": 2.0}, {"sensor_fit": "VERTICAL"}, {"resolution_y": 99}])
 def test_facts_are_the_lectures_ray(settings):
-    found = camera(**settings)
-    facts = camera_facts(found)
-    x, y = (2 * found.raster.columns() / 64 - 1), (2 * found.raster.rows() / found.raster.height - 1)
+    cam = camera(**settings)
+    facts = camera_facts(cam)
+    x, y = (2 * cam.raster.columns() / 64 - 1), (2 * cam.raster.rows() / cam.raster.height - 1)
     parts = zip((x, facts["aspect"] * y, facts["d"]), (facts[axis] for axis in "uvw"), strict=True)
-    ray = sum(np.multiply.outer(np.broadcast_to(factor, found.raster.shape), axis) for factor, axis in parts)
+    ray = sum(np.multiply.outer(np.broadcast_to(factor, cam.raster.shape), axis) for factor, axis in parts)
     ray /= np.linalg.norm(ray, axis=-1, keepdims=True)
-    np.testing.assert_allclose(ray, found.rays().directions, atol=1e-15)
+    np.testing.assert_allclose(ray, cam.rays().directions, atol=1e-15)
 
 
 @pytest.mark.parametrize("settings", [{}, {"shift_x": 0.3, "shift_y": -0.2}, {"pixel_aspect_x": 1.5}])
 def test_facts_hold_opencvs_matrix(settings):
-    found = camera(**settings)
+    cam = camera(**settings)
     point = np.array([1.7, 2.4, -2.0])  # camera frame (0.7, 0.4, -5): OpenCV's axes turn y and z round
-    across, down, one = np.array(camera_facts(found)["K"]) @ [0.7, -0.4, 5.0] / 5.0
+    across, down, one = np.array(camera_facts(cam)["K"]) @ [0.7, -0.4, 5.0] / 5.0
     assert one == 1
-    x, y = found.project(point)
+    x, y = cam.project(point)
     # the center of the top left pixel is OpenCV's (0, 0) and our (1/2, height - 1/2)
-    assert (across, down) == pytest.approx((x - 0.5, found.raster.height - 0.5 - y))
+    assert (across, down) == pytest.approx((x - 0.5, cam.raster.height - 0.5 - y))
 
 
 def test_facts_of_an_orthographic_camera_by_hand():

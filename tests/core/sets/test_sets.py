@@ -116,9 +116,9 @@ def test_pngs_are_what_opencv_reads(tmp_path):
     for kind, shape in ((np.uint8, (5, 7)), (np.uint16, (5, 7)), (np.uint16, (4, 3, 3)), (np.uint8, (4, 3, 4))):
         pixels = random.integers(0, np.iinfo(kind).max, shape).astype(kind)
         (tmp_path / "a.png").write_bytes(png(pixels))
-        found = cv2.imread(str(tmp_path / "a.png"), cv2.IMREAD_UNCHANGED)
+        image = cv2.imread(str(tmp_path / "a.png"), cv2.IMREAD_UNCHANGED)
         order = {3: (2, 1, 0), 4: (2, 1, 0, 3)}.get(pixels.shape[-1] if pixels.ndim == 3 else 0)
-        assert (found == (pixels if order is None else pixels[..., order])).all()
+        assert (image == (pixels if order is None else pixels[..., order])).all()
 
 
 def test_a_bop_scene_has_objects_where_their_pixels_are(written_set):
@@ -189,9 +189,9 @@ def test_splits_are_by_frames_and_told_by_each_format(tmp_path):
         assert names == {path.stem for path in (tmp_path / "yolo" / "labels" / split).iterdir()}
         assert (names == held, len(names)) == (split == "val", count)
         assert f"{split}: images/{split}\n" in (tmp_path / "yolo" / "data.yaml").read_text()
-        said = json.loads((tmp_path / "panoptic" / f"panoptic_{split}.json").read_text())
-        assert len(said["annotations"]) == len(said["images"]) == count
-        assert {one["file_name"][:-4] for one in said["images"]} == names
+        facts = json.loads((tmp_path / "panoptic" / f"panoptic_{split}.json").read_text())
+        assert len(facts["annotations"]) == len(facts["images"]) == count
+        assert {one["file_name"][:-4] for one in facts["images"]} == names
         transforms = json.loads((tmp_path / "nerfstudio-scene" / "transforms.json").read_text())
         assert {name[7:-4] for name in transforms[f"{split}_filenames"]} == names
         scenes = tmp_path / "bop-scenes" / split

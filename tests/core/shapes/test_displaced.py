@@ -30,16 +30,16 @@ def test_vertices_move_along_normals_by_map_attribute_and_place():
         (channel(Layer("color:Height", 4), 0), [1.25] * 4),
         (channel(Layer("color:None", 4), 0), [1] * 4),
     ):
-        found = displaced(SQUARE, FLAT, [Displacement(height, True)])
-        np.testing.assert_array_equal(found.vertices[2], np.float32(expected))
-        np.testing.assert_array_equal(found.vertices[:2], SQUARE.vertices[:2])
-        assert found.normals is None
+        moved = displaced(SQUARE, FLAT, [Displacement(height, True)])
+        np.testing.assert_array_equal(moved.vertices[2], np.float32(expected))
+        np.testing.assert_array_equal(moved.vertices[:2], SQUARE.vertices[:2])
+        assert moved.normals is None
 
 
 def test_only_triangles_of_the_material_move():
     two = replace(SQUARE, slot=np.array([0, 1], np.int16))
-    found = displaced(two, FLAT, [None, Displacement(constant(1.0), True)])
-    np.testing.assert_array_equal(found.vertices[2], np.float32([2, 1, 2, 2]))
+    moved = displaced(two, FLAT, [None, Displacement(constant(1.0), True)])
+    np.testing.assert_array_equal(moved.vertices[2], np.float32([2, 1, 2, 2]))
 
 
 def test_normals_are_the_mean_of_the_faces_around_or_kept():
@@ -66,16 +66,16 @@ def test_heights_that_are_no_numbers_move_nothing():
     for height in (np.nan, np.inf, 1e300):
         values = np.full((3, 2, 4), height)
         mesh = replace(SQUARE, layers=(("color:Height", values),))
-        found = displaced(mesh, SMOOTH, [Displacement(channel(Layer("color:Height", 4), 0), True)])
-        np.testing.assert_array_equal(found.vertices, SQUARE.vertices)
+        moved = displaced(mesh, SMOOTH, [Displacement(channel(Layer("color:Height", 4), 0), True)])
+        np.testing.assert_array_equal(moved.vertices, SQUARE.vertices)
 
 
 def test_flat_faces_move_along_the_normals_of_their_vertices():
     aslant = np.repeat([[0.6], [0.0], [0.8]], 4, axis=1).astype(np.float32)
-    found = displaced(SQUARE, MeshNormals(np.zeros(2, bool), aslant), [Displacement(constant(0.5), True)])
-    np.testing.assert_allclose(found.vertices - SQUARE.vertices, aslant / 2, atol=1e-7)
+    moved = displaced(SQUARE, MeshNormals(np.zeros(2, bool), aslant), [Displacement(constant(0.5), True)])
+    np.testing.assert_allclose(moved.vertices - SQUARE.vertices, aslant / 2, atol=1e-7)
 
 
 def test_vectors_move_any_way():
-    found = displaced(SQUARE, FLAT, [Displacement(constant(1, 2, 3), True)])
-    np.testing.assert_array_equal(found.vertices - SQUARE.vertices, np.repeat([[1], [2], [3]], 4, axis=1))
+    moved = displaced(SQUARE, FLAT, [Displacement(constant(1, 2, 3), True)])
+    np.testing.assert_array_equal(moved.vertices - SQUARE.vertices, np.repeat([[1], [2], [3]], 4, axis=1))

@@ -124,10 +124,10 @@ def test_toy_kinds_are_culled_sampled_and_asked_at_given_pixels_as_all_others(ke
 
 def test_kinds_that_are_not_in_view_are_named():
     camera = camera_of("PERSP", SIZE)
-    said = "\n".join(cast(camera, shapes_of((DISCS.number, (0, 0, -5), 1.0)), passes=("depth",)).plan.left_out())
+    lines = "\n".join(cast(camera, shapes_of((DISCS.number, (0, 0, -5), 1.0)), passes=("depth",)).plan.left_out())
     others = ", ".join(kind.name for kind in kinds.SHAPE_KINDS if kind is not DISCS)
-    assert f"kernels of {others}: no such shape" in said
-    assert "sphere, plane, infinite plane, mesh" in said
+    assert f"kernels of {others}: no such shape" in lines
+    assert "sphere, plane, infinite plane, mesh" in lines
 
 
 def test_every_kind_that_ships_has_a_number_a_name_and_an_equation_of_its_own():

@@ -281,8 +281,8 @@ def test_a_vertex_far_away_takes_no_digits_from_the_others(away):
     for others in ([], [(first, first + 1, first + 2)]):
         mesh = mesh_of(near + beside, triangles + others)
         shapes = shapes_of((mesh, tuple(mesh.middle), 1.0))
-        found = cast(camera_at(**SMALL), shapes, passes=BOUNDS, dtype=float)
-        np.testing.assert_array_equal(found["face_index"], expected["face_index"])
+        images = cast(camera_at(**SMALL), shapes, passes=BOUNDS, dtype=float)
+        np.testing.assert_array_equal(images["face_index"], expected["face_index"])
         hit = expected["shape_index"] == 0
-        assert (np.abs(found["distance"][hit] - expected["distance"][hit]) <= found["distance_bound"][hit]).all()
-        assert found["distance_bound"][hit].max() < 1e-12
+        assert (np.abs(images["distance"][hit] - expected["distance"][hit]) <= images["distance_bound"][hit]).all()
+        assert images["distance_bound"][hit].max() < 1e-12

@@ -91,8 +91,8 @@ def test_a_scene_of_any_size_has_the_same_picture(turn):
         mesh = mesh_of(uneven * np.float32(size), round_one.triangles.T)
         cam = camera_at(pose(rolled, (0, 0, 8 * size)), type="ORTHO", ortho_scale=3 * size, resolution_x=150,
                         resolution_y=150, clip_start=size / 64)  # fmt: skip
-        found = cast(cam, shapes_of((mesh, mesh.middle, 1.0)), passes=("depth", "face_index"), dtype=np.float64)
-        pictures.append((found["depth"] / size, found["face_index"]))
+        images = cast(cam, shapes_of((mesh, mesh.middle, 1.0)), passes=("depth", "face_index"), dtype=np.float64)
+        pictures.append((images["depth"] / size, images["face_index"]))
     for depth, face in pictures[1:]:
         np.testing.assert_array_equal(face, pictures[0][1])
         np.testing.assert_array_equal(depth, pictures[0][0])

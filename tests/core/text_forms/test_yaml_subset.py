@@ -64,11 +64,11 @@ def test_kalibrs_camera_chains():
 
 
 def test_roses_camera_info():
-    found = parse(ROS)
-    assert found["camera_name"] == "narrow: stereo"
-    assert found["camera_matrix"]["data"][5] == "243.738352"
-    assert found["tags"] == {"pose": "here", "list": ["a", "b"]}
-    assert found["points"] == [{"x": "1", "y": "2"}, {"x": "3"}]
+    parsed = parse(ROS)
+    assert parsed["camera_name"] == "narrow: stereo"
+    assert parsed["camera_matrix"]["data"][5] == "243.738352"
+    assert parsed["tags"] == {"pose": "here", "list": ["a", "b"]}
+    assert parsed["points"] == [{"x": "1", "y": "2"}, {"x": "3"}]
 
 
 @pytest.mark.parametrize("indent", ["", "  "])

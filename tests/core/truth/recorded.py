@@ -65,7 +65,7 @@ def _lens(model):
     rays = record(lambda x, y: sum(map(tuple, model.rays(x, y)), ()), 2)
 
     def lens(x, y):
-        found = rays.evaluate(MPMATH, (mpf(x), mpf(y)))
-        return None if any(map(mp.isnan, found)) else (list(found[:3]), list(found[3:]))
+        values = rays.evaluate(MPMATH, (mpf(x), mpf(y)))
+        return None if any(map(mp.isnan, values)) else (list(values[:3]), list(values[3:]))
 
     return lens

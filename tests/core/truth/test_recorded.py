@@ -55,12 +55,12 @@ def test_a_record_has_a_ray_where_numpy_has_one_and_as_many_digits_as_it_is_aske
         x, y = places(cam)
         valid = cam.rays_at(x, y).valid
         for k in range(len(x)):
-            found = lens(x[k], y[k])
-            assert (found is not None) == valid[k]
+            ray = lens(x[k], y[k])
+            assert (ray is not None) == valid[k]
             with mp.workdps(80):
                 finer = lens(x[k], y[k])
             assert (finer is not None) == valid[k]
-            assert found is None or max(off(found, finer)) <= DIGITS
+            assert ray is None or max(off(ray, finer)) <= DIGITS
 
 
 @pytest.mark.parametrize("key", ANEW)
@@ -99,13 +99,13 @@ def test_every_formula_that_is_written_anew_is_a_model_s():
 def test_iterated_directions_are_distorted_to_their_pixels_with_all_digits(settings):
     cam, (lens, _) = camera("OPENCV_PINHOLE", settings), lens_of(raw_of("OPENCV_PINHOLE", settings))
     for x, y in zip(*places(cam), strict=True):
-        found = lens(x, y)
-        if found is not None:
+        ray = lens(x, y)
+        if ray is not None:
             u, v = cam.model.window.plane_from_pixels(mpf(x), mpf(y))
             sensor = u, -v, mpf(1)
             if cam.model.tilt:
                 sensor = [truth.dot(row, sensor) for row in cam.model.tilt._inverse.tolist()]
-            there = cam.model.distortion.distort(found[1][0], -found[1][1])
+            there = cam.model.distortion.distort(ray[1][0], -ray[1][1])
             assert truth.norm(truth.minus(there, (sensor[0] / sensor[2], sensor[1] / sensor[2]))) <= DIGITS
 
 
@@ -113,10 +113,10 @@ def test_iterated_directions_are_distorted_to_their_pixels_with_all_digits(setti
 def test_iterated_angles_are_distorted_to_their_radii_with_all_digits(settings):
     cam, (lens, _) = camera("OPENCV_FISHEYE", settings), lens_of(raw_of("OPENCV_FISHEYE", settings))
     for x, y in zip(*places(cam), strict=True):
-        found = lens(x, y)
-        if found is not None:
+        ray = lens(x, y)
+        if ray is not None:
             a, b = cam.model.window.plane_from_pixels(mpf(x), mpf(y))
-            right, up, back = found[1]
+            right, up, back = ray[1]
             theta = atan2(sqrt(right * right + up * up), -back)
             assert abs(cam.model.distorted(theta) - sqrt(a * a + b * b)) <= DIGITS
 

@@ -88,8 +88,8 @@ GOOD += D5
 
 def test_the_text_that_the_refusals_start_from_is_good(tmp_path):
     (tmp_path / "lens.yml").write_text(GOOD)
-    found = camera("OPENCV_PINHOLE", FRAME | {"calibration_file": str(tmp_path / "lens.yml")})
-    assert found.model.distortion.k1 == -0.1
+    cam = camera("OPENCV_PINHOLE", FRAME | {"calibration_file": str(tmp_path / "lens.yml")})
+    assert cam.model.distortion.k1 == -0.1
 
 
 @pytest.mark.parametrize(

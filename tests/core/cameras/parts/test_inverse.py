@@ -41,8 +41,8 @@ def test_points_at_the_rim_and_on_the_axis_are_found():
 
 
 def test_a_pixel_beyond_the_frame_is_found_where_its_ray_goes_on():
-    found = pixels_of(lambda x, y: ((0.0, 0.0, 0.0), ((x - 100) / 50, (y - 50) / 50, -1.0)), FRAME, (6.0, 0.0, -1.0))
-    np.testing.assert_allclose(found, (400, 50), rtol=1e-13)
+    pixels = pixels_of(lambda x, y: ((0.0, 0.0, 0.0), ((x - 100) / 50, (y - 50) / 50, -1.0)), FRAME, (6.0, 0.0, -1.0))
+    np.testing.assert_allclose(pixels, (400, 50), rtol=1e-13)
 
 
 def test_any_shape_of_points_and_none_at_all():
