@@ -58,6 +58,8 @@ def test_pixels_from_the_top_are_those_of_k_in_every_function():
     column, row = np.rint(pixels[0]).astype(int)
     lesson = crc.explain(camera, BALL, (column, row), rows="top")
     assert str(lesson) == str(crc.explain(camera, BALL, (column, 47 - row)))
+    with pytest.raises(crc.InputError, match=r"pixel 3,48 is outside the frame: give 0,0 \(top left\)"):
+        crc.explain(camera, BALL, (3, 48), rows="top")
     for call in (crc.cast, lambda *scene, rows: camera.project(points, rows=rows)):
         with pytest.raises(crc.InputError, match="rows is 'up': it must be one of bottom, top"):
             call(camera, BALL, rows="up")

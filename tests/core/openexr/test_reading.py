@@ -1,6 +1,7 @@
 """EXR images without Blender: tables of rays, and damage. Blender's tests read what OpenImageIO writes."""
 
 import random
+import struct
 
 import numpy as np
 import pytest
@@ -67,3 +68,25 @@ def test_an_stmap_is_no_table_of_rays(tmp_path):
         crc.load_calibration(path)
     path.write_bytes(exr(np.stack([u, v, u + v], axis=2)))
     assert crc.load_calibration(path).model.key == "RAY_TABLE"
+
+
+def test_a_part_of_a_picture_is_no_table(tmp_path):
+    """Programs that cut off empty borders write a data window that is not the display window."""
+    path, content = tmp_path / "rays.exr", exr(np.float32(fisheye(20, 16)))
+    name = b"displayWindow\0box2i\0" + struct.pack("<i", 16)
+    whole, larger = struct.pack("<4i", 0, 0, 19, 15), struct.pack("<4i", 0, 0, 59, 47)
+    path.write_bytes(content.replace(name + whole, name + larger))
+    with pytest.raises(crc.InputError, match="its data window is not its display window"):
+        crc.load_calibration(path)
+
+
+def test_lines_may_have_an_attribute_of_tiles():
+    content = exr(np.float32(fisheye(20, 16)))
+    tiles = b"tiles\0tiledesc\0" + struct.pack("<iIIB", 9, 8, 8, 0)
+    end = content.index(b"screenWindowWidth")
+    shifted = bytearray(content[:end] + tiles + content[end:])
+    first = len(shifted) - 16 * (8 + 12 * 20) - 8 * 16  # 16 lines behind their table
+    offsets = np.frombuffer(shifted, "<u8", 16, first) + len(tiles)
+    shifted[first : first + 8 * 16] = offsets.tobytes()
+    expected = channels_of(content, "rays.exr")
+    np.testing.assert_array_equal(channels_of(bytes(shifted), "rays.exr")["R"], expected["R"])

@@ -31,7 +31,12 @@ def explain(
     if position.shape != (2,) or not (np.isfinite(position) & (position == np.floor(position))).all():
         raise InputError(f"pixel is {shown(pixel)}: it must be (column, row), two whole numbers")
     column, row = position.astype(int).tolist()
-    row = scene.camera.height - 1 - row if word(rows, "rows", (BOTTOM, TOP)) == TOP else row
+    if word(rows, "rows", (BOTTOM, TOP)) == TOP:
+        last, lowest = scene.camera.width - 1, scene.camera.height - 1
+        if not (0 <= column <= last and 0 <= row <= lowest):
+            corners = f"0,0 (top left) to {last},{lowest} (bottom right)"
+            raise InputError(f"pixel {column},{row} is outside the frame: give {corners}")
+        row = lowest - row
     time = scene.camera.pixel_time
     frame = None if time is None else float(np.asarray(time.frame_at(column + 0.5, row + 0.5)).ravel()[0])
     shading = word(shading, "shading", SHADINGS)

@@ -44,7 +44,8 @@ def channels_of(content: bytes, path: str) -> dict[str, np.ndarray]:
         parts, position = _parts(content, has_parts)
         channels: dict[str, np.ndarray] = {}
         for attributes in parts:
-            image, position = _image(content, position, attributes, has_parts, path)
+            tiled = attributes["type"].startswith(b"tiled") if has_parts else version & TILED
+            image, position = _image(content, position, attributes, bool(tiled), has_parts, path)
             if channels.keys() & image.keys():
                 raise InputError(f"EXR image {path!r} has several parts with the same channels: give each a file")
             channels |= image
@@ -53,6 +54,12 @@ def channels_of(content: bytes, path: str) -> dict[str, np.ndarray]:
         if isinstance(error, InputError):
             raise
         raise InputError(f"EXR image {path!r} is damaged, or cut off") from error
+
+
+def is_part(content: bytes) -> bool:
+    """Whether an image that ``channels_of`` reads has pixels for a part of its display window, or beyond it."""
+    parts, _ = _parts(content, False)
+    return parts[0].get("displayWindow", parts[0]["dataWindow"]) != parts[0]["dataWindow"]
 
 
 def _parts(content: bytes, several: bool) -> tuple[list[dict[str, bytes]], int]:
@@ -83,7 +90,7 @@ def _channels(value: bytes, path: str) -> Channels:
     return channels
 
 
-def _image(content: bytes, position: int, attributes: dict[str, bytes], has_parts: bool, path: str):
+def _image(content: bytes, position: int, attributes: dict[str, bytes], tiled: bool, has_parts: bool, path: str):
     """Return the channels of a part whose table of chunks is at a position, and the position behind the table."""
     left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])
     width, height = right - left + 1, bottom - top + 1
@@ -92,7 +99,7 @@ def _image(content: bytes, position: int, attributes: dict[str, bytes], has_part
     if number >= len(COMPRESSIONS):
         reason = f"{names[number]}, which changes its numbers" if number < len(names) else f"number {number}"
         raise InputError(f"the compression of EXR image {path!r} is {reason}: save it with ZIP, PIZ or none")
-    tile = struct.unpack_from("<II", attributes["tiles"]) if "tiles" in attributes else None
+    tile = struct.unpack_from("<II", attributes["tiles"]) if tiled else None
     across, down = tile or (width, COMPRESSIONS[names[number]])
     count = -(-width // across) * -(-height // down)  # smaller levels of tiles follow
     memory.require(8 * width * height * len(channels), f"the channels of {path!r}", "give a smaller file")

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ...openexr.reading import MAGIC, channels_of
+from ...openexr.reading import MAGIC, channels_of, is_part
 from .document import Document
 from .lens import Lens
 from .ray_arrays import table
@@ -34,6 +34,8 @@ def lens_of(document: Document) -> Lens:
         raise document.refusal(
             "its numbers are half floats, which turn rays by up to 2.4e-4 radians: save it as float32"
         )
+    if is_part(document.data):
+        raise document.refusal("its data window is not its display window: save the whole picture")
     vectors = _vectors(channels)
     directions = [name for name in vectors if "direction" in name]
     if len(vectors) == 1:
