@@ -60,3 +60,25 @@ def test_the_tree_gives_the_picture_of_the_search_of_tiles(settings):
 def test_few_shapes_are_left_to_the_search_of_tiles():
     camera = without_bounds(crc.camera("EQUIRECTANGULAR", (16, 8)))
     assert not uses_tree(crc.cast(camera, crc.spheres([(0, 0, -5)], 1.0), passes="depth").plan)
+
+
+@pytest.mark.parametrize(("apart", "by_tree"), [(0.01, True), (1.0, False)])
+def test_tables_of_rays_that_begin_near_each_other_are_cast_by_rays(apart, by_tree):
+    """The picture is that of the same rays by ``cast_rays`` away from edges, where one ray in a hundred is."""
+    y, x = np.mgrid[-0.4:0.4:12j, -0.6:0.6:18j]
+    origins = apart * np.stack((x, y, np.zeros_like(x)), axis=2)
+    table = {"ray_directions": np.stack((x, y, np.full_like(x, -1.0)), axis=2), "ray_origins": origins}
+    mesh = ball(150, 150, 1.5)
+    shapes = crc.join(*(crc.mesh(mesh.vertices.T + np.array((k, 0, -6 - k)), mesh.triangles.T) for k in (-1, 1)))
+    camera = crc.camera("RAY_TABLE", (90, 60), **table)
+    passes = "shape_index", "distance", "distance_bound"
+    images = crc.cast(camera, shapes, passes=passes, dtype=np.float64)
+    assert uses_tree(images.plan) is by_tree
+    rays = camera.rays()
+    hits = crc.cast_rays(rays.origins, rays.directions, shapes, passes=passes)
+    same = images["shape_index"] == hits["shape_index"]
+    assert same.mean() > 0.99
+    hit = same & (images["shape_index"] >= 0)
+    assert hit.mean() > 0.1
+    off = np.abs(images["distance"][hit] - hits["distance"][hit])
+    assert (off <= images["distance_bound"][hit] + hits["distance_bound"][hit]).all()

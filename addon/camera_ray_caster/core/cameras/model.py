@@ -81,6 +81,8 @@ class Model(OldNames, ABC):
     """Whether ``Camera.project`` checks each pixel by its ray (see ``camera.guard``), in 0.9 to 1.3 times the time.
     False where rays take longer than their inverse (1.4 to 6 times): a few pixels of each new camera are checked.
     """
+    bounds_are_wide: ClassVar[bool] = False
+    """Whether bounds are much wider than what a ball covers in the picture, as those by parts of a table are."""
     differentiable: ClassVar[bool] = True
     """Whether pixels are parts of one picture. Otherwise there are no derivatives, no solid angles and no flow."""
     polynomials: ClassVar[int] = NOWHERE

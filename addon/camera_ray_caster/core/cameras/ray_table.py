@@ -118,6 +118,11 @@ class RayTable(Model):
         return self.grid.origins is None
 
     @property
+    def bounds_are_wide(self) -> bool:  # type: ignore[override]
+        """See Model: if rays have origins of their own."""
+        return not self.central
+
+    @property
     def smooth(self) -> bool:  # type: ignore[override]
         """See Model: straight lines have kinks, and between blocks, or without interpolation, rays jump."""
         return self.grid.kind not in (LINEAR, NONE) and self.grid.blocks.many == 1
