@@ -179,22 +179,22 @@ def longest(name, table):
 
 
 def test_only_blender_imports_blender_and_nobody_the_package_by_name():
-    found = {}
+    findings = {}
     for name, (_, outside) in all_imports().items():
-        found[name] = outside - longest(name, OUTSIDE) - sys.stdlib_module_names
-    assert offenders(found) == {}
+        findings[name] = outside - longest(name, OUTSIDE) - sys.stdlib_module_names
+    assert offenders(findings) == {}
 
 
 def test_arrows_point_down():
-    found = {}
+    findings = {}
     for name, (inside, _) in all_imports().items():
-        found[name] = {other for other in inside if not any(fits(other, part) for part in longest(name, MAY_IMPORT))}
-    assert offenders(found) == {}
+        findings[name] = {other for other in inside if not any(fits(other, part) for part in longest(name, MAY_IMPORT))}
+    assert offenders(findings) == {}
 
 
 def test_a_name_from_core_exists():
     """Scripts import while they run, some of them rarely: a name that was changed would be found late."""
-    found = {}
+    findings = {}
     for path, tree in trees().items():
         names = {
             (node.module, alias.name)
@@ -202,8 +202,8 @@ def test_a_name_from_core_exists():
             if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("camera_ray_caster.core")
             for alias in node.names
         }
-        found[path] = {".".join(name) for name in names if not exists(*name)}
-    assert offenders(found) == {}
+        findings[path] = {".".join(name) for name in names if not exists(*name)}
+    assert offenders(findings) == {}
 
 
 @cache
@@ -233,13 +233,13 @@ def test_a_file_is_one_room():
 
 def test_a_module_says_what_it_is_for_and_so_does_what_is_public_in_it():
     assert [path for path, tree in trees().items() if not ast.get_docstring(tree)] == []
-    found = {}
+    findings = {}
     for path in MODULES:
         contract = PARTS_OF_A_PROGRAM if path.parent == PACKAGE / "core" / "programs" else ()
         public = [node for node in trees()[path].body
                   if isinstance(node, DEFINITIONS) and node.name[0] != "_" and node.name not in contract]  # fmt: skip
-        found[path] = [node.name for node in public if not (ast.get_docstring(node) or is_overload(node))]
-    assert offenders(found) == {}
+        findings[path] = [node.name for node in public if not (ast.get_docstring(node) or is_overload(node))]
+    assert offenders(findings) == {}
 
 
 def is_overload(node):
@@ -248,30 +248,30 @@ def is_overload(node):
 
 def test_a_class_has_a_name_of_its_own():
     """One word, one meaning."""
-    found = {}
+    findings = {}
     for path in MODULES:
         for node in trees()[path].body:
             if isinstance(node, ast.ClassDef):
-                found.setdefault(node.name, []).append(name_of(path))
-    assert {name: where for name, where in found.items() if len(where) > 1 and name not in SHARED_NAMES} == {}
+                findings.setdefault(node.name, []).append(name_of(path))
+    assert {name: where for name, where in findings.items() if len(where) > 1 and name not in SHARED_NAMES} == {}
 
 
 def test_a_variable_is_no_pronoun():
     """In the add-on and the scripts; tests may use them."""
-    found = {}
+    findings = {}
     for path in (path for path in SOURCES if not path.is_relative_to(ROOT / "tests")):
         names = {getattr(node, "id", None) or getattr(node, "arg", None) for node in ast.walk(trees()[path])}
-        found[path] = names & PRONOUNS
-    assert offenders(found) == {}
+        findings[path] = names & PRONOUNS
+    assert offenders(findings) == {}
 
 
 def test_no_exception_is_swallowed():
     """By a bare except, nor by one that catches everything and goes on."""
-    found = {}
+    findings = {}
     for path, tree in trees().items():
         handlers = [node for node in ast.walk(tree) if isinstance(node, ast.ExceptHandler)]
-        found[path] = [node.lineno for node in handlers if node.type is None or (is_wide(node) and not raises(node))]
-    assert offenders(found) == {}
+        findings[path] = [node.lineno for node in handlers if node.type is None or (is_wide(node) and not raises(node))]
+    assert offenders(findings) == {}
 
 
 def is_wide(handler):

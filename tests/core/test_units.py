@@ -31,8 +31,8 @@ NO_POSES = {"opencv", "ros", "mrcal", "stmap", "npz"}
 
 def shots(meters):
     """A pinhole at two frames; float32 holds its places."""
-    given = {"resolution_x": 64, "resolution_y": 48, "lens": 30.0, "sensor_width": 36.0}
-    return [Shot("a", frame, camera("PERSP", given | {"matrix_world": pose(frame)}), meters) for frame in (1, 2)]
+    settings = {"resolution_x": 64, "resolution_y": 48, "lens": 30.0, "sensor_width": 36.0}
+    return [Shot("a", frame, camera("PERSP", settings | {"matrix_world": pose(frame)}), meters) for frame in (1, 2)]
 
 
 def words(content):

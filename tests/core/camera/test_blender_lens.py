@@ -53,10 +53,10 @@ def test_a_fisheye_is_nearly_a_polynomial_of_blenders_by_opencv_s_projection():
 
 
 def test_a_lens_of_blenders_is_found_again():
-    given = {"resolution_x": 400, "resolution_y": 300, "fisheye_fov": 3.0, "shift_x": 0.02,
+    settings = {"resolution_x": 400, "resolution_y": 300, "fisheye_fov": 3.0, "shift_x": 0.02,
              "fisheye_polynomial_k0": 0.0, "fisheye_polynomial_k1": -0.08, "fisheye_polynomial_k2": 0.0,
              "fisheye_polynomial_k3": 2e-5, "fisheye_polynomial_k4": 0.0}  # fmt: skip
-    lens = blender_lens(camera("FISHEYE_LENS_POLYNOMIAL", given))
+    lens = blender_lens(camera("FISHEYE_LENS_POLYNOMIAL", settings))
     assert lens.worst < 1e-3
     assert lens.settings["fisheye_polynomial_k1"] == pytest.approx(-0.08, rel=1e-5)
 

@@ -32,10 +32,10 @@ READ = {
 
 def moving(key, readout, frame=5.0):
     """A camera that moves by 0.1 a frame along x, and by -0.2 along z."""
-    own = raw_of(key, SHUTTER | {"readout": readout})
+    record = raw_of(key, SHUTTER | {"readout": readout})
     matrix = np.eye(4)
     matrix[[0, 2], 3] = 0.1 * frame, -0.2 * frame
-    return camera_from(replace(own, matrix_world=matrix))
+    return camera_from(replace(record, matrix_world=matrix))
 
 
 CALIBRATED = [model.key for model in MODELS if model.group == "Calibrated"]

@@ -200,12 +200,12 @@ def camera(key: str, settings=()):
 
 def raw_of(key: str, settings=()):
     """Return the record of a model with these settings over the defaults; slits and path are in the camera's frame."""
-    given = {**DEFAULTS, **dict(settings)}
+    values = {**DEFAULTS, **dict(settings)}
     known = {field.name for field in fields(BlenderCamera)}
     declared = {setting.name: setting.default for model in MODELS for setting in model.SETTINGS}
-    only_some = declared | ONLY_SOME | {name: given.pop(name) for name in sorted(set(given) - known)}
-    only_some |= {name: attached(only_some[name], given["matrix_world"]) for name in ("slit_1", "slit_2", "path")}
-    return BlenderCamera(name="Camera", type="PERSP", model=key, settings=only_some, **given)
+    only_some = declared | ONLY_SOME | {name: values.pop(name) for name in sorted(set(values) - known)}
+    only_some |= {name: attached(only_some[name], values["matrix_world"]) for name in ("slit_1", "slit_2", "path")}
+    return BlenderCamera(name="Camera", type="PERSP", model=key, settings=only_some, **values)
 
 
 def attached(points, matrix_world):

@@ -42,8 +42,8 @@ def pinhole(*coefficients, **changes):
 
 def fisheye(*coefficients, **changes):
     names = ("k1", "k2", "k3", "k4")
-    given = dict(zip(names, coefficients, strict=False)) | changes
-    return camera("OPENCV_FISHEYE", {**SIZE, "fx": 250.0, "fy": 245.0, **given})
+    terms = dict(zip(names, coefficients, strict=False)) | changes
+    return camera("OPENCV_FISHEYE", {**SIZE, "fx": 250.0, "fy": 245.0, **terms})
 
 
 def bottom_up(pixels, height=480):
@@ -63,17 +63,17 @@ OPENCV_FROM_CAMERA = np.array([1.0, -1, -1])
 
 def opencv_pinhole(points, coefficients):
     """Where OpenCV projects points of the camera's frame, in our pixel coordinates; it wants 4 coefficients."""
-    given = np.array(coefficients if len(coefficients) > 4 else (*coefficients, 0, 0, 0, 0)[:4], float)
-    pixels, _ = cv2.projectPoints(points * OPENCV_FROM_CAMERA, np.zeros(3), np.zeros(3), K, given)
+    terms = np.array(coefficients if len(coefficients) > 4 else (*coefficients, 0, 0, 0, 0)[:4], float)
+    pixels, _ = cv2.projectPoints(points * OPENCV_FROM_CAMERA, np.zeros(3), np.zeros(3), K, terms)
     return bottom_up(pixels[:, 0])
 
 
 def opencv_fisheye(points, coefficients):
     """The same of its fisheye."""
     matrix = np.array([[250.0, 0, 331.7], [0, 245.0, 236.2], [0, 0, 1]])
-    given = np.array((*coefficients, 0, 0, 0, 0)[:4], float)
+    terms = np.array((*coefficients, 0, 0, 0, 0)[:4], float)
     ahead = (points * OPENCV_FROM_CAMERA)[:, None]
-    pixels, _ = cv2.fisheye.projectPoints(ahead, np.zeros(3), np.zeros(3), matrix, given)
+    pixels, _ = cv2.fisheye.projectPoints(ahead, np.zeros(3), np.zeros(3), matrix, terms)
     return bottom_up(pixels[:, 0])
 
 
@@ -106,8 +106,8 @@ def assert_same_derivatives(derivatives, expected):
 def test_a_pixel_moves_with_its_point_as_opencv_says(lens):
     points, no_turn = points_ahead(0.4), np.zeros(3)
     _, found = pinhole(*LENSES[lens]).project(points, jacobian=True)
-    given = np.resize(np.array(LENSES[lens] or [0.0]), 14) * (np.arange(14) < len(LENSES[lens]))
-    _, by_all = cv2.projectPoints(points * OPENCV_FROM_CAMERA, no_turn, no_turn, K, given)
+    terms = np.resize(np.array(LENSES[lens] or [0.0]), 14) * (np.arange(14) < len(LENSES[lens]))
+    _, by_all = cv2.projectPoints(points * OPENCV_FROM_CAMERA, no_turn, no_turn, K, terms)
     assert_same_derivatives(found, by_camera_point(by_all[:, 3:6]))
 
 
@@ -132,15 +132,15 @@ def test_every_pixel_s_ray_is_the_one_that_opencv_projects_there(lens):
 
 def test_rays_are_found_where_the_terms_of_a_lens_cancel_each_other():
     """Near a pole, where the denominator's terms are up to a thousand times larger than their sum."""
-    given = {"k1": 0.3, "k4": 0.5, "k5": 0.1, "k6": -0.01, "s1": 1e-3, "s4": -2e-3}
+    terms = {"k1": 0.3, "k4": 0.5, "k5": 0.1, "k6": -0.01, "s1": 1e-3, "s4": -2e-3}
     frame = {"fx": 60.0, "fy": 61.0, "cx": 48.0, "cy": 27.0}
-    cam = camera("OPENCV_PINHOLE", {**given, **frame, "resolution_x": 400, "resolution_y": 800})
+    cam = camera("OPENCV_PINHOLE", {**terms, **frame, "resolution_x": 400, "resolution_y": 800})
     rays = cam.rays()
     assert rays.valid.all()
     assert cam.rays_at(399.5, 0.5).valid  # alone, as two numbers
     matrix = np.array([[60.0, 0, 48.0], [0, 61.0, 27.0], [0, 0, 1]])
     ahead = rays.directions.reshape(-1, 3) * OPENCV_FROM_CAMERA
-    coefficients = np.array([given.get(name, 0.0) for name in ORDER])
+    coefficients = np.array([terms.get(name, 0.0) for name in ORDER])
     pixels = cv2.projectPoints(ahead, np.zeros(3), np.zeros(3), matrix, coefficients)[0].reshape(800, 400, 2)
     column, row = np.meshgrid(np.arange(400), np.arange(800)[::-1])
     assert np.abs(pixels[..., 0] - column).max() < 1e-9

@@ -147,12 +147,12 @@ def test_origins_that_jump_along_their_rays_may_be_slid():
     x, y = (np.arange(48) + 0.5) * 2, (np.arange(27)[:, None] + 0.5) * 2
     rays = cam.rays_at(x, y)
     jumps = rays.origins + np.random.default_rng(3).uniform(-0.1, 0.1, (27, 48, 1)) * rays.directions
-    given = {"ray_directions": rays.directions, "ray_origins": jumps}
+    table = {"ray_directions": rays.directions, "ray_origins": jumps}
     x, y = everywhere(cam)
     own = cam.rays_at(x, y)
     off = []
     for slide in (False, True):
-        found = crc.camera("RAY_TABLE", FRAME, **given, ray_slide=slide).rays_at(x, y)
+        found = crc.camera("RAY_TABLE", FRAME, **table, ray_slide=slide).rays_at(x, y)
         off.append(np.linalg.norm(np.cross(found.origins - own.origins, own.directions), axis=1).max())
     assert off[1] < 1e-4 < 1e-3 < off[0]
 

@@ -59,12 +59,12 @@ class Case:
     @cached_property
     def raw(self):
         """The camera as Blender has it."""
-        given = {"type": "PERSP", "lens": 18.0, "resolution_x": 9, "resolution_y": 9, "matrix_world": pose()}
-        given |= {"clip_start": 1e-9, "clip_end": 1e30} | self.settings
-        if given["type"] not in ("PERSP", "ORTHO"):
-            given["model"] = given["type"]
-        only_some = ONLY_SOME | {name: given.pop(name) for name in list(given) if name in ONLY_SOME}
-        return BlenderCamera(name="Camera", settings=only_some, **given)
+        settings = {"type": "PERSP", "lens": 18.0, "resolution_x": 9, "resolution_y": 9, "matrix_world": pose()}
+        settings |= {"clip_start": 1e-9, "clip_end": 1e30} | self.settings
+        if settings["type"] not in ("PERSP", "ORTHO"):
+            settings["model"] = settings["type"]
+        only_some = ONLY_SOME | {name: settings.pop(name) for name in list(settings) if name in ONLY_SOME}
+        return BlenderCamera(name="Camera", settings=only_some, **settings)
 
     @cached_property
     def camera(self):

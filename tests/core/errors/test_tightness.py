@@ -27,7 +27,7 @@ polynomials are compared with a trace that rounds, too.
 @cache
 def factors(key):
     """The bounds of distances over the unit roundoff and the condition, of all examples, shapes all around the eye."""
-    found = []
+    ratios = []
     for settings in EXAMPLES[key]:
         raw, cam = raw_of(key, settings), camera(key, settings)
         shapes = shapes_of([(kind, np.add(center, cam.pose.eye), axes) for kind, center, axes in around()])
@@ -37,8 +37,8 @@ def factors(key):
             pixel = rows[j], columns[i]
             moved = condition(raw, shapes, cam.raster.columns()[0, pixel[1]], cam.raster.rows()[pixel[0], 0])
             if moved is not None:
-                found.append(images["distance_bound"][pixel] / EPS / moved)
-    return np.array(found)
+                ratios.append(images["distance_bound"][pixel] / EPS / moved)
+    return np.array(ratios)
 
 
 def assert_tight(ratios):

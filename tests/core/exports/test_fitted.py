@@ -43,10 +43,10 @@ def test_opencv_reads_the_nearest_lens_and_errs_as_it_says(name, kind, tmp_path)
     still = np.zeros(3)
     project = cv2.fisheye.projectPoints if file.getNode("fisheye_model").real() else cv2.projectPoints
     if file.getNode("xi").empty():
-        found = project(points, still, still, K, D)[0].reshape(-1, 2)
+        pixels = project(points, still, still, K, D)[0].reshape(-1, 2)
     else:
-        found = cv2.omnidir.projectPoints(points, still, still, K, file.getNode("xi").real(), D)[0].reshape(-1, 2)
-    away = np.hypot(*(found - np.stack((x[there] - 0.5, 479.5 - y[there]), axis=-1)).T)
+        pixels = cv2.omnidir.projectPoints(points, still, still, K, file.getNode("xi").real(), D)[0].reshape(-1, 2)
+    away = np.hypot(*(pixels - np.stack((x[there] - 0.5, 479.5 - y[there]), axis=-1)).T)
     worst, mean = map(float, ERROR.search(remark).groups())
     assert worst == pytest.approx(away.max(), rel=0.06)  # two digits
     assert mean == pytest.approx(away.mean(), rel=0.06)

@@ -42,10 +42,10 @@ def test_a_calibration_of_a_camera_has_its_rays(key):
 
 
 def test_the_models_that_are_calibrations_of_others():
-    found = {
+    formats = {
         model.key: [lens.model for lens in calibrations(camera(model.key, EXAMPLES[model.key][0]))] for model in MODELS
     }
-    others = {key: models for key, models in found.items() if models not in ([], [key])}
+    others = {key: models for key, models in formats.items() if models not in ([], [key])}
     assert others == {
         "PERSP": ["OPENCV_PINHOLE"],
         "FISHEYE_EQUIDISTANT": ["OPENCV_FISHEYE"],

@@ -24,22 +24,22 @@ def written(key, views, folder):
 
 def rig(frames=FRAMES, lens=("radtan", "fisheye", "unified")):
     """Cameras that do not move beside each other, while the rig moves."""
-    found = []
+    views = []
     for frame in frames:
         for number, name in enumerate(lens):
             key, settings = CAMERAS[name]
             matrix = pose(frame) @ pose(number + 0.25)
-            found.append(Shot(name, frame, camera(key, settings | {"matrix_world": matrix}), 0.5))
-    return found
+            views.append(Shot(name, frame, camera(key, settings | {"matrix_world": matrix}), 0.5))
+    return views
 
 
 def test_a_camchain_is_the_rig(tmp_path):
-    given = rig()
-    written("kalibr", given, tmp_path)
+    rig_shots = rig()
+    written("kalibr", rig_shots, tmp_path)
     found = mounted(str(tmp_path / "camchain.yaml"), "", (640, 480), 24)
     assert [one.lens.model for one in found] == ["OPENCV_PINHOLE", "OPENCV_FISHEYE", "UCM"]
-    first = np.linalg.inv(with_rotation(given[0].camera)[0].opencv_from_world)
-    for one, shot in zip(found, given, strict=False):
+    first = np.linalg.inv(with_rotation(rig_shots[0].camera)[0].opencv_from_world)
+    for one, shot in zip(found, rig_shots, strict=False):
         beside = np.linalg.inv(first) @ np.linalg.inv(with_rotation(shot.camera)[0].opencv_from_world)
         beside[:3, 3] *= 0.5  # meters
         assert np.abs(one.poses[0] @ np.diag((1, -1, -1, 1)) - beside).max() < 1e-6
@@ -57,9 +57,9 @@ def test_a_rig_whose_cameras_move_is_no_camchain():
 
 @pytest.mark.parametrize("key", ["tum", "euroc", "kitti"])
 def test_a_trajectory_has_the_poses(tmp_path, key):
-    given = shots("panorama")
-    written(key, given, tmp_path)
-    near = [with_rotation(shot.camera)[0].pose for shot in given]
+    path_shots = shots("panorama")
+    written(key, path_shots, tmp_path)
+    near = [with_rotation(shot.camera)[0].pose for shot in path_shots]
     if key == "kitti":
         rows = np.loadtxt(tmp_path / "panorama_kitti.txt").reshape(-1, 3, 4)
         found = [row @ np.diag((1, -1, -1, 1)) for row in rows]
@@ -73,15 +73,15 @@ def test_a_trajectory_has_the_poses(tmp_path, key):
 
 
 def test_nerfs_files_have_every_picture_once(tmp_path):
-    given = [Shot("a", frame, camera("PERSP", {"resolution_x": 640, "resolution_y": 480, "matrix_world": pose(frame)}))
+    views = [Shot("a", frame, camera("PERSP", {"resolution_x": 640, "resolution_y": 480, "matrix_world": pose(frame)}))
              for frame in range(1, 24)]  # fmt: skip
-    written("nerf", given, tmp_path)
+    written("nerf", views, tmp_path)
     parts = {part: json.loads((tmp_path / f"transforms_{part}.json").read_text()) for part in ("train", "val", "test")}
     assert {part: len(one["frames"]) for part, one in parts.items()} == {"train": 19, "val": 2, "test": 2}
     assert len({frame["file_path"] for one in parts.values() for frame in one["frames"]}) == 23
     (camera_,) = mounted(str(tmp_path / "transforms_val.json"), "", (640, 480), 24)
     assert camera_.frames == [8, 18]
-    assert camera_.lens.settings["fx"] == pytest.approx(given[0].camera.K[0, 0], rel=1e-14)
+    assert camera_.lens.settings["fx"] == pytest.approx(views[0].camera.K[0, 0], rel=1e-14)
     assert parts["train"]["camera_angle_x"] == pytest.approx(2 * atan(18 / 50), rel=1e-7)
     with pytest.raises(InputError, match=r"NeRF cannot represent .* which camera_angle_x alone does not say"):
         export_files("nerf", shots("shifted"))

@@ -39,20 +39,20 @@ def scene():
 
 
 def camera(**changed):
-    given = {"type": "PERSP", "resolution_x": 40, "resolution_y": 30, "lens": 18.0} | changed
-    return camera_from(BlenderCamera("Camera", matrix_world=np.eye(4), **given))
+    settings = {"type": "PERSP", "resolution_x": 40, "resolution_y": 30, "lens": 18.0} | changed
+    return camera_from(BlenderCamera("Camera", matrix_world=np.eye(4), **settings))
 
 
 def test_the_ball_straight_ahead_is_met_at_4_and_at_6():
-    found = lesson(camera(resolution_x=41, resolution_y=31), scene(), 20, 15)
-    assert found.seen.name == "Ball"
-    ball, wall = found.met[:2]
+    explained = lesson(camera(resolution_x=41, resolution_y=31), scene(), 20, 15)
+    assert explained.seen.name == "Ball"
+    ball, wall = explained.met[:2]
     assert [place.t for place in ball.places] == [4, 6]
     assert [place.t for place in wall.places] == [8]
     assert ball.equation[1] == "1 t² -10 t +24 = 0, discriminant 4"
-    assert np.array_equal(found.point, [0, 0, -4])
-    assert np.array_equal(found.normal, [0, 0, 1])
-    text = "\n".join(found.lines())
+    assert np.array_equal(explained.point, [0, 0, -4])
+    assert np.array_equal(explained.normal, [0, 0, 1])
+    text = "\n".join(explained.lines())
     assert "t = 4: seen: the nearest that counts" in text
     assert "t = 6: hidden behind the nearest" in text
     assert "r = x u + aspect y v + d w" in text
@@ -70,9 +70,9 @@ def test_the_plain_equations_find_what_the_search_finds(changed):
     hits = 0
     for row in range(0, 30, 3):
         for column in range(0, 40, 3):
-            found = lesson(eye, shapes, column, row)
-            first = nearest(list(found.met))
-            assert np.isnan(found.seen.direction).any() == (not images["valid"][row, column])
+            explained = lesson(eye, shapes, column, row)
+            first = nearest(list(explained.met))
+            assert np.isnan(explained.seen.direction).any() == (not images["valid"][row, column])
             assert (first[0].shape if first else -1) == images["shape_index"][row, column]
             if first:
                 assert first[1].t == pytest.approx(images["distance"][row, column], rel=1e-12)
@@ -97,22 +97,22 @@ def test_the_color_is_that_of_the_picture(changed, samples, shading):
     )
     differing = 0
     for column, row in [(0, 0), (1, 14), (14, 17), (20, 5), (20, 15), (28, 16), (39, 29)]:
-        found = lesson(eye, shapes, column, row, shading=shading, samples=samples)
+        explained = lesson(eye, shapes, column, row, shading=shading, samples=samples)
         # to rounding: triangles are searched otherwise in a single pixel
-        assert found.color == pytest.approx(picture[row, column], rel=1e-12, abs=0)
-        said = dict(found.steps)["Color"]
-        assert words(one[row, column]) in said[-1 if samples == 1 else -2]
+        assert explained.color == pytest.approx(picture[row, column], rel=1e-12, abs=0)
+        color_step = dict(explained.steps)["Color"]
+        assert words(one[row, column]) in color_step[-1 if samples == 1 else -2]
         if samples > 1:
-            assert f"the mean of {samples} rays" in said[-1]
-            assert said[-1].endswith(words(picture[row, column]))
+            assert f"the mean of {samples} rays" in color_step[-1]
+            assert color_step[-1].endswith(words(picture[row, column]))
         differing += not np.array_equal(one[row, column], picture[row, column])
     assert (differing > 0) == (samples > 1)
 
 
 def test_a_mean_of_too_many_rays_is_named_and_left_out():
-    found = lesson(camera(), scene(), 20, 15, samples=300, max_samples=256)
-    assert found.color is None
-    assert "the mean of 300 rays over the pixel: too many to cast here" in "\n".join(found.lines())
+    explained = lesson(camera(), scene(), 20, 15, samples=300, max_samples=256)
+    assert explained.color is None
+    assert "the mean of 300 rays over the pixel: too many to cast here" in "\n".join(explained.lines())
 
 
 def test_what_lies_outside_of_the_clip_range_says_so():

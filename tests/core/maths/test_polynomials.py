@@ -10,8 +10,8 @@ from camera_ray_caster.core.maths.polynomials import positive_roots
 @pytest.mark.parametrize("roots", [(2.0,), (0.5, 3.0), (-1.0, 0.25, 7.0), (0.0, 1.0), (-2.0,), (1j, -1j, 4.0)])
 @pytest.mark.parametrize("scale", [1.0, 1e-200, -1e90])
 def test_roots_are_those_above_zero_in_order(roots, scale):
-    found = positive_roots(Polynomial(scale * Polynomial.fromroots(roots).coef.real))
-    assert found == pytest.approx(sorted(root for root in roots if not root.imag and root > 0), rel=1e-12)
+    roots_found = positive_roots(Polynomial(scale * Polynomial.fromroots(roots).coef.real))
+    assert roots_found == pytest.approx(sorted(root for root in roots if not root.imag and root > 0), rel=1e-12)
 
 
 @pytest.mark.parametrize("tail", [[5e-324], [0.0, -5e-324], [1e-260], [0.0]])

@@ -23,10 +23,10 @@ def test_places_are_interpolated_and_where_indices_differ_the_rest_is_of_the_las
         ball = shapes_of([(SPHERE, (at, 0, -5), 1.0)])
         looks = {"object_index": np.array([number], np.int32), "color": np.full((1, 4), number / 4, np.float32)}
         states[at] = still, replace(ball, **looks)
-    found = TimeInterval.of(states, FRAMES).shapes_at(frame)
-    np.testing.assert_allclose(found.center, [[frame, 0, -5]], rtol=1e-15)
-    assert found.object_index == [last]
-    assert (found.color == last / 4).all()
+    between = TimeInterval.of(states, FRAMES).shapes_at(frame)
+    np.testing.assert_allclose(between.center, [[frame, 0, -5]], rtol=1e-15)
+    assert between.object_index == [last]
+    assert (between.color == last / 4).all()
 
 
 @pytest.mark.parametrize("frame", [1.0, 1.5, 3.25, 5.0])
@@ -42,11 +42,11 @@ def test_colors_lights_and_maps_are_interpolated(frame):
             slots=Slots(np.array([0]), np.array([7], np.int32), np.full((1, 4), 0.05 * at, np.float32)),
             lights=Lights(np.array([[at, 0.0, 0.0]]), np.array([False]), np.array([[10 * at, 0.0, 1.0]])),
         )  # fmt: skip
-    found = TimeInterval.of(states, FRAMES).shapes_at(frame)
+    between = TimeInterval.of(states, FRAMES).shapes_at(frame)
     near = {"rtol": 1e-6}
-    np.testing.assert_allclose(found.color, np.full((1, 4), 0.1 * frame), **near)
-    np.testing.assert_allclose(found.slots.color, np.full((1, 4), 0.05 * frame), **near)
-    np.testing.assert_allclose(found.world_color, (0.2 * frame, 0.0, 0.5, 1.0), **near)
-    np.testing.assert_allclose(found.lights.position, [[frame, 0, 0]], **near)
-    np.testing.assert_allclose(found.lights.color, [[10 * frame, 0, 1]], **near)
-    np.testing.assert_allclose(found.meshes[0].uv, [[frame, -frame]] * 6, **near)
+    np.testing.assert_allclose(between.color, np.full((1, 4), 0.1 * frame), **near)
+    np.testing.assert_allclose(between.slots.color, np.full((1, 4), 0.05 * frame), **near)
+    np.testing.assert_allclose(between.world_color, (0.2 * frame, 0.0, 0.5, 1.0), **near)
+    np.testing.assert_allclose(between.lights.position, [[frame, 0, 0]], **near)
+    np.testing.assert_allclose(between.lights.color, [[10 * frame, 0, 1]], **near)
+    np.testing.assert_allclose(between.meshes[0].uv, [[frame, -frame]] * 6, **near)

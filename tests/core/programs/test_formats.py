@@ -279,10 +279,10 @@ def test_a_region_of_interest_is_the_picture(tmp_path):
     ],
 )
 def test_a_frame_of_the_picture_s_shape_is_that_picture_scaled(tmp_path, frame):
-    found = of_file(tmp_path / "camchain.yaml", GOOD, "OPENCV_PINHOLE", **frame).model
-    across, up = found.frame[0] / 640, found.frame[1] / 480
+    model = of_file(tmp_path / "camchain.yaml", GOOD, "OPENCV_PINHOLE", **frame).model
+    across, up = model.size[0] / 640, model.size[1] / 480
     expected = [[300 * across, 0, 321 * across - 0.5], [0, 301 * up, 239.75 * up - 0.5], [0, 0, 1]]
-    np.testing.assert_allclose(found.K, expected, rtol=1e-14)
+    np.testing.assert_allclose(model.K, expected, rtol=1e-14)
 
 
 @pytest.mark.parametrize("frame", [{"resolution_x": 1920, "resolution_y": 1080}, {"resolution_y": 482}])

@@ -53,8 +53,8 @@ METASHAPE = {
 
 
 def metashape(points, of=plane, **more):
-    given = METASHAPE | more
-    k, p = [given.get(f"k{i}", 0.0) for i in (1, 2, 3, 4)], (given["p2"], given["p1"])
+    entries = METASHAPE | more
+    k, p = [entries.get(f"k{i}", 0.0) for i in (1, 2, 3, 4)], (entries["p2"], entries["p1"])
     x, y = radtan(*of(points), k, p)
     return 320 + CX + x * F + x * 2.0 + y * -1.5 - 0.5, 240 + CY + y * F - 0.5
 
@@ -86,9 +86,9 @@ def by_k(x, y, fx=F, fy=301.0, cx=326.5, cy=236.75):
 
 def gyroflow(model=None, k=K1, **more):
     K = [[F, 0.0, 326.5], [0.0, 301.0, 236.75], [0.0, 0.0, 1.0]]
-    given = {"camera_brand": "GoPro", "camera_model": "HERO", "calib_dimension": {"w": 640, "h": 480},
+    profile = {"camera_brand": "GoPro", "camera_model": "HERO", "calib_dimension": {"w": 640, "h": 480},
              "fisheye_params": {"camera_matrix": K, "distortion_coeffs": k}, "use_opencv_fisheye": True}  # fmt: skip
-    return json.dumps(given | ({"distortion_model": model} if model else {}) | more)
+    return json.dumps(profile | ({"distortion_model": model} if model else {}) | more)
 
 
 def ncamera(kind, bend, parameters, intrinsics=(F, 301.0, 326.5, 236.75)):

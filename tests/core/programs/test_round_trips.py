@@ -89,10 +89,10 @@ def test_a_random_rig_comes_back(program, word, tmp_path):
             (folder / name).write_text(content)
         paths = [str(path) for path in sorted(folder.iterdir())]
         if program.read and word:
-            found = list(chain.from_iterable(read(lenses_of, path, "OPENCV_PINHOLE", (640, 480)) for path in paths))
+            lenses = list(chain.from_iterable(read(lenses_of, path, "OPENCV_PINHOLE", (640, 480)) for path in paths))
             for record in records:
                 assert word_of(program.export.models, record.lens) is not None
-                assert any(is_same(record.lens, lens) for lens in found), (record.lens, found)
+                assert any(is_same(record.lens, lens) for lens in lenses), (record.lens, lenses)
         if program.poses:
             documents = [Document(path, (640, 480)) for path in paths]
             placed = [one.pose for document in documents for one in read(placed_in, document, 1.0)]

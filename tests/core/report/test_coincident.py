@@ -45,9 +45,9 @@ def ball(name, z=0.0, radius=1.0):
     ids=["meshes", "planes", "a plane and a mesh", "but for rounding", "balls"],
 )
 def test_the_pixels_of_two_surfaces_in_the_same_place_are_counted(first, second, count):
-    found = looked_at(plane("Behind", z=-1), first, second)
-    assert (found.coincident, found.names) == (count, ("A", "B"))
-    names, notes = zip(*found.notes(SIZE * SIZE), strict=True)
+    counts = looked_at(plane("Behind", z=-1), first, second)
+    assert (counts.coincident, counts.names) == (count, ("A", "B"))
+    names, notes = zip(*counts.notes(SIZE * SIZE), strict=True)
     assert names == ("A", "B")
     assert f"at {count} of the 1,600 pixels:" in notes[0]
     assert "at 1,264 of the 6,400 pixels, estimated from 1,600:" in looked_at(ball("A"), ball("B")).notes(6400)[0][1]
@@ -55,8 +55,8 @@ def test_the_pixels_of_two_surfaces_in_the_same_place_are_counted(first, second,
 
 def test_faces_of_one_mesh_in_the_same_place_are_counted():
     twice = crc.mesh(np.concatenate((SQUARE, SQUARE)), [*FACES, (4, 5, 6), (4, 6, 7)], name="Twice")
-    found = looked_at(twice)
-    assert (found.coincident, found.names) == (400, ("Twice",))
+    counts = looked_at(twice)
+    assert (counts.coincident, counts.names) == (400, ("Twice",))
 
 
 @pytest.mark.parametrize(
@@ -71,5 +71,5 @@ def test_faces_of_one_mesh_in_the_same_place_are_counted():
 )
 def test_other_surfaces_are_not(shapes):
     """Also where rays go through the edges of triangles: the diagonal of a square has pixel centers on it."""
-    found = looked_at(*shapes)
-    assert (found.coincident, found.names, found.notes(SIZE * SIZE)) == (0, (), ())
+    counts = looked_at(*shapes)
+    assert (counts.coincident, counts.names, counts.notes(SIZE * SIZE)) == (0, (), ())

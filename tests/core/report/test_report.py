@@ -160,12 +160,12 @@ def test_the_bounds_of_hits_are_in_table_and_json_with_their_units(report):
     bounds = np.array([[1e-15, 2e-15, 3e-15, 4e-15], [5e-15, 6e-15, 7e-15, 8e-15], [9e-15, 1e-14, 2e-14, np.inf]])
     report = replace(report, accuracy=Accuracy(10, bounds))
     data = strict(as_json(report))
-    found = data["accuracy"]
-    assert (found["sampled_pixels"], found["hits"]) == (10, 3)
-    assert found["distance"] == {"unit": "world units", "median_bound": 5e-15, "worst_bound": 9e-15}
-    assert found["relative_distance"] == {"unit": "of the distance", "median_bound": 6e-15, "worst_bound": 1e-14}
-    assert (found["normal"]["median_bound"], found["normal"]["worst_bound"]) == (8e-15, None)
-    assert found["rounding_when_stored"] == 2.0**-24
+    figures = data["accuracy"]
+    assert (figures["sampled_pixels"], figures["hits"]) == (10, 3)
+    assert figures["distance"] == {"unit": "world units", "median_bound": 5e-15, "worst_bound": 9e-15}
+    assert figures["relative_distance"] == {"unit": "of the distance", "median_bound": 6e-15, "worst_bound": 1e-14}
+    assert (figures["normal"]["median_bound"], figures["normal"]["worst_bound"]) == (8e-15, None)
+    assert figures["rounding_when_stored"] == 2.0**-24
     lines = as_lines(report)
     rows = {line[2:19].strip(): line[19:].split()[:2] for line in lines if line[19:].strip()[:1].isdigit()}
     assert rows["distance"] == ["5.0e-15", "9.0e-15"]
@@ -177,17 +177,17 @@ def test_the_bounds_of_hits_are_in_table_and_json_with_their_units(report):
 def test_the_samples_of_two_layers_are_one(report):
     rows = np.ones((3, 4)), np.full((2, 4), 5.0)
     one, other = (replace(report, accuracy=Accuracy(10, bounds)) for bounds in rows)
-    found = strict(as_json(one + other))["accuracy"]
-    assert (found["sampled_pixels"], found["hits"]) == (20, 5)
-    assert (found["position"]["median_bound"], found["position"]["worst_bound"]) == (1.0, 5.0)
+    figures = strict(as_json(one + other))["accuracy"]
+    assert (figures["sampled_pixels"], figures["hits"]) == (20, 5)
+    assert (figures["position"]["median_bound"], figures["position"]["worst_bound"]) == (1.0, 5.0)
 
 
 def test_where_nothing_is_hit_the_report_says_so(report):
     report = replace(report, accuracy=Accuracy(10))
     assert "Hits: none at 10 pixels all over the picture, in float64" in as_lines(report)
-    found = strict(as_json(report))["accuracy"]
-    assert found["hits"] == 0
-    assert found["distance"]["worst_bound"] is None
+    figures = strict(as_json(report))["accuracy"]
+    assert figures["hits"] == 0
+    assert figures["distance"]["worst_bound"] is None
 
 
 def test_the_table_leaves_out_what_was_not_done():

@@ -28,8 +28,8 @@ def cropped_set(request, tmp_path):
     folder = tmp_path / "set"
     folder.mkdir()
     scale = percentage / 100
-    given = {"resolution_percentage": percentage, "shift_x": 0.05, "pixel_aspect_x": 1.5, **border}
-    cam, images = view(folder, 1, **given)
+    settings = {"resolution_percentage": percentage, "shift_x": 0.05, "pixel_aspect_x": 1.5, **border}
+    cam, images = view(folder, 1, **settings)
     # by hand: columns 24 to 48 .. 72 of 96, rows 9 to 36 of 72 from the bottom, at half the size rows 4 to 18
     width, height, left, top = (48, 27, 24, 36) if border is CROP else (96, 72, 0, 0)
     size = int(width * scale), {27: 14}.get(int(height), 36) if percentage == 50 else height

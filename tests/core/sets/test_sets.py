@@ -35,8 +35,8 @@ def view(folder, frame, key="PERSP", **settings):
     name = f"{key}_{frame:04}"
     np.savez(folder / f"{name}.npz", **{one: images[one] for one in PASSES})
     (folder / f"{name}.png").write_bytes(png(np.zeros((*cam.raster.picture_size[::-1], 3), np.uint8)))
-    own = document({"file_name": f"{name}.png"}, Sheet.of(cam.raster), cam, SHAPES, lambda name: name.replace(" ", "_"))
-    (folder / f"{name}_coco.json").write_text(json.dumps(own))
+    doc = document({"file_name": f"{name}.png"}, Sheet.of(cam.raster), cam, SHAPES, lambda name: name.replace(" ", "_"))
+    (folder / f"{name}_coco.json").write_text(json.dumps(doc))
     report = {"frame": frame, "camera": camera_facts(cam) | {"name": key}, "record": None, **recorded(cam), "views": {},
               "host": {"meters": 0.5}, "made": {"files": {f"{name}.npz": 1}}}  # fmt: skip
     report["record"] = recorded(cam)

@@ -71,11 +71,11 @@ MODELS = {
 @pytest.mark.parametrize("name", MODELS)
 def test_each_symmetry_of_the_toolkit_brings_the_model_upon_itself(name):
     made, count, axes = MODELS[name]
-    found = made.symmetries(1000.0)
-    assert len(found.get("symmetries_discrete", ())) == count
-    assert [tuple(one["axis"]) for one in found.get("symmetries_continuous", ())] == axes
+    symmetries = made.symmetries(1000.0)
+    assert len(symmetries.get("symmetries_discrete", ())) == count
+    assert [tuple(one["axis"]) for one in symmetries.get("symmetries_continuous", ())] == axes
     places = 1000 * made.vertices
-    moves = transformations(found)
+    moves = transformations(symmetries)
     assert len(moves) == (count + 1) * (11 if axes else 1)
     for move in moves:
         moved = places @ move[:3, :3].T + move[:3, 3]
@@ -91,11 +91,11 @@ def test_each_symmetry_of_the_toolkit_brings_the_model_upon_itself(name):
 
 def test_an_ellipsoid_turns_about_the_axis_whose_other_two_are_equal():
     for size, discrete, axes in (((2, 2, 2), 0, 3), ((2, 2, 5), 1, 1), ((5, 2, 2), 1, 1), ((1, 2, 3), 3, 0)):
-        found = of_ellipsoid(np.array(size, float))
-        assert len(found.get("symmetries_discrete", ())) == discrete
-        assert len(found.get("symmetries_continuous", ())) == axes
+        symmetries = of_ellipsoid(np.array(size, float))
+        assert len(symmetries.get("symmetries_discrete", ())) == discrete
+        assert len(symmetries.get("symmetries_continuous", ())) == axes
         stretch = np.diag((*(0.25 * np.square(size, dtype=float)), 1.0))  # x of the surface: x^T stretch^-1 x = 1
-        for move in transformations(found):
+        for move in transformations(symmetries):
             np.testing.assert_allclose(move @ stretch @ move.T, stretch, atol=1e-12)
 
 

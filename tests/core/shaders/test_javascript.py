@@ -20,16 +20,16 @@ TWO = {"add", "subtract", "multiply", "divide", "remainder", "power", "minimum",
 @pytest.mark.full
 @pytest.mark.parametrize(("key", "example"), CASES)
 def test_rays_are_those_of_numpy(key, example):
-    one = camera(key, EXAMPLES[key][example])
+    cam = camera(key, EXAMPLES[key][example])
     generator = np.random.default_rng(example)
-    x, y = (generator.uniform(0.0, side, PIXELS) for side in one.raster.size)
+    x, y = (generator.uniform(0.0, side, PIXELS) for side in cam.raster.size)
     with np.errstate(all="ignore"):  # pixels without a ray
-        expected = np.array([np.broadcast_to(part, x.shape) for vector in one.camera_rays(x, y) for part in vector])
-        bounds = world_rays(one, x, y)
-    found = evaluated(record(lambda x, y: [part for vector in one.camera_rays(x, y) for part in vector], 2), x, y)
-    assert np.array_equal(np.isnan(found[3]), np.isnan(expected[3]))
+        expected = np.array([np.broadcast_to(part, x.shape) for vector in cam.camera_rays(x, y) for part in vector])
+        bounds = world_rays(cam, x, y)
+    values = evaluated(record(lambda x, y: [part for vector in cam.camera_rays(x, y) for part in vector], 2), x, y)
+    assert np.array_equal(np.isnan(values[3]), np.isnan(expected[3]))
     for part, error in ((slice(0, 3), bounds.origin_error), (slice(3, 6), bounds.direction_error)):
-        apart = np.linalg.norm(found[part] - expected[part], axis=0)
+        apart = np.linalg.norm(values[part] - expected[part], axis=0)
         assert not (apart > 2 * error).any()  # two evaluations, each of which may have the error
 
 
@@ -44,10 +44,10 @@ def test_an_operation_is_that_of_numpy(name):
     values = np.array([-3.5, -2.5, -1.0, -0.75, -1e-9, 0.0, 1e-9, 0.5, 1.0, 1.5, 2.5, 7.0, 123.25])
     a, b = (part.ravel() for part in np.meshgrid(values, values))
     function = getattr(np, name)
-    given = (a, b) if two else (a,)
+    arguments = (a, b) if two else (a,)
     with np.errstate(all="ignore"):
-        expected = function(*given).astype(float)
-    defined = DOMAIN.get(name, lambda *_: np.ones(a.shape, bool))(*given)
+        expected = function(*arguments).astype(float)
+    defined = DOMAIN.get(name, lambda *_: np.ones(a.shape, bool))(*arguments)
     (found,) = evaluated(record(lambda a, b: (1.0 * function(*(a, b)[: 1 + two]),), 2), a, b)
     assert np.allclose(found[defined], expected[defined], rtol=8 * EPS, atol=8 * EPS)
 
@@ -62,7 +62,7 @@ def test_loops_tables_and_what_is_undefined():
         return halved, count, look_up(table, below), np.where(x > 5.0, np.nan, y)
 
     x, y = np.array([1.0, 3.0, 100.0]), np.array([0.0, 4.0, 8.5])
-    found = evaluated(record(formula, 2), x, y)
+    values = evaluated(record(formula, 2), x, y)
     expected = np.array([[0.5, 0.75, 100 / 2**7], [1, 2, 7], [0.0, 4.0, 4.0], [0.0, 4.0, np.nan]])
-    assert np.array_equal(found, expected, equal_nan=True)
+    assert np.array_equal(values, expected, equal_nan=True)
     assert set(NUMPY) >= NUMERIC

@@ -12,8 +12,8 @@ from camera_ray_caster.core.shaders.writer import LARGEST_CONSTANT, LEAST_CONSTA
 def written(function, places=frozenset()):
     """The inputs, the lines and the outputs of a formula of x and y."""
     writer = OslWriter(Inputs(places))
-    found = writer.write(record(function, 2), [Term("x"), Term("y")])
-    return writer.constants, [line.strip() for line in writer.lines], found
+    program = writer.write(record(function, 2), [Term("x"), Term("y")])
+    return writer.constants, [line.strip() for line in writer.lines], program
 
 
 def test_every_operation_can_be_written():

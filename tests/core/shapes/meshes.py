@@ -58,7 +58,7 @@ def shapes_of(*rows, **more) -> Shapes:
     meshes = tuple({id(mesh): mesh for mesh, _, _ in rows}.values())
     n = len(rows)
     axes = [np.eye(3) * a if np.ndim(a) == 0 else np.array(a, float) for _, _, a in rows]
-    given = dict(
+    fields = dict(
         kind=np.full(n, MESH, np.uint8),
         center=np.array([center for _, center, _ in rows], float).reshape(n, 3),
         axes=np.array(axes).reshape(n, 3, 3),
@@ -71,7 +71,7 @@ def shapes_of(*rows, **more) -> Shapes:
         mesh=np.array([meshes.index(mesh) for mesh, _, _ in rows], np.int32),
         shared=np.zeros(n, bool),
     )
-    return Shapes(**(given | more))
+    return Shapes(**(fields | more))
 
 
 def every_hit(shapes: Shapes, row: int, origins, directions):

@@ -42,8 +42,8 @@ def test_a_corrupt_mesh_is_named_and_nothing_is_read_beyond_its_arrays():
         mesh(*prism(6, 1)),
     ]
     for k in range(1000):
-        found = recognize(corrupted(wholes[k % 4], random))
-        said["a shape" if isinstance(found, Primitive) else found] += 1
+        recognized = recognize(corrupted(wholes[k % 4], random))
+        said["a shape" if isinstance(recognized, Primitive) else recognized] += 1
     assert said["a shape"] > 20
     assert said[CORRUPT] > 200
     assert said[ROUNDED_AWAY] > 10

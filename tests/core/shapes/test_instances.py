@@ -34,8 +34,8 @@ def test_the_bounds_of_vertices_whose_squares_float32_cannot_hold():
 
 def test_points_without_a_radius_are_no_spheres():
     positions = np.array([(0, 0, 0), (1, 0, 0), (2, 0, 0), (np.nan, 0, 0)], np.float32)
-    found = points_primitive(positions, np.array([1, 0, np.inf, 1], np.float32), np.arange(4))
-    np.testing.assert_array_equal(found.centers, [(0, 0, 0)])
+    primitive = points_primitive(positions, np.array([1, 0, np.inf, 1], np.float32), np.arange(4))
+    np.testing.assert_array_equal(primitive.centers, [(0, 0, 0)])
 
 
 def test_placing_is_the_matrix_instance_by_instance():

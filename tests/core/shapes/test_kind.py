@@ -92,11 +92,11 @@ def test_toy_kinds_are_cast_as_brute_force_finds_them(monkeypatch, key, small):
     inverses, met = np.linalg.inv(shapes.axes), set()
     for j, i in np.ndindex(images["shape_index"].shape):
         ray = rays.origins[j, i], rays.directions[j, i]
-        found = brute_force(shapes, inverses, *ray) if rays.valid[j, i] else None
-        if found is None:
+        nearest = brute_force(shapes, inverses, *ray) if rays.valid[j, i] else None
+        if nearest is None:
             assert images["shape_index"][j, i] == -1, (j, i)
             continue
-        distance, shape, normal, uv = found
+        distance, shape, normal, uv = nearest
         assert images["shape_index"][j, i] == shape, (j, i)
         bound = images["distance_bound"][j, i]
         assert 0 < bound < 1e-9 * max(distance, 20)

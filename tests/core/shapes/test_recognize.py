@@ -64,32 +64,32 @@ SQUARE = np.array([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], float)
 @pytest.mark.parametrize("radius", [1e-3, 1.0, 3.7, 1e4])
 def test_a_uv_sphere_has_the_radius_it_was_made_with(segments, rings, radius):
     vertices, faces = uv_sphere(segments, rings)
-    found = recognize(mesh(radius * vertices, faces))
-    assert isinstance(found, Primitive)
-    assert found.kind == SPHERE
+    recognized = recognize(mesh(radius * vertices, faces))
+    assert isinstance(recognized, Primitive)
+    assert recognized.kind == SPHERE
     # Each coordinate is rounded to float32; no more than three of them make a distance.
-    np.testing.assert_allclose(found.axes, radius * np.eye(3), atol=2 * ULP * radius)
-    np.testing.assert_array_equal(found.centers, 0)
+    np.testing.assert_allclose(recognized.axes, radius * np.eye(3), atol=2 * ULP * radius)
+    np.testing.assert_array_equal(recognized.centers, 0)
 
 
 @pytest.mark.parametrize("offset", [(1, 2, 3), (-500, 30, 0.1), (1e4, -1e4, 5)])
 def test_an_applied_offset_and_turn_cost_what_float32_rounds_away(offset):
     vertices, faces = uv_sphere()
-    found = recognize(mesh(vertices @ turn().T * 2 + offset, faces))
-    assert isinstance(found, Primitive)
+    recognized = recognize(mesh(vertices @ turn().T * 2 + offset, faces))
+    assert isinstance(recognized, Primitive)
     rounding = ULP * np.abs(offset).max()
-    np.testing.assert_allclose(found.centers[0], offset, atol=rounding)
-    np.testing.assert_allclose(found.axes, 2 * np.eye(3), atol=2 * rounding + 4 * ULP)
+    np.testing.assert_allclose(recognized.centers[0], offset, atol=rounding)
+    np.testing.assert_allclose(recognized.axes, 2 * np.eye(3), atol=2 * rounding + 4 * ULP)
 
 
 def test_an_affine_matrix_applied_to_a_sphere_makes_the_ellipsoid_of_that_matrix():
     vertices, faces = uv_sphere()
     matrix = np.array([[1, 0.5, 0], [0, 2, 0.3], [0, 0, -0.2]])
-    found = recognize(mesh(vertices @ matrix.T + (0, 3, 0), faces))
-    assert isinstance(found, Primitive)
+    recognized = recognize(mesh(vertices @ matrix.T + (0, 3, 0), faces))
+    assert isinstance(recognized, Primitive)
     # The axes are known up to a turn of the unit ball, which their product with their transpose does not see.
-    np.testing.assert_allclose(found.axes @ found.axes.T, matrix @ matrix.T, atol=32 * ULP)
-    np.testing.assert_allclose(found.centers, [[0, 3, 0]], atol=8 * ULP)
+    np.testing.assert_allclose(recognized.axes @ recognized.axes.T, matrix @ matrix.T, atol=32 * ULP)
+    np.testing.assert_allclose(recognized.centers, [[0, 3, 0]], atol=8 * ULP)
 
 
 CUBE = prism(4, np.sqrt(2))
@@ -115,12 +115,12 @@ def test_how_far_the_faces_of_a_sphere_and_an_ellipsoid_are_from_it():
     vertices, faces = uv_sphere(16, 8)
     lowest = np.cos(np.pi / 16) * np.cos(np.pi / 16)  # half a step along, half a step up
     for matrix in (np.eye(3), 100 * np.eye(3), np.diag([1, 2, 3])):
-        found = recognize(mesh(vertices @ matrix, faces))
+        recognized = recognize(mesh(vertices @ matrix, faces))
         corners = np.array([vertices[list(face)[:3]] for face in faces])
         normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         heights = np.abs((corners[:, 0] * normals).sum(axis=1)) / np.linalg.norm(normals, axis=1)
-        assert found.apart == pytest.approx(1 - heights.min(), abs=8 * ULP)
-        assert found.apart == pytest.approx(1 - lowest, abs=2e-3)
+        assert recognized.apart == pytest.approx(1 - heights.min(), abs=8 * ULP)
+        assert recognized.apart == pytest.approx(1 - lowest, abs=2e-3)
     assert recognize(mesh(SQUARE, [(0, 1, 2, 3)])).apart == 0
 
 
@@ -182,14 +182,14 @@ def test_vertices_that_are_not_finite_are_named(bad):
     ids=["square", "rectangle", "sheared", "turned"],
 )
 def test_a_parallelogram_is_the_image_of_the_unit_square(axes, offset):
-    found = recognize(mesh(SQUARE @ axes.T + offset, [(0, 1, 2, 3)]))
-    assert isinstance(found, Primitive)
-    assert found.kind == PLANE
+    recognized = recognize(mesh(SQUARE @ axes.T + offset, [(0, 1, 2, 3)]))
+    assert isinstance(recognized, Primitive)
+    assert recognized.kind == PLANE
     rounding = 2 * ULP * (np.abs(axes).max() + np.abs(offset).max())
-    np.testing.assert_allclose(found.axes[:, :2], axes[:, :2], atol=rounding)
-    np.testing.assert_allclose(found.centers[0], offset, atol=rounding)
+    np.testing.assert_allclose(recognized.axes[:, :2], axes[:, :2], atol=rounding)
+    np.testing.assert_allclose(recognized.centers[0], offset, atol=rounding)
     normal = np.cross(axes[:, 0], axes[:, 1])
-    np.testing.assert_allclose(found.axes[:, 2], normal / np.sqrt(np.linalg.norm(normal)), rtol=1e-4, atol=1e-5)
+    np.testing.assert_allclose(recognized.axes[:, 2], normal / np.sqrt(np.linalg.norm(normal)), rtol=1e-4, atol=1e-5)
 
 
 def grid(x, y):
@@ -202,10 +202,10 @@ def grid(x, y):
 
 def test_a_subdivided_or_triangulated_quad_is_the_quad():
     vertices, faces = grid([-1, -0.2, 0.7, 1], [-1, 0.5, 1])
-    found = recognize(mesh(vertices @ turn().T, faces))
-    assert isinstance(found, Primitive)
-    assert abs(np.linalg.det(found.axes)) == pytest.approx(1, abs=1e-6)
-    np.testing.assert_allclose(found.axes @ found.axes.T, np.eye(3), atol=1e-6)
+    recognized = recognize(mesh(vertices @ turn().T, faces))
+    assert isinstance(recognized, Primitive)
+    assert abs(np.linalg.det(recognized.axes)) == pytest.approx(1, abs=1e-6)
+    np.testing.assert_allclose(recognized.axes @ recognized.axes.T, np.eye(3), atol=1e-6)
     triangles = recognize(mesh(SQUARE, [(0, 1, 2), (0, 2, 3)]))
     assert isinstance(triangles, Primitive)
     np.testing.assert_array_equal(triangles.centers, 0)

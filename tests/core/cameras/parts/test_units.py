@@ -58,12 +58,12 @@ def test_it_is_the_lens_in_pixels_of_the_sensor_s_frame(key, sensor):
 
 
 def test_the_camera_matrix_is_in_pixels_of_the_frame():
-    found = camera("UCM", MILLIMETERS | {"sensor_width": 24.0, "shift_x": 0.25}).K
-    np.testing.assert_allclose(found, [[200, 0, 47.5 - 24], [0, 200, 26.5], [0, 0, 1]], rtol=1e-14)
+    K = camera("UCM", MILLIMETERS | {"sensor_width": 24.0, "shift_x": 0.25}).K
+    np.testing.assert_allclose(K, [[200, 0, 47.5 - 24], [0, 200, 26.5], [0, 0, 1]], rtol=1e-14)
 
 
 def test_a_calibration_file_is_in_pixels(tmp_path):
     path = tmp_path / "cameras.txt"
     path.write_text("1 PINHOLE 96 54 40 41 48 27\n")
-    found = camera("OPENCV_PINHOLE", MILLIMETERS | {"calibration_file": str(path)}).K
-    np.testing.assert_allclose(found, [[40, 0, 47.5], [0, 41, 26.5], [0, 0, 1]], rtol=1e-14)
+    K = camera("OPENCV_PINHOLE", MILLIMETERS | {"calibration_file": str(path)}).K
+    np.testing.assert_allclose(K, [[40, 0, 47.5], [0, 41, 26.5], [0, 0, 1]], rtol=1e-14)
