@@ -17,7 +17,7 @@ from .test_stopping import many_spheres
 
 def shown(monkeypatch, camera, shapes, delay=0.0, share=1e9, **options):
     """A cast, and the pictures that it showed: (combined, rows, samples); by default all coarse ones may be shown."""
-    for name, value in {"DELAY": delay, "SHARE": share, "FIRST_SHARE": share}.items():
+    for name, value in {"DELAY": delay, "PREVIEW_SHARE": share, "FIRST_PREVIEW_SHARE": share}.items():
         monkeypatch.setattr(previews, name, value)
     found = []
     images = cast(camera, shapes, preview=lambda one, rows, count: found.append((one.copy(), rows, count)), **options)
