@@ -105,8 +105,8 @@ _MODULE_OF = {name: module for module, names in _MODULES.items() for name in nam
 __all__ = [
     "Camera", "Cancelled", "Choice", "Fit", "Flag", "Images", "InputError", "Item", "Model", "Number", "PointCloud",
     "Rays", "Scene", "Shapes", "Step", "Visibility", "camera", "camera_from_json", "camera_to_json", "cast",
-    "cast_rays", "explain", "export", "fit", "join", "load_calibration", "load_rig", "look_at", "mesh", "models",
-    "occluded", "planes", "pose_from_opencv", "read_camera", "read_scene", "read_shapes", "register",
+    "cast_rays", "explain", "export", "fit", "join", "load_calibration", "load_rig", "look_at", "mesh",
+    "models", "occluded", "planes", "pose_from_opencv", "read_camera", "read_scene", "read_shapes", "register",
     "register_model", "save_points", "scan", "spheres", "top_down", "unregister", "verify", "visible",
 ]  # fmt: skip
 

@@ -134,9 +134,8 @@ def mesh(''',
         ('"mesh planes', '"discs mesh planes'),
         ('"explain", ', '"discs", "explain", '),
     )
-    copy.change(
-        "tests/core/library/every_name.py", ("infinite=True))", "infinite=True), crc.discs((0, 0, -2)))")
-    )
+    joined = "    shapes = crc.join(shapes, "
+    copy.change("tests/core/library/every_name.py", (joined, f"{joined}crc.discs((0, 0, -2)), "))
     copy.change(
         f"{PACKAGE}/blender/properties/declared.py",
         ('        Item("MESH",', '        Item("DISC", "Disc", "A disc in local XY", 6),\n        Item("MESH",'),

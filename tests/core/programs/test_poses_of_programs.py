@@ -222,7 +222,7 @@ REFUSED = {
                "T_B_C of front is no rotation"),
     "HOT3D": (hot3d(), "it has no quaternion_wxyz of camera-rgb"),
     "Polycam": (polycam().replace('"t_23"', '"t_24"'), "it has no t_23"),
-    "TUM, long": ("1.0 0 0 0 0 1 0 0 0 0 1 0 0\n", "its lines have 13 numbers: those of .* of TUM 8"),
+    "TUM, long": ("1.0 0 0 0 0 1 0 0 0\n", "its lines have 9 numbers: those of .* of TUM 8"),
     "ARKit": ("1 0 0 0 0 0 5\n2 0 0 0 0 0\n", "its lines have 7 numbers: those of .* ARKitScenes .\\.traj. 7"),
 }  # fmt: skip
 

@@ -63,6 +63,7 @@ def test_the_picture_follows_the_stop_and_the_film(opened, page):
 
     fresh(opened, page, LINK)
     settled(opened, lambda one: by_id(one, "glass-card").is_displayed())
+    opened.execute_script("window.lesson.patience(15000)")  # a busy machine would draw fewer pixels, with softer edges
     canvas = by_id(opened, "glass")
     opened.execute_script("arguments[0].scrollIntoView({block: 'center'})", canvas)
     sharp = light_of(opened)
