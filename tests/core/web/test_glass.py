@@ -1,7 +1,5 @@
 """The section of a lens in the page, by real mouse and keyboard events, beside the paths that Step Through draws."""
 
-import time
-
 import numpy as np
 import pytest
 
@@ -97,18 +95,14 @@ def test_the_picture_follows_the_stop_and_the_film(opened, page):
 
 
 def light_of(driver):
-    """The picture in full, once it does not change any more: linear, rows from the bottom."""
-    before, equal = None, 0
-    for _ in range(120):
-        time.sleep(0.5)
-        size, data = driver.execute_script(
-            "const one = document.getElementById('picture'), gl = one.getContext('webgl2');"
-            "const bytes = new Uint8Array(4 * one.width * one.height);"
-            "gl.readPixels(0, 0, one.width, one.height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);"
-            "return [[one.height, one.width], Array.from(bytes)]"
-        )
-        equal = equal + 1 if data == before else 0
-        if equal == 3:  # the finer picture may come late on a busy machine
-            return (np.array(data, float).reshape(*size, 4)[..., :3] / 255) ** 2.2
-        before = data
-    raise AssertionError("the picture does not settle")
+    """The picture in full, once it is drawn: linear, rows from the bottom."""
+    from selenium.webdriver.support.ui import WebDriverWait
+
+    WebDriverWait(driver, 180, 0.2).until(lambda page: page.execute_script("return window.lesson.isDrawn()"))
+    size, data = driver.execute_script(
+        "const one = document.getElementById('picture'), gl = one.getContext('webgl2');"
+        "const bytes = new Uint8Array(4 * one.width * one.height);"
+        "gl.readPixels(0, 0, one.width, one.height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);"
+        "return [[one.height, one.width], Array.from(bytes)]"
+    )
+    return (np.array(data, float).reshape(*size, 4)[..., :3] / 255) ** 2.2

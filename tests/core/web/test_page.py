@@ -56,7 +56,7 @@ def settled(driver, condition):
     """Wait until a condition holds."""
     from selenium.webdriver.support.ui import WebDriverWait
 
-    return WebDriverWait(driver, 20, 0.1).until(condition)
+    return WebDriverWait(driver, 180, 0.1).until(condition)
 
 
 def state(driver):

@@ -39,6 +39,8 @@ UNITS = {"ns": 1e-9, "nsec": 1e-9, "nsecs": 1e-9, "nanoseconds": 1e-9, "us": 1e-
 ANGLES = "roll", "pitch", "yaw"
 LONGEST_NAME = 100
 """Characters of a name of a column."""
+LONGEST_LINE = 1 << 14
+"""Number of letters of the first lines of a trajectory, whose other columns may be covariances."""
 LEAST = 4
 """Known names from which on a line is taken for names of columns."""
 
@@ -71,6 +73,8 @@ def rows_of(document: Document) -> list[list[str]]:
 def lines_of(document: Document) -> list[str]:
     """Return the lines of numbers, without that of names; [] of any other file."""
     lines = document.lines()
+    if any(len(line) > LONGEST_LINE for line in lines[:2]):
+        return []
     if lines and not _is_number(lines[0]) and len(lines) > 1 and _named(lines[0], lines[1]):
         lines = lines[1:]
     if not lines or not _is_number(lines[0]) or (len(lines) == 5 and len(lines[2].split()) == 2):  # the last: OCamCalib

@@ -158,7 +158,7 @@ function paint(full) {
   else if (!full) [fine, whole] = [Math.min(Math.max(Math.round(COARSE * often), COARSE), 4 * COARSE), Math.min(1, Math.sqrt(often))];
   if (!full) share = Math.min(1, Math.max(LEAST_SHARE, share * Math.sqrt(Math.min(Math.max(SOFTWARE_BUDGET / Math.max(took, 1), 0.25), 1.5))));
   clearTimeout(settling);
-  if (!full) settling = setTimeout(() => paint(true), 180);
+  settling = full ? 0 : setTimeout(() => paint(true), 180);
 }
 
 function show() {
@@ -337,6 +337,7 @@ openLink(location.hash);
 // For scripts and tests: the models, and the picture of shape indices and distances of a model.
 window.lesson = {
   models: MODELS.map((one) => one.key),
+  isDrawn: () => !waiting && !settling,
   patience: (milliseconds) => { lensBudget = milliseconds; },
   state: () => JSON.parse(JSON.stringify(state)),
   labels: () => space.labels,
