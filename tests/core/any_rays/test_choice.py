@@ -74,6 +74,7 @@ def test_tables_of_rays_that_begin_near_each_other_are_cast_by_rays(apart, by_tr
     passes = "shape_index", "distance", "distance_bound"
     images = crc.cast(camera, shapes, passes=passes, dtype=np.float64)
     assert uses_tree(images.plan) is by_tree
+    assert uses_tree(crc.cast(without_bounds(camera), shapes, passes="valid").plan), "wherever its rays begin"
     rays = camera.rays()
     hits = crc.cast_rays(rays.origins, rays.directions, shapes, passes=passes)
     same = images["shape_index"] == hits["shape_index"]

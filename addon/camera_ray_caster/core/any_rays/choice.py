@@ -44,7 +44,7 @@ def search_for(plan: Plan) -> HitSearch:
 
 
 def uses_tree(plan: Plan) -> bool:
-    """Whether the tree is taken: where the search of tiles cannot tell which pixels may see a shape.
+    """Whether rays are searched one by one: where the search of tiles cannot tell which pixels may see a shape.
 
     For scanners whose beams have origins of their own it bounds shapes by balls around all origins and azimuths: a
     street and a room take 0.4 to 0.5 times the processor time by the tree, a table 0.5 to 1.2 times. For models whose
@@ -60,8 +60,9 @@ def uses_tree(plan: Plan) -> bool:
     points = placed.center[np.isfinite(placed.radius)]
     if not len(points):
         return False
-    if model.bounds_are_wide and triangles >= TRIANGLES_OF_TABLE:
-        return model.formula_reach <= NEARBY * float(np.median(norm(points.T)))
+    nearby = NEARBY * float(np.median(norm(points.T)))
+    if model.bounds_are_wide and triangles >= TRIANGLES_OF_TABLE and model.formula_reach <= nearby:
+        return True
     points = points[:PROBES]
     return bool(np.isinf(model.bounds(points, np.zeros(len(points)))).all())
 

@@ -99,8 +99,9 @@ def _image(content: bytes, position: int, attributes: dict[str, bytes], tiled: b
     if number >= len(COMPRESSIONS):
         reason = f"{names[number]}, which changes its numbers" if number < len(names) else f"number {number}"
         raise InputError(f"the compression of EXR image {path!r} is {reason}: save it with ZIP, PIZ or none")
+    compression = names[number]
     tile = struct.unpack_from("<II", attributes["tiles"]) if tiled else None
-    across, down = tile or (width, COMPRESSIONS[names[number]])
+    across, down = tile or (width, COMPRESSIONS[compression])
     count = -(-width // across) * -(-height // down)  # smaller levels of tiles follow
     memory.require(8 * width * height * len(channels), f"the channels of {path!r}", "give a smaller file")
     offsets = struct.unpack_from(f"<{count}Q", content, position)
@@ -114,22 +115,22 @@ def _image(content: bytes, position: int, attributes: dict[str, bytes], tiled: b
         if min(x, y) < 0 or min(rows, columns) < 1:
             raise ValueError("a chunk is outside of the image")
         (size,) = struct.unpack_from("<I", content, start)
-        lines = _lines(content[start + 4 : start + 4 + size], number, channels, rows, columns)
+        lines = _lines(content[start + 4 : start + 4 + size], compression, channels, rows, columns)
         for k, values in enumerate(image.values()):
             values[y : y + rows, x : x + columns] = lines[f"f{k}"]
     (chunks,) = struct.unpack("<i", attributes["chunkCount"]) if has_parts else (count,)
     return image, position + 8 * chunks
 
 
-def _lines(packed: bytes, compression: int, channels: Channels, rows: int, columns: int) -> np.ndarray:
+def _lines(packed: bytes, compression: str, channels: Channels, rows: int, columns: int) -> np.ndarray:
     """Return the lines of a chunk: a field for each channel."""
     lines = np.dtype([("", kind, (columns,)) for kind in channels.values()])
     size = rows * lines.itemsize
     if len(packed) < size:  # else it is stored as it is
-        if compression == 4:
+        if compression == "PIZ":
             packed = unpacked(packed, [kind.itemsize // 2 for kind in channels.values()], rows, columns)
         else:
-            packed = _whole(_runs(packed) if compression == 1 else zlib.decompressobj().decompress(packed, size))
+            packed = _whole(_runs(packed) if compression == "RLE" else zlib.decompressobj().decompress(packed, size))
     return np.frombuffer(packed, lines, rows)
 
 

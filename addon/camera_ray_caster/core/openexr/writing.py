@@ -9,7 +9,9 @@ import struct
 
 import numpy as np
 
-MAGIC, VERSION = 20000630, 2
+from .reading import MAGIC
+
+VERSION = 2
 FLOAT, NO_COMPRESSION, INCREASING_Y = 2, 0, 0
 
 
@@ -18,7 +20,7 @@ def exr(pixels: np.ndarray) -> bytes:
     height, width, _ = pixels.shape
     channels = b"".join(name + struct.pack("<xiB3xii", FLOAT, 0, 1, 1) for name in (b"B", b"G", b"R")) + b"\0"
     window = struct.pack("<4i", 0, 0, width - 1, height - 1)
-    header = struct.pack("<ii", MAGIC, VERSION) + b"".join(
+    header = MAGIC + struct.pack("<i", VERSION) + b"".join(
         name + b"\0" + kind + b"\0" + struct.pack("<i", len(value)) + value
         for name, kind, value in (
             (b"channels", b"chlist", channels),
