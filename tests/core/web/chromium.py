@@ -11,6 +11,14 @@ ARGUMENTS = (
 )  # fmt: skip
 
 
+def open_drawn(driver, address):
+    """Open the page at an address and wait until its first drawing is done: before, the numbers are empty."""
+    from selenium.webdriver.support.ui import WebDriverWait
+
+    driver.get(address)
+    WebDriverWait(driver, 180, 0.1).until(lambda page: page.execute_script("return window.lesson.isDrawn()"))
+
+
 @contextmanager
 def browser(width=1400, height=1000, *more, downloads=None):
     """A browser with a window of this size; the console has to be empty of errors when it closes."""

@@ -4,7 +4,7 @@ import pytest
 
 from camera_ray_caster.core.web.page import lesson_page
 
-from .chromium import browser
+from .chromium import browser, open_drawn
 
 
 @pytest.fixture(scope="session")
@@ -19,5 +19,5 @@ def page(tmp_path_factory):
 def opened(page):
     """A browser with the page."""
     with browser() as driver:
-        driver.get(page)
+        open_drawn(driver, page)
         yield driver

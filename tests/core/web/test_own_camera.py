@@ -7,7 +7,7 @@ import time
 import numpy as np
 import pytest
 
-from .chromium import browser
+from .chromium import browser, open_drawn
 from .test_page import by_id, fresh, numbers, ray, settled, shown, state
 
 pytestmark = pytest.mark.full
@@ -62,7 +62,7 @@ def test_what_is_no_formula_is_refused_in_a_line(opened, page, text):
 @pytest.mark.parametrize("text", [FISHEYE, MOVED, VECTORS])
 def test_a_camera_is_cast_mapped_and_written_for_python(page, tmp_path, text):
     with browser(downloads=tmp_path) as driver:
-        driver.get(page)
+        open_drawn(driver, page)
         written(driver, text)
         by_id(driver, "own-use").click()
         settled(driver, lambda one: by_id(one, "label").text == "My camera")

@@ -11,7 +11,7 @@ import camera_ray_caster as crc
 from camera_ray_caster.core.web.figures import FIGURES
 from camera_ray_caster.core.web.page import SIZE, lesson_page
 
-from .chromium import browser
+from .chromium import browser, open_drawn
 
 pytestmark = pytest.mark.full
 
@@ -74,7 +74,7 @@ def mouse(driver):
 def fresh(driver, page, link=""):
     """Open the page anew with a link."""
     driver.get("about:blank")
-    driver.get(page + link)
+    open_drawn(driver, page + link)
 
 
 def by_id(driver, name):
@@ -208,8 +208,7 @@ def test_every_model_can_be_chosen_and_its_steps_have_numbers(opened, page):
 def test_it_fits_screens(page, screen):
     width, height = SCREENS[screen]
     with browser(width, height) as driver:
-        driver.get(page)
-        settled(driver, lambda one: shown(one, "pixel"))
+        open_drawn(driver, page)
         assert driver.execute_script("return document.documentElement.scrollWidth <= window.innerWidth")
         wide = driver.execute_script(
             "return [...document.querySelectorAll('main *')].filter((one) => one.getBoundingClientRect().right"
@@ -251,7 +250,7 @@ def luminance(color):
 
 def test_without_webgl_the_numbers_are_there(page):
     with browser(1200, 900, "--disable-3d-apis") as driver:
-        driver.get(page)
+        open_drawn(driver, page)
         assert "no WebGL" in by_id(driver, "blank").text
         mouse(driver).move_to_element(by_id(driver, "picture")).click().perform()
         settled(driver, lambda one: abs(state(one)["x"] - SIZE[0] / 2) < 3)
@@ -262,8 +261,7 @@ def test_without_webgl_the_numbers_are_there(page):
 
 def test_nothing_is_asked_of_a_network(page):
     with browser() as driver:
-        driver.get(page)
-        settled(driver, lambda one: shown(one, "pixel"))
+        open_drawn(driver, page)
         for button in ("own-map", "own-use", "theme", "reset"):
             driver.execute_script("document.getElementById(arguments[0]).click()", button)
         events = [json.loads(line["message"])["message"] for line in driver.get_log("performance")]
@@ -280,7 +278,7 @@ def test_a_camera_of_blender_has_a_page_of_its_own(tmp_path):
     path = tmp_path / "lesson.html"
     path.write_text(lesson_page(camera, (70, 12)), encoding="utf-8")
     with browser() as driver:
-        driver.get(path.as_uri())
+        open_drawn(driver, path.as_uri())
         settled(driver, lambda one: shown(one, "pixel") == "x = 70.5, y = 12.5")
         origin, direction = camera.model.rays(70.5, 12.5)
         assert ray(driver) == pytest.approx([float(one) for one in (*origin, *direction)], abs=1e-13)

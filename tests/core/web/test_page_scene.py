@@ -8,7 +8,7 @@ from camera_ray_caster.core.web.page import lesson_page
 from camera_ray_caster.core.web.page_scene import MOST_FACETS, PAGE, scene_data
 
 from ..shapes.meshes import ball
-from .chromium import browser
+from .chromium import browser, open_drawn
 from .test_page import settled, shown
 
 POSE = np.array([[0.8, 0.0, 0.6, 3.0], [0.6, 0.0, -0.8, -4.0], [0.0, 1.0, 0.0, 1.5], [0, 0, 0, 1]])
@@ -35,7 +35,7 @@ def test_the_page_of_a_scene_casts_what_our_cast_sees(tmp_path):
     images = crc.cast(camera, shapes(), passes=("distance", "shape_index", "combined"))
     names = np.array([*(shapes().names[k] for k in shapes().name_index), None])
     with browser() as driver:
-        driver.get(path.as_uri())
+        open_drawn(driver, path.as_uri())
         settled(driver, lambda one: shown(one, "pixel") == "x = 40.5, y = 30.5")
         seen = set()
         for y in range(1, 64, 6):

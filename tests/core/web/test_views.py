@@ -5,7 +5,7 @@ import pytest
 from camera_ray_caster.core.web.page import SIZE
 from camera_ray_caster.core.web.room import EYE
 
-from .chromium import browser
+from .chromium import browser, open_drawn
 from .test_page import SCREENS, by_id, fresh, mouse, numbers, ray, settled, shown, state
 
 pytestmark = pytest.mark.full
@@ -14,8 +14,7 @@ pytestmark = pytest.mark.full
 def test_the_ray_stands_beside_the_pixel_while_a_finger_drags_it(page):
     width, height = SCREENS["phone"]
     with browser(width, height) as driver:
-        driver.get(page)
-        settled(driver, lambda one: shown(one, "pixel"))
+        open_drawn(driver, page)
         tag = by_id(driver, "tag")
         assert not tag.is_displayed()
         mouse(driver).move_to_element(by_id(driver, "picture")).click_and_hold().move_by_offset(-90, 30).perform()
