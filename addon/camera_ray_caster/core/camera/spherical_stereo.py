@@ -112,7 +112,6 @@ class SphericalStereo(Model):
         return along(origin, beside, 1.0), direction
 
     def aperture(self, raw, pose):
-        """See Model."""
         return self.opening
 
     def _beside(self, ahead, is_unit: bool, on_tube: bool):
@@ -155,23 +154,19 @@ class SphericalStereo(Model):
         return self.lens.bounds(centers, radii + back * beside * (1 + blur))
 
     def posed(self, pose):
-        """See Model."""
         if not isinstance(self.lens, Perspective):
             return self
         upright = _rows(TO_Y_UP @ pose.basis)
         return replace(self, upright=upright, tilted=_rows(inverse(upright)))
 
     def settled(self):
-        """See Model."""
         return replace(self, lens=self.lens.settled())
 
     def facts(self):
-        """See Model."""
         return {"lens": self.lens.label, "eye_offset": self.offset, **self.lens.facts()}
 
     @property
     def disc(self) -> Disc | None:
-        """See Model."""
         return self.lens.disc
 
     @property
@@ -181,12 +176,10 @@ class SphericalStereo(Model):
 
     @property
     def endless(self) -> Model:
-        """See Model."""
         return replace(self, lens=self.lens.endless)
 
     @property
     def ray_rounding(self) -> float:
-        """See Model."""
         return self.lens.ray_rounding + gamma(32)
 
     def pixel_rounding(self, x, y):

@@ -86,7 +86,6 @@ class BehindPort(Model):
         return *self.lens.steps, *(OF_FLAT if isinstance(self.port, FlatPort) else OF_DOME)
 
     def formula_values(self, x, y):
-        """See Model."""
         port = self.port
         known: dict[str, Any] = {"ng": float(port.glass), "nm": float(port.medium)}
         if isinstance(port, FlatPort):
@@ -96,7 +95,6 @@ class BehindPort(Model):
         return self.lens.formula_values(x, y) | known
 
     def rays(self, x, y):
-        """See Model."""
         return self.port.bent(EYE, self._unit(self.lens.rays(x, y)[1]))
 
     def _unit(self, direction):
@@ -152,7 +150,6 @@ class BehindPort(Model):
         return spreads.reshape(3, count, count)
 
     def through(self, aperture, chief, x, y, point):
-        """See Model."""
         origin, direction = self.lens.through(aperture, self.lens.rays(x, y), x, y, point)
         return self.port.bent(origin, self._unit(direction))
 
@@ -165,26 +162,21 @@ class BehindPort(Model):
         return f"the port totally reflects what is more than {angle} degrees from its normal: no light comes from there"
 
     def posed(self, pose):
-        """See Model."""
         return replace(self, lens=self.lens.posed(pose))
 
     def settled(self):
-        """See Model."""
         return replace(self, lens=self.lens.settled())
 
     @property
     def focused_at(self) -> float:  # type: ignore[override]
-        """See Model."""
         return self.focus
 
     @property
     def formula_reach(self) -> float:
-        """See Model."""
         return self.lens.formula_reach + self.port.reach
 
     @property
     def ray_rounding(self) -> float:
-        """See Model."""
         return gamma(8)
 
     def formula_rounding(self, x, y):

@@ -22,30 +22,21 @@ from .parts.settings import ABOVE_ZERO, CAMERA, Number, span
 PREFIX = "central_cylindrical_"
 LONGITUDES = tuple(
     Number(
-        PREFIX + f"range_u_{end}",
-        label,
-        f"Longitude of the frame's {side} edge; 0 is straight ahead",
-        low,
-        unit="angle",
-        owner=CAMERA,
+        PREFIX + f"range_u_{end}", label, f"Longitude of the frame's {side} edge; 0 is straight ahead", low,
+        unit="angle", owner=CAMERA,
     )
     for end, label, side, low in (("min", "Min Longitude", "left", -pi), ("max", "Max Longitude", "right", pi))
-)
+)  # fmt: skip
 HEIGHTS = tuple(
     Number(
-        PREFIX + f"range_v_{end}",
-        label,
-        f"Height of the frame's {side} edge on the cylinder",
-        low,
-        unit="length",
-        owner=CAMERA,
-        partner=PREFIX + f"range_v_{other}",
+        PREFIX + f"range_v_{end}", label, f"Height of the frame's {side} edge on the cylinder", low, unit="length",
+        owner=CAMERA, partner=PREFIX + f"range_v_{other}",
     )
     for end, other, label, side, low in (
         ("min", "max", "Min Height", "lower", -1.0),
         ("max", "min", "Max Height", "upper", 1.0),
     )
-)
+)  # fmt: skip
 TUBE = Number(
     PREFIX + "radius", "Cylinder Radius", "Radius of the cylinder", 1.0, ABOVE_ZERO, unit="length", owner=CAMERA
 )
@@ -74,7 +65,6 @@ class CentralCylindrical(Meridians):
         return cls.over_frame(raw, raster, span(raw, *LONGITUDES), (low / radius, high / radius))
 
     def latitude(self, height):
-        """See Meridians."""
         cosine = 1 / np.hypot(1.0, height)
         return cosine, height * cosine
 

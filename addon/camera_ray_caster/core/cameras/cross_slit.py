@@ -83,7 +83,6 @@ class CrossSlit(WindowModel):
 
     @property
     def formula_reach(self) -> float:
-        """See Model."""
         return self.farthest
 
     def formula_values(self, x, y):
@@ -93,10 +92,8 @@ class CrossSlit(WindowModel):
         return points | directions | dict(zip("XY", self.window.plane_from_pixels(x, y), strict=True))
 
     def rays(self, x, y):
-        """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
-
-        x and y are pixel coordinates of broadcastable shapes. NaN if the ray would be parallel to the image plane, or
-        the pixel's point lies on a slit. Both are right to some EPS over the sine of the angle between the two planes.
+        """See Model. NaN if the ray would be parallel to the image plane, or the pixel's point lies on a slit. Both are
+        right to some EPS over the sine of the angle between the two planes.
         """
         plane_x, plane_y = self.window.plane_from_pixels(x, y)
         direction = cross(*self._normals((plane_x, plane_y, -1.0)))
@@ -129,9 +126,8 @@ class CrossSlit(WindowModel):
         return np.stack(self.window.pixels_from_plane(across / scale, up / scale), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame).
-
-        Seen along a slit, the two planes through it that touch a sphere are tangents from a point to a disc.
+        """See Model. Seen along a slit, the two planes through it that touch a sphere are tangents from a point to a
+        disc.
         """
         normals = []
         for point, direction in self.slits:

@@ -52,10 +52,7 @@ class CubemapFace(WindowModel):
         return self.window.extent(self.size)
 
     def rays(self, x, y):
-        """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
-
-        x and y are pixel coordinates of broadcastable shapes. Each component is right to some EPS.
-        """
+        """See Model. Each component is right to some EPS."""
         tangent_x, tangent_y = (np.tan(angle) for angle in self.window.plane_from_pixels(x, y))
         tangent_x, tangent_y = (
             np.where(np.abs(tangent) < STEEPEST, tangent, np.nan) for tangent in (tangent_x, tangent_y)
@@ -77,7 +74,6 @@ class CubemapFace(WindowModel):
         return np.stack(self.window.pixels_from_plane(*angles), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame)."""
         x, y, z = components(centers)
         intervals = []
         for side, frame in ((x, self.extent[:2]), (y, self.extent[2:])):

@@ -22,43 +22,23 @@ from .parts.settings import Number, span
 STEEPEST, WIDEST = radians(89), 10 * pi
 PAN = (
     Number(
-        "pan_min",
-        "Pan Min",
-        "Longitude of the picture's left edge; 0 is straight ahead",
-        -pi,
-        -WIDEST,
-        WIDEST,
-        "angle",
-        4,
+        "pan_min", "Pan Min", "Longitude of the picture's left edge; 0 is straight ahead", -pi, -WIDEST, WIDEST,
+        "angle", 4,
     ),
     Number(
         "pan_max", "Max", "Longitude of the picture's right edge; 0 is straight ahead", pi, -WIDEST, WIDEST, "angle", 4
     ),
-)
+)  # fmt: skip
 LATITUDES = (
     Number(
-        "latitude_bottom",
-        "Latitude Bottom",
-        "Latitude of the picture's lower edge",
-        -pi / 4,
-        -STEEPEST,
-        STEEPEST,
-        "angle",
-        4,
-        partner="latitude_top",
+        "latitude_bottom", "Latitude Bottom", "Latitude of the picture's lower edge", -pi / 4, -STEEPEST, STEEPEST,
+        "angle", 4, partner="latitude_top",
     ),
     Number(
-        "latitude_top",
-        "Top",
-        "Latitude of the picture's upper edge",
-        pi / 4,
-        -STEEPEST,
-        STEEPEST,
-        "angle",
-        4,
+        "latitude_top", "Top", "Latitude of the picture's upper edge", pi / 4, -STEEPEST, STEEPEST, "angle", 4,
         partner="latitude_bottom",
     ),
-)
+)  # fmt: skip
 
 
 @dataclass(frozen=True)

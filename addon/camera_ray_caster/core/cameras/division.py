@@ -50,17 +50,14 @@ class Division(Calibrated):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Division:
-        """Build the camera from its settings. Raises InputError for an invalid setting."""
         window = Calibration.from_blender(raw, raster).window()
         return cls(raster.size, window, inf, LAMBDA.read(raw)).settled()
 
     @property
     def own_rim(self) -> float:
-        """See Calibrated."""
         return 1 / sqrt(self.bend) if self.bend > 0 else inf
 
     def factors(self, r_squared):
-        """See Radial."""
         ahead = 1 + self.bend * r_squared
         scale = 1 / np.sqrt(r_squared + ahead * ahead)
         return scale, ahead * scale

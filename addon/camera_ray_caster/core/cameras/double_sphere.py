@@ -38,6 +38,5 @@ class DoubleSphere(Unified):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> DoubleSphere:
-        """Build the camera from its settings. Raises InputError for an invalid setting."""
         calibration = Calibration.from_blender(raw, raster)
         return cls.of(raw, raster, calibration, xi=XI.read(raw), alpha=ALPHA.read(raw))

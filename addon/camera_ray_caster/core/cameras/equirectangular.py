@@ -22,31 +22,21 @@ from .parts.silhouette import PIXEL_MARGIN, everywhere, longitude_latitude
 
 LONGITUDES = tuple(
     Number(
-        f"longitude_{end}",
-        label,
-        f"Longitude of the frame's {side} edge; 0 is straight ahead",
-        default,
-        unit="angle",
+        f"longitude_{end}", label, f"Longitude of the frame's {side} edge; 0 is straight ahead", default, unit="angle",
         owner=CAMERA,
     )
     for end, label, side, default in (("min", "Min Longitude", "left", -pi), ("max", "Max Longitude", "right", pi))
-)
+)  # fmt: skip
 LATITUDES = tuple(
     Number(
-        f"latitude_{end}",
-        label,
-        f"Latitude of the frame's {side} edge",
-        default,
-        -pi / 2,
-        pi / 2,
-        "angle",
+        f"latitude_{end}", label, f"Latitude of the frame's {side} edge", default, -pi / 2, pi / 2, "angle",
         owner=CAMERA,
     )
     for end, label, side, default in (
         ("min", "Min Latitude", "lower", -pi / 2),
         ("max", "Max Latitude", "upper", pi / 2),
     )
-)
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -70,7 +60,6 @@ class Equirectangular(Meridians):
         return cls.over_frame(raw, raster, span(raw, *LONGITUDES), span(raw, *LATITUDES))
 
     def latitude(self, height):
-        """See Meridians."""
         return np.cos(height), np.sin(height)
 
     def height(self, cosine, sine):

@@ -36,6 +36,5 @@ class EnhancedUnifiedCamera(Unified):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> EnhancedUnifiedCamera:
-        """Build the camera from its settings. Raises InputError for an invalid setting."""
         calibration = Calibration.from_blender(raw, raster)
         return cls.of(raw, raster, calibration, alpha=ALPHA.read(raw), beta=BETA.read(raw))

@@ -52,7 +52,6 @@ class Fisheye624(KannalaBrandt):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Fisheye624:
-        """Build the camera from its settings. Raises InputError for an invalid setting."""
         calibration = Calibration.from_blender(raw, raster, (*RADIAL, *REST))
         radial, others = (
             {number.name: calibration.coefficients[number.name] for number in group} for group in (RADIAL, REST)

@@ -41,16 +41,13 @@ class FisheyeEquidistant(Radial):
         return cls(raster.size, Window.over_frame(raw, raster, (-1.0, 1.0), (-1.0, 1.0)), 1.0, fov / 2)
 
     def factors(self, r_squared):
-        """See Radial."""
         r = radii_of(r_squared)
         theta = r * self.half_fov
         return factors_of(theta, r)
 
     def radius(self, theta):
-        """See Radial."""
         return theta / self.half_fov
 
     @property
     def widest(self) -> float:
-        """See Radial."""
         return self.half_fov

@@ -50,14 +50,11 @@ class FisheyeEquisolid(Radial):
         return cls(raster.size, window, max(sin(fov / 4), 0.0))
 
     def factors(self, r_squared):
-        """See Radial."""
         return 2 * np.sqrt(1 - r_squared), 1 - 2 * r_squared
 
     def radius(self, theta):
-        """See Radial."""
         return np.sin(theta / 2)
 
     @property
     def widest(self) -> float:
-        """See Radial."""
         return 2 * asin(self.rim)

@@ -38,14 +38,11 @@ class FisheyeOrthographic(Radial):
         return cls(raster.size, Window.inscribed_circle(raw, raster, rim), rim)
 
     def factors(self, r_squared):
-        """See Radial."""
         return 1.0 + 0 * r_squared, np.sqrt(1 - r_squared)
 
     def radius(self, theta):
-        """See Radial."""
         return np.sin(theta)
 
     @property
     def widest(self) -> float:
-        """See Radial."""
         return asin(self.rim)

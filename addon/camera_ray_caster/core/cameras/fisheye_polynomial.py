@@ -83,7 +83,6 @@ class FisheyePolynomial(Radial):
         return lens.settled()
 
     def settled(self) -> FisheyePolynomial:
-        """See Model."""
         ends = self.widest < np.inf and self.half_fov <= self.angle(min(self.limit, self._corner))
         rim = float(np.fmax(self._inverse(self.half_fov), 0.0)) * BEYOND if ends else np.inf  # 0 if theta begins beyond
         return self if rim == self.rim else replace(self, rim=rim)
@@ -123,7 +122,6 @@ class FisheyePolynomial(Radial):
         return a, b + np.where(b == 0, TINY, 0.0) if self.coefficients[0] else b
 
     def factors(self, r_squared):
-        """See Radial."""
         r = radii_of(r_squared)
         theta = self.angle(r)
         theta = np.where(np.abs(theta) > self.half_fov, np.nan, theta)

@@ -48,15 +48,12 @@ class FisheyeStereographic(Radial):
         return cls(raster.size, Window.inscribed_circle(raw, raster, rim), rim)
 
     def factors(self, r_squared):
-        """See Radial."""
         scale = 1 / (1 + r_squared)
         return 2 * scale, (1 - r_squared) * scale
 
     def radius(self, theta):
-        """See Radial."""
         return np.tan(theta / 2)
 
     @property
     def widest(self) -> float:
-        """See Radial."""
         return 2 * atan(self.rim)

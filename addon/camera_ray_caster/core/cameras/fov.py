@@ -50,13 +50,11 @@ class FieldOfView(Calibrated):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FieldOfView:
-        """Build the camera from its settings. Raises InputError for an invalid setting."""
         window = Calibration.from_blender(raw, raster).window()
         return cls(raster.size, window, inf, OMEGA.read(raw)).settled()
 
     @property
     def own_rim(self) -> float:
-        """See Calibrated."""
         return inf if self.is_pinhole else pi / (2 * self.omega)
 
     @property
@@ -69,7 +67,6 @@ class FieldOfView(Calibrated):
         return 2 * tan(self.omega / 2)
 
     def factors(self, r_squared):
-        """See Radial."""
         if self.is_pinhole:
             scale = 1 / np.sqrt(1 + r_squared)
             return scale, scale
@@ -79,12 +76,10 @@ class FieldOfView(Calibrated):
         return across / (r * length), ahead / length
 
     def radius(self, theta):
-        """See Radial."""
         if self.is_pinhole:
             return np.tan(theta)
         return np.arctan2(self._stretch * np.sin(theta), np.cos(theta)) / self.omega
 
     @property
     def widest(self) -> float:
-        """See Radial."""
         return atan(FARTHEST_PIXELS) if self.is_pinhole else pi / 2

@@ -43,45 +43,26 @@ REFERENCE = Choice(
 )  # fmt: skip
 POLYNOMIALS = {
     ANGLE_TO_RADIUS: Coefficients(
-        "ftheta_angle_to_radius",
-        "Angle to Radius",
-        "Radius in pixels or mm: 0, then the coefficients of theta, theta^2, ...",
-        "0 1000",
-        grows=(1, 0),
-        left_out=NEEDED,
-        used_with=((REFERENCE.name, ANGLE_TO_RADIUS),),
+        "ftheta_angle_to_radius", "Angle to Radius",
+        "Radius in pixels or mm: 0, then the coefficients of theta, theta^2, ...", "0 1000", grows=(1, 0),
+        left_out=NEEDED, used_with=((REFERENCE.name, ANGLE_TO_RADIUS),),
     ),
     "RADIUS_TO_ANGLE": Coefficients(
-        "ftheta_radius_to_angle",
-        "Radius to Angle",
-        "Angle in radians: 0, then the coefficients of r, r^2, ...",
-        "0 0.001",
-        grows=(0, -1),
-        left_out=NEEDED,
-        used_with=((REFERENCE.name, "RADIUS_TO_ANGLE"),),
+        "ftheta_radius_to_angle", "Radius to Angle", "Angle in radians: 0, then the coefficients of r, r^2, ...",
+        "0 0.001", grows=(0, -1), left_out=NEEDED, used_with=((REFERENCE.name, "RADIUS_TO_ANGLE"),),
     ),
-}
+}  # fmt: skip
 MAX_ANGLE = Number(
-    "ftheta_max_angle",
-    "Maximum Angle",
-    "Largest angle from the axis; the picture ends there, or at 180 degrees",
-    pi,
-    ABOVE_ZERO,
-    unit="angle",
-    digits=4,
-    soft_high=pi,
-)
+    "ftheta_max_angle", "Maximum Angle", "Largest angle from the axis; the picture ends there, or at 180 degrees", pi,
+    ABOVE_ZERO, unit="angle", digits=4, soft_high=pi,
+)  # fmt: skip
 C, D, E = (
     Number(
-        f"ftheta_{name}",
-        name.upper(),
-        "Entry of the affine matrix ((c, d), (e, 1)), x right, y down",
-        default,
-        digits=6,
-        step=0.1,
+        f"ftheta_{name}", name.upper(), "Entry of the affine matrix ((c, d), (e, 1)), x right, y down", default,
+        digits=6, step=0.1,
     )
     for name, default in (("c", 1.0), ("d", 0.0), ("e", 0.0))
-)
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -158,7 +139,6 @@ class FTheta(Calibrated):
 
     @property
     def own_rim(self) -> float:
-        """See Calibrated."""
         return self.value(self.limit) if self.forward else self.limit
 
     @property
@@ -178,16 +158,13 @@ class FTheta(Calibrated):
         return Inverse(self.value, self._slope, 0.0, self.limit)
 
     def factors(self, r_squared):
-        """See Radial."""
         r = radii_of(r_squared)
         theta = self._inverse(r) if self.forward else self.value(r)
         return factors_of(theta, r)
 
     def radius(self, theta):
-        """See Radial."""
         return self.value(theta) if self.forward else self._inverse(theta)
 
     @property
     def widest(self) -> float:
-        """See Radial."""
         return self.limit if self.forward else min(self.value(self.limit), pi)

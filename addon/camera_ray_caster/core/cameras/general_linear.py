@@ -109,10 +109,8 @@ class GeneralLinear(Model):
         return np.concatenate((rows[:, :2], rows[:, 2:] - rows[:, :2]), axis=1)
 
     def rays(self, x, y):
-        """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
-
-        x and y are pixel coordinates of broadcastable shapes. The origin and the slopes are right to gamma(5) of the
-        sum of the magnitudes of the three rays' numbers.
+        """See Model. The origin and the slopes are right to gamma(5) of the sum of the magnitudes of the three rays'
+        numbers.
         """
         alpha, beta = x / self.size[0], y / self.size[1]
         s, t, slope_x, slope_y = (a + (alpha * b + beta * c) for a, b, c in self.affine.T.tolist())
@@ -131,7 +129,6 @@ class GeneralLinear(Model):
         return np.stack((across / determinant * self.size[0], up / determinant * self.size[1]), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame)."""
         across, up, determinant = self._solved(*(Interval.around(c, radii) for c in components(centers)))
         x, y = across / determinant * self.size[0], up / determinant * self.size[1]
         bounds = np.stack(

@@ -34,21 +34,15 @@ from .parts.radial import radii_of
 from .parts.settings import Coefficients, Number
 
 POLYNOMIAL = Coefficients(
-    "ocam_polynomial",
-    "Polynomial",
-    "Coefficients in pixels or mm: a0 (below 0), a1 (0 for most lenses), a2, ...",
-    "-1000 0 0.0004",
-    grows=(1, -1),
-    left_out=NEEDED,
-)
+    "ocam_polynomial", "Polynomial", "Coefficients in pixels or mm: a0 (below 0), a1 (0 for most lenses), a2, ...",
+    "-1000 0 0.0004", grows=(1, -1), left_out=NEEDED,
+)  # fmt: skip
 C, D, E = (
     Number(f"ocam_{name}", name.upper(), f"Entry of the affine matrix: {text}", default, digits=6, step=0.1)
     for name, text, default in (
-        ("c", "down from down", 1.0),
-        ("d", "down from right", 0.0),
-        ("e", "right from down", 0.0),
+        ("c", "down from down", 1.0), ("d", "down from right", 0.0), ("e", "right from down", 0.0),
     )
-)
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -119,7 +113,6 @@ class OCam(Calibrated):
         return None
 
     def factors(self, r_squared):
-        """See Radial."""
         r = radii_of(r_squared)
         ahead = -horner(r, self.polynomial)
         scale = 1 / np.sqrt(r_squared + ahead * ahead)

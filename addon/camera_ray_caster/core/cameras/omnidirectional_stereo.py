@@ -94,15 +94,11 @@ class OmnidirectionalStereo(WindowModel):
 
     @property
     def shape(self) -> float:
-        """See Model."""
         first, second = EYES[self.eyes]
         return 2.0 if first == second else 1.0 if self.eyes == "TOP_BOTTOM" else 4.0
 
     def rays(self, x, y):
-        """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
-
-        x and y are pixel coordinates of broadcastable shapes. Each component is right to some EPS.
-        """
+        """See Model. Each component is right to some EPS."""
         x, y, side = self._one_eye(x, y)
         longitude, latitude = self.window.plane_from_pixels(x, y)
         sine, cosine, flat = np.sin(longitude), np.cos(longitude), np.cos(latitude)
@@ -127,10 +123,7 @@ class OmnidirectionalStereo(WindowModel):
         return np.stack(self._in_frame(column, row, first != side), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame).
-
-        Both eyes' pictures of a sphere share one rectangle.
-        """
+        """See Model. Both eyes' pictures of a sphere share one rectangle."""
         x, y, z = components(centers)
         (low, high), _ = longitude_latitude(centers, radii)
         across = np.hypot(x, z)

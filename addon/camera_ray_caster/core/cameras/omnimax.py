@@ -49,13 +49,11 @@ class OmnimaxLens(Radial):
     """The lens alone, with its axis along the viewing direction."""
 
     def project(self, points):
-        """See Radial."""
         _, y, z = components(points)
         below = y - z < -gamma(16) * (np.abs(y) + np.abs(z))
         return np.where(below[..., None], np.nan, super().project(points))
 
     def factors(self, r_squared):
-        """See Radial."""
         r = radii_of(r_squared)
         theta = angle(r)
         return factors_of(theta, r)
@@ -71,7 +69,6 @@ class OmnimaxLens(Radial):
 
     @property
     def widest(self) -> float:
-        """See Radial."""
         return angle(1.0)
 
 

@@ -38,6 +38,5 @@ class OpencvFisheye(KannalaBrandt):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OpencvFisheye:
-        """Build the camera from its settings or a calibration file. Raises InputError; see Calibration."""
         calibration = Calibration.from_blender(raw, raster, FISHEYE)
         return cls.of(calibration, raster, [calibration.coefficients[setting.name] for setting in FISHEYE])

@@ -91,7 +91,6 @@ class OpencvPinhole(WindowModel):
 
     @property
     def K(self) -> np.ndarray:
-        """See Model."""
         return self.window.matrix(self.size[1])
 
     @cached_property
@@ -111,7 +110,6 @@ class OpencvPinhole(WindowModel):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OpencvPinhole:
-        """Build the camera from its settings or a calibration file. Raises InputError; see Calibration."""
         calibration = Calibration.from_blender(raw, raster, PINHOLE)
         coefficients = dict(calibration.coefficients)
         tilt = Tilt(coefficients.pop("tau_x"), coefficients.pop("tau_y"))
@@ -139,10 +137,7 @@ class OpencvPinhole(WindowModel):
         return replace(lens, nearest=(float(np.nanmin(sharp)), float(np.nanmax(sharp))))
 
     def rays(self, x, y):
-        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, direction_z = -1.
-
-        x and y are pixel coordinates of broadcastable shapes. The direction's x and y are NaN where there is no ray.
-        """
+        """See Model. The direction's x and y are NaN where there is no ray."""
         straight = self.window.plane_from_pixels
         across, up = on_raster(self._undistorted, x, y) if self._bends else straight(x, y)
         return (0.0, 0.0, 0.0), (across, up, -1.0)
@@ -170,7 +165,6 @@ class OpencvPinhole(WindowModel):
         return np.stack(self.window.pixels_from_plane(u, -v), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame)."""
         widest = atan(self.distortion.limit)
 
         def radius(theta):

@@ -20,10 +20,7 @@ from .parts.silhouette import pixel_bounds
 
 PLANE = (
     Step("Pixel on the camera's plane", "X = (x - W/2 + shift_x V) q, Y = ((y - H/2) p + shift_y V) q"),
-    Step(
-        "Pixel width on the plane (V: pixels along the fitted side; p: pixel height / width)",
-        "q = ortho_scale / V",
-    ),
+    Step("Pixel width on the plane (V: pixels along the fitted side; p: pixel height / width)", "q = ortho_scale / V"),
 )
 """The first steps of models with an orthographic frame."""
 
@@ -63,10 +60,7 @@ class Orthographic(WindowModel):
         return off_axis(raw, slope)
 
     def rays(self, x, y):
-        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, direction_z = -1.
-
-        x and y are pixel coordinates of broadcastable shapes. The origin is right to gamma(3) of the sum of the
-        magnitudes of its parts, the direction is exact.
+        """See Model. The origin is right to gamma(3) of the sum of the magnitudes of its parts, the direction is exact.
         """
         return (*self.window.plane_from_pixels(x, y), 0.0), (0.0, 0.0, -1.0)
 
@@ -75,7 +69,6 @@ class Orthographic(WindowModel):
         return np.stack(self.window.pixels_from_plane(points[..., 0], points[..., 1]), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame)."""
         x, y = centers[:, 0], centers[:, 1]
         behind = centers[:, 2] - radii > 0
         radii = np.where(behind, np.nan, radii)

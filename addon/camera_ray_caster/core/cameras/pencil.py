@@ -73,10 +73,8 @@ class Pencil(WindowModel):
         return cls(raster.size, Perspective.from_blender(raw, raster).window, point, axes, SLIDE.read(raw))
 
     def rays(self, x, y):
-        """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
-
-        x and y are pixel coordinates of broadcastable shapes. The direction is NaN in the plane of l and n. The origin
-        is right to some EPS of its parts over the cosine of the angle between w and v, the direction to some EPS.
+        """See Model. The direction is NaN in the plane of l and n. The origin is right to some EPS of its parts over
+        the cosine of the angle between w and v, the direction to some EPS.
         """
         direction = *self.window.plane_from_pixels(x, y), -1.0
         origin, known = self._eye(direction)
@@ -92,7 +90,6 @@ class Pencil(WindowModel):
         return np.stack(self.window.pixels_from_plane(x / depth, y / depth), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame)."""
         beside, rise, ahead = ((centers - self.point) @ self.axes.T).T
         side = np.where(ahead < 0, -1.0, 1.0)  # a line through the slit has the same m on both sides of it
         m, tangent = (

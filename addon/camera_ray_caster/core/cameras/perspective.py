@@ -58,15 +58,10 @@ class Perspective(WindowModel):
 
     @classmethod
     def off_axis(cls, raw: BlenderCamera, slope: float) -> BlenderCamera:
-        """See Model."""
         return off_axis(raw, slope)
 
     def rays(self, x, y):
-        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, direction_z = -1.
-
-        x and y are pixel coordinates of broadcastable shapes. Each component is right to gamma(3) of the sum of
-        the magnitudes of its parts.
-        """
+        """See Model. Each component is right to gamma(3) of the sum of the magnitudes of its parts."""
         return (0.0, 0.0, 0.0), (*self.window.plane_from_pixels(x, y), -1.0)
 
     def project(self, points):
@@ -76,13 +71,11 @@ class Perspective(WindowModel):
         return np.stack(self.window.pixels_from_plane(points[..., 0] / depth, points[..., 1] / depth), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame)."""
         x, y, depth = centers[:, 0], centers[:, 1], -centers[:, 2]
         return pixel_bounds(self.window, pinhole_interval(x, depth, radii), pinhole_interval(y, depth, radii))
 
     @property
     def K(self) -> np.ndarray | None:
-        """See Model."""
         return self.window.matrix(self.size[1])
 
     def facts(self) -> dict[str, object]:

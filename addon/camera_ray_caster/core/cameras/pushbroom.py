@@ -73,10 +73,8 @@ class Pushbroom(WindowModel):
         return cls(raster.size, window, stretch, along, across, point - (along @ point) * step, step)
 
     def rays(self, x, y):
-        """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
-
-        x and y are pixel coordinates of broadcastable shapes. The origin is right to some EPS of the slit's length in
-        view and its distance, the direction to some EPS.
+        """See Model. The origin is right to some EPS of the slit's length in view and its distance, the direction to
+        some EPS.
         """
         plane = *self.window.plane_from_pixels(x, y), 0.0
         slope = dot(self.across, plane)
@@ -95,7 +93,6 @@ class Pushbroom(WindowModel):
         )
 
     def bounds(self, centers, radii):
-        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame)."""
         inward = self.along * self.step[2] - (0.0, 0.0, 1.0)  # a point's depth before its eye is linear in the point
         length = np.linalg.norm(inward)
         beside = centers - self.start

@@ -90,7 +90,6 @@ class RadialPolynomial(Calibrated):
 
     @property
     def own_rim(self) -> float:
-        """See Calibrated."""
         return self._value(self.limit)
 
     def _value(self, tangent):
@@ -110,12 +109,10 @@ class RadialPolynomial(Calibrated):
         return Inverse(self._value, self._slope, 0.0, self.limit, self._knots)
 
     def factors(self, r_squared):
-        """See Radial."""
         r = radii_of(r_squared)
         tangent = self._inverse(r)
         cosine = 1 / np.sqrt(1 + tangent * tangent)
         return tangent / r * cosine, cosine
 
     def radius(self, theta):
-        """See Radial."""
         return self._value(np.tan(theta))

@@ -114,7 +114,6 @@ class RayTable(Model):
 
     @property
     def central(self) -> bool:  # type: ignore[override]  # a table tells by its origins
-        """See Model."""
         return self.grid.origins is None
 
     @property
@@ -193,7 +192,6 @@ class RayTable(Model):
 
     @property
     def formula_reach(self) -> float:
-        """See Model."""
         return self.grid.farthest
 
     @property

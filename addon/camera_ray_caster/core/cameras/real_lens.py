@@ -93,7 +93,6 @@ class RealLens(WindowModel):
 
     @property
     def steps(self) -> tuple[Step, ...]:
-        """See Model."""
         return (*TILTED, *self.FORMULA[1:]) if self.tilted else self.FORMULA
 
     @classmethod
@@ -234,7 +233,6 @@ class RealLens(WindowModel):
         return (ox * self.unit, oy * self.unit, self._depth(oz)), direction
 
     def light(self, aperture: Any, x, y, point):
-        """See Model."""
         disc_point = tuple(coordinate / aperture.radius for coordinate in point)
         normal, (film, upright) = self.tilted.rows[2], self.on_film(x, y)
         value = light_of(self.chief, aperture, film, upright, disc_point, normal, self.falls_off, self.vignetting)
@@ -243,7 +241,6 @@ class RealLens(WindowModel):
         return tuple(of_color(color_of(x, y), np.eye(3)[k]) * (3 * value) for k in range(3))
 
     def remark(self, raw: BlenderCamera) -> str:
-        """See Model."""
         asked, widest = F_STOP.read(raw), self.optics.widest_f_number
         if not raw.settings.get("use_dof") or asked > widest * (1 - ROUNDED):
             return ""
@@ -251,7 +248,6 @@ class RealLens(WindowModel):
 
     @property
     def focused_at(self) -> float:  # type: ignore[override]
-        """See Model."""
         return float(self.focus)
 
     @property
@@ -262,11 +258,9 @@ class RealLens(WindowModel):
         return matrix
 
     def facts(self) -> dict[str, object]:
-        """See ``parts.lens_facts``."""
         return facts_of(self.prescription, self.optics, self.chief, *map(float, (self.unit, self.radius, self.film)))
 
     def formula_values(self, x, y):
-        """See Model."""
         _, (a, b) = self.on_film(x, y)
         rim = self.chief.rim * (1 + RIM_SLACK)
         height, front, tangent = self.chief.at(np.minimum(a * a + b * b, rim * rim))

@@ -102,7 +102,6 @@ class Scanner(Model):
 
     @property
     def limits(self) -> tuple[float, float]:
-        """See Model."""
         return self.span
 
     @property
@@ -112,28 +111,23 @@ class Scanner(Model):
 
     @property
     def firing(self) -> Firing:
-        """See Model."""
         rows = ((np.arange(self.size[1]) + 0.5) * self._down).astype(int)
         return Firing(self.period * self._across, self.beams.delay[np.minimum(rows, len(self.beams) - 1)])
 
     def facts(self) -> dict[str, object]:
-        """See Model."""
         return {
             "columns": self.columns, "beams": len(self.beams), "azimuth step, degrees": np.degrees(self.step),
             "column period, microseconds": self.period / MICRO,
         }  # fmt: skip
 
     def formula_values(self, x, y):
-        """See Model."""
         names = "elevation", "azimuth", "ahead", "right", "up"
         rows = dict(zip(names, map(plain, self.beams.between(y * self._down)), strict=True))
         return {"start": self.start, "step": self.step, "columns": self.columns, **rows}
 
     def rays(self, x, y):
-        """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
-
-        x and y are pixel coordinates of broadcastable shapes; sines and cosines are those of rows and of columns. Each
-        component of a direction is right to some EPS of 1 + the azimuth, that of an origin to some EPS of its length.
+        """See Model: sines and cosines are those of rows and of columns. Each component of a direction is right to some
+        EPS of 1 + the azimuth, that of an origin to some EPS of its length.
         """
         head = self.start + (x * self._across - 0.5) * self.step
         elevation, azimuth, ahead, right, up = self.beams.between(y * self._down)
@@ -161,10 +155,9 @@ class Scanner(Model):
         return np.stack((column / self._across, row / self._down), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame).
-
-        A ray from an origin beside the center meets a sphere only if the ray from the center, moved there, meets the
-        sphere enlarged by the distance. A sphere that holds the axis or crosses the seam covers all columns.
+        """See Model. A ray from an origin beside the center meets a sphere only if the ray from the center, moved
+        there, meets the sphere enlarged by the distance. A sphere that holds the axis or crosses the seam covers all
+        columns.
         """
         ahead, right, up = self.beams.ends[2:]
         middle = (up.min() + up.max()) / 2

@@ -31,19 +31,13 @@ from .parts.silhouette import PIXEL_MARGIN
 from .perspective import PLANE, Perspective
 
 PATH = Line(
-    "path",
-    "Path",
-    "Curve along which the eye moves, from the left edge of the picture to the right edge",
-    None,
-    ("CURVE",),
-    sampled=True,
-)
+    "path", "Path", "Curve along which the eye moves, from the left edge of the picture to the right edge", None,
+    ("CURVE",), sampled=True,
+)  # fmt: skip
 FOLLOW = Flag(
-    "follow_path",
-    "Follow Path",
-    "Turn the view about the camera's up axis, to look to the left of the path's direction",
-    False,
-)
+    "follow_path", "Follow Path",
+    "Turn the view about the camera's up axis, to look to the left of the path's direction", False,
+)  # fmt: skip
 
 BESIDE = 1e-9
 """Fraction of a stretch of the path by which a column may lie beyond its end if no stretch holds it: rounding must not
@@ -122,10 +116,8 @@ class Strip(Model):
         return cls(raster.size, rows, columns, eyes, normals)
 
     def rays(self, x, y):
-        """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
-
-        x and y are pixel coordinates of broadcastable shapes; the origin has the shape of x. Both are NaN beyond the
-        ends of the path. The origin is right to some EPS of the path's coordinates, the direction to some EPS.
+        """See Model: the origin has the shape of x. Both are NaN beyond the ends of the path. The origin is right to
+        some EPS of the path's coordinates, the direction to some EPS.
         """
         eye, ahead_x, ahead_z = self._at(x)
         _, slope = self.rows.plane_from_pixels(0.0, y)
@@ -151,10 +143,8 @@ class Strip(Model):
         return np.stack((x, self.rows.pixels_from_plane(0.0, slope)[1]), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame).
-
-        The path is examined piece by piece: a piece counts if its columns' planes come within the radius of the center,
-        and the sphere is not behind all of them.
+        """See Model. The path is examined piece by piece: a piece counts if its columns' planes come within the radius
+        of the center, and the sphere is not behind all of them.
         """
         marks = np.union1d(self.columns, np.linspace(0, self.columns[-1], PIECES + 1))
         eyes, normals = (

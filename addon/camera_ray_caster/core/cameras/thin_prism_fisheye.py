@@ -50,7 +50,6 @@ class ThinPrismFisheye(KannalaBrandt):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> ThinPrismFisheye:
-        """Build the camera from its settings. Raises InputError for an invalid setting."""
         calibration = Calibration.from_blender(raw, raster, DISTORTION)
         coefficients = dict(calibration.coefficients)
         eighth = coefficients.pop(K4.name)

@@ -25,11 +25,9 @@ from .parts.lines import SLIT, image_axes, slit_from
 from .parts.settings import Number
 
 TWIST = Number(
-    "twist",
-    "Twist",
-    "Change of the slope of the rays, across the axis, per unit along the axis; 0 is orthographic",
+    "twist", "Twist", "Change of the slope of the rays, across the axis, per unit along the axis; 0 is orthographic",
     0.1,
-)
+)  # fmt: skip
 
 
 @dataclass(frozen=True)

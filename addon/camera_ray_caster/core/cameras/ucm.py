@@ -51,6 +51,5 @@ class UnifiedCamera(Unified):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> UnifiedCamera:
-        """Build the camera from its settings. Raises InputError for an invalid setting."""
         calibration = Calibration.from_blender(raw, raster, DISTORTION)
         return cls.of(raw, raster, calibration, xi=XI.read(raw))

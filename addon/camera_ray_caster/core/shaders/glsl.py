@@ -92,6 +92,5 @@ class GlslWriter(Writer):
     }  # fmt: skip
 
     def table_text(self, name: str, entries: Sequence[float]) -> str:
-        """See Writer."""
         count = len(entries)
         return f"    const float {name}[{count}] = float[{count}]({', '.join(map(self.literal, entries))});"

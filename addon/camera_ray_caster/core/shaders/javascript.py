@@ -96,11 +96,9 @@ class JavaScriptWriter(Writer):
         return f"({text})" if math.copysign(1.0, value) < 0 else text
 
     def table_text(self, name: str, entries: Sequence[float]) -> str:
-        """See Writer."""
         return f"    const {name} = [{', '.join(map(self.literal, entries))}];"
 
     def undefined(self) -> Term:
-        """See Writer."""
         return Term("NaN")
 
     def _least_root(self, step: Operation, operands: list[Term], _) -> Term:

@@ -56,7 +56,6 @@ class _MapWriter(GlslWriter):
     """Writer that refuses what would be too long or too slow for a fragment shader."""
 
     def table(self, entries) -> str:
-        """See Writer."""
         if len(entries) > LONGEST_TABLE:
             raise NotRecordable(f"a table of {len(entries)} entries is too long for a shader")
         return super().table(entries)

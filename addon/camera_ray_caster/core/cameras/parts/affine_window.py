@@ -27,17 +27,14 @@ class AffineWindow(Window):
         return self.pitch_y / volume, -self.shear_x / volume, -self.shear_y / volume, self.pitch_x / volume
 
     def plane_from_pixels(self, x, y):
-        """See Window."""
         across, up = x - self.center_x, y - self.center_y
         return across * self.pitch_x + up * self.shear_x, across * self.shear_y + up * self.pitch_y
 
     def pixels_from_plane(self, plane_x, plane_y):
-        """See Window."""
         xx, xy, yx, yy = self._inverse
         return plane_x * xx + plane_y * xy + self.center_x, plane_x * yx + plane_y * yy + self.center_y
 
     def pixel_intervals(self, interval_x, interval_y):
-        """See Window."""
         xx, xy, yx, yy = self._inverse
         terms = (_times(interval_x, xx), _times(interval_y, xy)), (_times(interval_x, yx), _times(interval_y, yy))
         return tuple(
@@ -46,7 +43,6 @@ class AffineWindow(Window):
         )
 
     def rounding(self, x, y, frame):
-        """See Window."""
         xx, xy, yx, yy = (abs(entry) for entry in self._inverse)
         across, up = (shift * 4 / 3 for shift in super().rounding(x, y, frame))  # of eight operations, not six
         plane_x = across * abs(self.pitch_x) + up * abs(self.shear_x)
@@ -54,7 +50,6 @@ class AffineWindow(Window):
         return plane_x * xx + plane_y * xy, plane_x * yx + plane_y * yy
 
     def matrix(self, height: int) -> np.ndarray:
-        """See Window."""
         xx, xy, yx, yy = self._inverse
         return np.array([
             [xx, -xy, self.center_x - 0.5],

@@ -59,12 +59,10 @@ class Calibrated(Radial):
 
     @property
     def disc(self) -> Disc | None:
-        """See Model."""
         return None if self.distortion.bends else super().disc
 
     @property
     def K(self) -> np.ndarray | None:
-        """See Model."""
         return self.window.matrix(self.size[1])
 
     @cached_property
@@ -75,7 +73,6 @@ class Calibrated(Radial):
         return float(np.arctan2(scale * r, cosine))
 
     def rays(self, x, y):
-        """See Radial."""
         if not self.distortion.bends:
             return super().rays(x, y)
         return (0.0, 0.0, 0.0), tuple(on_raster(self._directions, x, y, count=3))
@@ -111,7 +108,6 @@ class Calibrated(Radial):
         return super()._pixels(across, -down)
 
     def bounds(self, centers, radii):
-        """See Radial."""
         across = np.hypot(centers[:, 0], centers[:, 1])
         far = np.arctan2(across, -centers[:, 2]) + angular_radius(np.hypot(across, centers[:, 2]), radii)
         spread = self.distortion.off_radius(self.radius(np.minimum(far, self.widest)))

@@ -40,28 +40,14 @@ FOCAL = tuple(
 )  # fmt: skip
 CENTER = (
     Number(
-        "cx",
-        "Center X",
-        "Distance of the center from the center of the top left pixel, to the right",
-        959.5,
-        -1e6,
-        unit="pixels",
-        digits=3,
-        left_out=MIDDLE,
-        used_with=IN_PICTURE,
+        "cx", "Center X", "Distance of the center from the center of the top left pixel, to the right", 959.5, -1e6,
+        unit="pixels", digits=3, left_out=MIDDLE, used_with=IN_PICTURE,
     ),
     Number(
-        "cy",
-        "Y",
-        "Distance of the center from the center of the top left pixel, down",
-        539.5,
-        -1e6,
-        unit="pixels",
-        digits=3,
-        left_out=MIDDLE,
-        used_with=IN_PICTURE,
+        "cy", "Y", "Distance of the center from the center of the top left pixel, down", 539.5, -1e6, unit="pixels",
+        digits=3, left_out=MIDDLE, used_with=IN_PICTURE,
     ),
-)
+)  # fmt: skip
 SIZE = tuple(
     Whole(
         f"calibration_{side}", side.title(), "Of the calibrated picture, pixels; 0 is the frame's", default, 0,

@@ -35,14 +35,9 @@ LENS = Number(
     used_with=ON_SENSOR,
 )  # fmt: skip
 ORTHO_SCALE = Number(
-    "ortho_scale",
-    "Orthographic Scale",
-    "Length of the fitted side of the frame",
-    6.0,
-    ABOVE_ZERO,
-    unit="length",
+    "ortho_scale", "Orthographic Scale", "Length of the fitted side of the frame", 6.0, ABOVE_ZERO, unit="length",
     owner=CAMERA,
-)
+)  # fmt: skip
 SENSOR_FIT = Choice(
     "sensor_fit", "Sensor Fit", "Side of the frame to which the sensor is fitted",
     "AUTO",
@@ -55,38 +50,20 @@ SENSOR_FIT = Choice(
     used_with=ON_SENSOR,
 )  # fmt: skip
 SENSOR_WIDTH = Number(
-    "sensor_width",
-    "Sensor Width",
-    "Width of the sensor; used unless Sensor Fit is Vertical",
-    36.0,
-    ABOVE_ZERO,
-    unit="mm",
-    owner=CAMERA,
-    used_with=ON_SENSOR,
-)
+    "sensor_width", "Sensor Width", "Width of the sensor; used unless Sensor Fit is Vertical", 36.0, ABOVE_ZERO,
+    unit="mm", owner=CAMERA, used_with=ON_SENSOR,
+)  # fmt: skip
 SENSOR_HEIGHT = Number(
-    "sensor_height",
-    "Sensor Height",
-    "Height of the sensor; used if Sensor Fit is Vertical",
-    24.0,
-    ABOVE_ZERO,
-    unit="mm",
-    owner=CAMERA,
-    used_with=ON_SENSOR,
-)
+    "sensor_height", "Sensor Height", "Height of the sensor; used if Sensor Fit is Vertical", 24.0, ABOVE_ZERO,
+    unit="mm", owner=CAMERA, used_with=ON_SENSOR,
+)  # fmt: skip
 SHIFT_X, SHIFT_Y = (
     Number(
-        name,
-        label,
-        f"Offset of the frame on the image plane, {way}",
-        0.0,
-        -FARTHEST_SHIFT,
-        FARTHEST_SHIFT,
-        owner=CAMERA,
-        used_with=ON_SENSOR,
+        name, label, f"Offset of the frame on the image plane, {way}", 0.0, -FARTHEST_SHIFT, FARTHEST_SHIFT,
+        owner=CAMERA, used_with=ON_SENSOR,
     )
     for name, label, way in (("shift_x", "Shift X", "to the right"), ("shift_y", "Shift Y", "up"))
-)
+)  # fmt: skip
 PIXEL_ASPECT_X, PIXEL_ASPECT_Y = (
     Number(f"pixel_aspect_{axis}", f"Pixel Aspect {axis.upper()}", f"{side} of a pixel", 1.0, 1e-6, 1e6, owner=RENDER)
     for axis, side in (("x", "Width"), ("y", "Height"))

@@ -69,7 +69,6 @@ class KannalaBrandt(Calibrated):
 
     @property
     def own_rim(self) -> float:
-        """See Calibrated."""
         return self.distorted(self.limit)
 
     @cached_property
@@ -83,16 +82,13 @@ class KannalaBrandt(Calibrated):
         return {"theta": theta} if is_recorded(theta) or theta <= self.limit else {}
 
     def factors(self, r_squared):
-        """See Radial."""
         r = radii_of(r_squared)
         theta = self.angle(r)
         return factors_of(theta, r)
 
     def radius(self, theta):
-        """See Radial."""
         return self.distorted(theta)
 
     @lazy
     def widest(self) -> float:
-        """See Radial."""
         return self.limit if self.rim >= self.own_rim else float(self.angle(self.rim))

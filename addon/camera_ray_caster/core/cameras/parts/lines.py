@@ -26,12 +26,10 @@ SLIT = Line(
     ("EMPTY", "CURVE"),
 )
 SECOND_SLIT = Line(
-    "slit_2",
-    "Second Slit",
-    "Second line that all rays meet: the X axis of an empty, or the straight line between the ends of a curve",
-    None,
+    "slit_2", "Second Slit",
+    "Second line that all rays meet: the X axis of an empty, or the straight line between the ends of a curve", None,
     ("EMPTY", "CURVE"),
-)
+)  # fmt: skip
 
 LINE_ROUNDING = 16 * EPS32
 """Sine of the angle below which the directions of objects, stored as float32, cannot be told apart."""

@@ -54,10 +54,7 @@ class Meridians(WindowModel):
         """Return the height of the latitude whose cosine and sine are proportional to these; the cosine is >= 0."""
 
     def rays(self, x, y):
-        """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
-
-        x and y are pixel coordinates of broadcastable shapes; the y of the direction has the shape of y. Each
-        component is right to some EPS of 1 + longitude.
+        """See Model: the y of the direction has the shape of y. Each component is right to some EPS of 1 + longitude.
         """
         longitude, height = self.window.plane_from_pixels(x, y)
         cosine, sine = self.latitude(height)
@@ -78,9 +75,8 @@ class Meridians(WindowModel):
         return np.stack(self.window.pixels_from_plane(longitude, height), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame).
-
-        A sphere that holds a pole or crosses the seam covers all columns: there is one rectangle per sphere.
+        """See Model. A sphere that holds a pole or crosses the seam covers all columns: there is one rectangle per
+        sphere.
         """
         longitudes, latitudes = longitude_latitude(centers, radii)
         columns = turned(longitudes, self.extent[:2], FULL_TURN)

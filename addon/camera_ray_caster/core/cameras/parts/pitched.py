@@ -29,16 +29,13 @@ class Pitched(Radial):
     """Angle of the lens's axis above the viewing direction, radians. At 90 degrees the front is at the bottom."""
 
     def rays(self, x, y):
-        """See Radial."""
         origin, direction = super().rays(x, y)
         return origin, self._pitched(direction, self.elevation)
 
     def project(self, points):
-        """See Radial."""
         return super().project(self._in_lens(points))
 
     def bounds(self, centers, radii):
-        """See Radial."""
         return super().bounds(self._in_lens(centers), radii)
 
     def _in_lens(self, points):

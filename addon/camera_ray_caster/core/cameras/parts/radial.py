@@ -24,15 +24,9 @@ from .silhouette import pixel_bounds, radial_intervals
 
 FOV = Number("fov", "Field of View", "Angle of view from rim to rim of the picture", pi, radians(1), 2 * pi, "angle", 4)
 FISHEYE_FOV = Number(
-    "fisheye_fov",
-    "Field of View",
-    "Angle of view from rim to rim of the picture",
-    pi,
-    ABOVE_ZERO,
-    radians(1800),
-    "angle",
-    owner=CAMERA,
-)
+    "fisheye_fov", "Field of View", "Angle of view from rim to rim of the picture", pi, ABOVE_ZERO, radians(1800),
+    "angle", owner=CAMERA,
+)  # fmt: skip
 FISHEYE_LENS = Number(
     "fisheye_lens", "Focal Length", "Focal length of the fisheye lens", 10.5, ABOVE_ZERO, inf, "mm", owner=CAMERA
 )  # fmt: skip
@@ -98,15 +92,10 @@ class Radial(WindowModel):
 
     @lazy
     def endless(self) -> Radial:
-        """See Model."""
         return self if self.disc is None else replace(self, rim=inf)
 
     def rays(self, x, y):
-        """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
-
-        x and y are pixel coordinates of broadcastable shapes. The direction is NaN where there is no ray. Each
-        component is right to some EPS of 1 + theta.
-        """
+        """See Model. The direction is NaN where there is no ray. Each component is right to some EPS of 1 + theta."""
         a, b = self._plane(x, y)
         scale, cosine = self._factors_at(x, y)
         return (0.0, 0.0, 0.0), (a * scale, b * scale, -cosine)
@@ -149,7 +138,6 @@ class Radial(WindowModel):
         return np.stack(self._pixels(x * scale, y * scale), axis=-1)
 
     def bounds(self, centers, radii):
-        """Return pixel bounds x0, x1, y0, y1, (n, 4), that contain the images of spheres (camera frame)."""
         return pixel_bounds(self.window, *radial_intervals(centers, radii, self.radius, self.widest))
 
 

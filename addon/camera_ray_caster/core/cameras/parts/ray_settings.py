@@ -7,12 +7,9 @@ from .settings import FROM_A_FILE, Choice, Flag, Item, Numbers, Whole
 from .vectors import Vectors
 
 DIRECTIONS = Vectors(
-    "ray_directions",
-    "Directions",
-    "Directions of the rays in the camera's frame, of any length; NaN where there is no ray",
-    None,
-    owner=FROM_A_FILE,
-)
+    "ray_directions", "Directions",
+    "Directions of the rays in the camera's frame, of any length; NaN where there is no ray", None, owner=FROM_A_FILE,
+)  # fmt: skip
 ORIGINS = Vectors(
     "ray_origins", "Origins", "Origins of the rays in the camera's frame; without them all leave the eye", None,
     owner=FROM_A_FILE,

@@ -79,10 +79,7 @@ CLOCKWISE = "CLOCKWISE"
 DIRECTION = Choice(
     "scanner_direction", "Direction", "How the head turns, seen from above",
     CLOCKWISE,
-    (
-        Item(CLOCKWISE, "Clockwise", "To the right", 0),
-        Item("COUNTERCLOCKWISE", "Counterclockwise", "To the left", 1),
-    ),
+    (Item(CLOCKWISE, "Clockwise", "To the right", 0), Item("COUNTERCLOCKWISE", "Counterclockwise", "To the left", 1)),
     used_with=BY_SETTINGS,
 )  # fmt: skip
 NEAREST, FARTHEST = (

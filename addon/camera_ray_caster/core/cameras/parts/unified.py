@@ -57,7 +57,6 @@ class Unified(Calibrated):
 
     @property
     def own_rim(self) -> float:
-        """See Calibrated."""
         rims = [inf]
         if self.alpha > 0.5:
             rims.append(1 / sqrt(self.beta * (2 * self.alpha - 1)))
@@ -67,7 +66,6 @@ class Unified(Calibrated):
         return least(*rims)
 
     def factors(self, r_squared):
-        """See Radial."""
         s = r_squared
         if self.alpha:
             root = np.sqrt(np.maximum(1 + (1 - 2 * self.alpha) * self.beta * s, 0.0))
@@ -87,7 +85,6 @@ class Unified(Calibrated):
         return scale * (turn + self.xi * cosine), cosine * turn - self.xi * across
 
     def radius(self, theta):
-        """See Radial."""
         across, ahead = np.sin(theta), np.cos(theta) + self.xi
         if not self.alpha:
             return across / ahead
