@@ -11,7 +11,7 @@ from bpy.app.handlers import persistent
 from ...core.camera.camera import Camera
 from ...core.records import BlenderCamera, Shapes
 from .depsgraph_shapes import shapes_record
-from .evaluated import camera_or_reason
+from .evaluated import camera_or_reason, forget_cameras
 from .frames import frame_of
 from .render_differences import evaluated_otherwise
 
@@ -100,6 +100,7 @@ def tag_all(*_):
 def forget(*_):
     """Forget the cached scene: another file is loaded."""
     _read.clear()
+    forget_cameras()
     tag_all()
 
 

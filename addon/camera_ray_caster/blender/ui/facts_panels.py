@@ -19,10 +19,7 @@ def camera_of(context, camera_object) -> tuple[Camera | None, str]:
 
 
 def facts_of(context, camera_object) -> tuple[dict[str, object] | None, str]:
-    """Return the facts of a camera as the window shows it and "", or None and the reason in one line.
-
-    This takes half a millisecond, so the facts are read at every redraw and need no cache.
-    """
+    """Return the facts of a camera as the window shows it and "", or None and the reason in one line."""
     camera, reason = camera_of(context, camera_object)
     return (None if camera is None else camera_facts(camera)), reason
 
