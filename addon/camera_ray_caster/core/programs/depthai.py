@@ -55,16 +55,24 @@ def _lens(camera: Fields) -> Lens:
 def poses(document: Document) -> list[Placed]:
     """See ProgramFiles: in the frame of the camera to which the others lead."""
     cameras = _cameras(document)
+    first = [camera for camera in cameras.values() if _next(camera) < 0]
+    if len(first) > 1:
+        raise document.refusal(f"extrinsics of {first[1].label} lead to no camera, and so do those of {first[0].label}")
     placed = []
     for camera in cameras.values():
         pose, at, steps = np.eye(4), camera, 0
-        while (to := at.part("extrinsics").number("toCameraSocket", -1.0)) >= 0:
+        while (to := _next(at)) >= 0:
             pose, steps = _pose(at.part("extrinsics")) @ pose, steps + 1
             if to not in cameras or steps > len(cameras):
                 raise document.refusal(f"extrinsics of {at.label} lead to socket {to:g}, which leads nowhere")
             at = cameras[int(to)]
         placed.append(Placed(camera.label, "", None, pose))
     return placed
+
+
+def _next(camera: Fields) -> float:
+    """Return the socket to which a camera's extrinsics lead; below 0 if they lead to none."""
+    return camera.part("extrinsics").number("toCameraSocket", -1.0)
 
 
 def _pose(extrinsics: Fields) -> np.ndarray:

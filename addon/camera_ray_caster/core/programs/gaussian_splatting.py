@@ -1,6 +1,6 @@
 """cameras.json of 3D Gaussian splatting: a pinhole for each picture, with its place and its rotation to the world.
 
-The center is the middle of the picture. x is right, y down, z ahead.
+The center is the middle of the picture, unless cx and cy tell it from the corner. x is right, y down, z ahead.
 Reference: 3D Gaussian Splatting for Real-Time Radiance Field Rendering, its code: camera_to_JSON.
 """
 
@@ -26,9 +26,9 @@ def _pictures(document: Document) -> list[Fields]:
 def _lens(picture: Fields) -> Lens:
     width, height, fx = picture.number("width"), picture.number("height"), picture.number("fx")
     picture.document.check()
-    size = picture.document.size(width, height)
-    return Lens(picture.label, "OPENCV_PINHOLE",
-                size | matrix(fx, picture.number("fy", fx), width / 2, height / 2, 0.5))  # fmt: skip
+    cx, cy = picture.number("cx", width / 2), picture.number("cy", height / 2)
+    camera_matrix = matrix(fx, picture.number("fy", fx), cx, cy, 0.5)
+    return Lens(picture.label, "OPENCV_PINHOLE", picture.document.size(width, height) | camera_matrix)
 
 
 def read(document: Document) -> list[Lens]:

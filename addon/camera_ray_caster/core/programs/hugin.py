@@ -61,6 +61,8 @@ def _lens(picture: Fields) -> Lens:
     size = document.size(width, height)
     if not 0 < angle < (radians(180) if model == RECTILINEAR else radians(720)):
         raise picture.refusal("v", "a field of view above 0, and of a rectilinear lens below 180")
+    if picture.has("C"):
+        raise document.refusal(f"{picture.label} is cropped (C), which changes v and is not read")
     if any(picture.number(name, 0.0) for name in "gt"):
         raise document.refusal(f"{picture.label} is sheared (g, t), which is not read")
     if model == PROJECTIONS["4"]:

@@ -5,6 +5,7 @@ measured from the corner of the picture, and from version 1.2.1 on from its midd
 (0, 0). Numbers may be text. A pose is the center, and by columns the rotation from the world to the camera, or of a rig
 to the rig, whose cameras have poses in it. Views without a pose are left out: they were not reconstructed. A 3deradial4
 is OpenCV's pinhole without its last two coefficients, u3 and v3, with which it is refused, and so is any undistortion.
+The polynomial of a radialk3pt is over its value at radius 1.
 References: AliceVision, sfmDataIO: the changes of its file format; its camera models, Pose3 and SfMData::getPose.
 """
 
@@ -18,7 +19,7 @@ from .parts.lens import Lens, one_of_several
 from .parts.placed import Placed, checked
 from .parts.program import ProgramFiles
 
-RADIAL4 = "3deradial4"
+RADIAL4, NORMALIZED = "3deradial4", "radialk3pt"
 MODELS = {
     "pinhole": ("OPENCV_PINHOLE", ()),
     "none": ("OPENCV_PINHOLE", ()),
@@ -26,6 +27,7 @@ MODELS = {
     "radialk1": ("OPENCV_PINHOLE", ("k1",)),
     "radial3": ("OPENCV_PINHOLE", ("k1", "k2", "k3")),
     "radialk3": ("OPENCV_PINHOLE", ("k1", "k2", "k3")),
+    NORMALIZED: ("OPENCV_PINHOLE", ("k1", "k2", "k3")),
     "brown": ("OPENCV_PINHOLE", ("k1", "k2", "k3", "p1", "p2")),
     "fisheye4": ("OPENCV_FISHEYE", ("k1", "k2", "k3", "k4")),
     "fisheye": ("OPENCV_FISHEYE", ("k1", "k2", "k3", "k4")),
@@ -122,6 +124,11 @@ def _lens(camera: Fields, version: list[float]) -> Lens:
     if len(coefficients) != len(terms) and any(coefficients):
         name_of_entry = camera.said("distortionParams")
         raise camera.document.refusal(f"{name_of_entry} has {len(coefficients)} numbers: {kind} has {len(terms)}")
+    if kind == NORMALIZED and any(coefficients):
+        whole = 1 + sum(coefficients)
+        if whole <= 0:
+            raise camera.document.refusal(f"{camera.said('distortionParams')} and 1 add up to {whole:g}: not above 0")
+        focal = [length / whole for length in focal]
     settings = {"fx": focal[0], "fy": focal[-1], "cx": x, "cy": y} | dict(zip(terms, coefficients, strict=False))
     return Lens(camera.label, model, camera.document.size(width, height) | settings)
 
@@ -129,6 +136,6 @@ def _lens(camera: Fields, version: list[float]) -> Lens:
 PROGRAM = ProgramFiles(
     "Meshroom", ".sfm of AliceVision", looks,
     marks="intrinsicId pxFocalLength principalPoint distortionParams sensorWidth",
-    reads="pinhole, radial1, radial3, brown, fisheye4, fisheye1, equidistant, equirectangular, 3deradial4",
+    reads="pinhole, radial1, radial3, radialk3pt, brown, fisheye4, fisheye1, equidistant, equirectangular, 3deradial4",
     lost="views without a pose; other distortions of 3DE and undistortions are refused", read=read, poses=poses,
 )  # fmt: skip

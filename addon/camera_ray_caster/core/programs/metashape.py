@@ -2,13 +2,16 @@
 
 f is in pixels, cx and cy are measured from the middle of the picture; b1 and b2 are affinity and skew. With p1 and p2
 swapped its distortion is OpenCV's; a fisheye's is the same of the angle, which is the model THIN_PRISM_FISHEYE.
+Files before version 1.2 have fx, fy and skew in place of f, b1 and b2; their cx and cy are measured from the corner,
+and their p1 and p2 are OpenCV's.
 A sensor of a label that others have is named LABEL 1, LABEL 2, ...
 A camera's transform leads from it, y down and z ahead, to its chunk; that of its component, or of the chunk, with a
 scale, to the world. The world of a georeferenced chunk is that of the Earth's center: here it is a frame of east,
 north and up about the middle of the cameras, on the WGS 84 ellipsoid. A camera with a master stands beside it as its
 sensor tells: the rotation leads from its frame to that of the master, where the location is, in units of the chunk.
 Cameras without a transform, of their own or of a master, are left out: they were not aligned.
-References: Agisoft Metashape manual, appendix Camera models; Agisoft Metashape Python API, Camera.master,
+References: Agisoft Metashape manual, appendix Camera models; Agisoft Lens
+manual 0.4, camera model; Agisoft Metashape Python API, Camera.master,
 Sensor.rotation, Sensor.location, Chunk.transform and CoordinateSystem.localframe.
 """
 
@@ -22,7 +25,7 @@ from ..text_forms.xml_subset import Element
 from .parts.document import Document
 from .parts.earth import AXIS, axes_at
 from .parts.fields import Fields
-from .parts.lens import Lens, one_of_several
+from .parts.lens import Lens, matrix, one_of_several
 from .parts.placed import Placed, of_rotation, pose_of
 from .parts.program import ProgramFiles
 
@@ -79,12 +82,18 @@ def _lens(document: Document, name: str, calibration: Element) -> Lens:
     kind = calibration.attributes.get("type") or entries.text("projection") or "frame"
     model = MODELS[document.one_of(kind, "projection", MODELS)]
     width, height = sides.number("width"), sides.number("height")
-    focal = entries.number("f")
-    settings = document.size(width, height) | {
-        "fx": focal + entries.number("b1", 0.0), "fy": focal, "skew": entries.number("b2", 0.0),
-        "cx": width / 2 - 0.5 + entries.number("cx", 0.0), "cy": height / 2 - 0.5 + entries.number("cy", 0.0),
-    }  # fmt: skip
-    settings |= {setting: entries.number(theirs, 0.0) for theirs, setting in TERMS.items()}
+    size, terms = document.size(width, height), TERMS
+    if entries.has("fx") and not entries.has("f"):
+        center = entries.number("cx", width / 2), entries.number("cy", height / 2)
+        settings = matrix(entries.number("fx"), entries.number("fy"), *center, 0.5)
+        settings |= size | {"skew": entries.number("skew", 0.0)}
+        terms = TERMS | {"p1": "p1", "p2": "p2"}
+    else:
+        focal = entries.number("f")
+        center = width / 2 + entries.number("cx", 0.0), height / 2 + entries.number("cy", 0.0)
+        settings = matrix(focal + entries.number("b1", 0.0), focal, *center, 0.5)
+        settings |= size | {"skew": entries.number("b2", 0.0)}
+    settings |= {setting: entries.number(theirs, 0.0) for theirs, setting in terms.items()}
     unread = [term for term in ("p3", "p4", *(("k4",) if kind == "frame" else ())) if entries.number(term, 0.0)]
     if unread:
         raise document.refusal(f"its {', '.join(unread)} of a {kind} camera is not 0, which no model here has")

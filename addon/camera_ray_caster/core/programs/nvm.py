@@ -15,10 +15,11 @@ from math import inf
 
 from .parts.document import Document
 from .parts.lens import FRAME_SIZE, Lens, different, matrix, once_each
-from .parts.placed import Placed, of_quaternion
+from .parts.placed import Placed, inverted, of_quaternion, of_rotation
 from .parts.program import ProgramFiles
 
-HEAD = "NVM_V3"
+HEAD, TURNED = "NVM_V3", "NVM_V3_R9T"
+"""The second has a rotation of nine numbers and a translation, from the world to the camera."""
 STRONGEST, TERMS = 0.4, 24
 """Largest distortion, and terms of its power series: they leave STRONGEST^25, 1e-10 of the focal length."""
 PICTURE = re.compile(r'("[^"]*"|\S+)\s+(.*)')
@@ -32,12 +33,13 @@ def _pictures(document: Document) -> list[tuple[str, list[float]]]:
     """Return the name and the numbers of each picture."""
     lines = document.lines()[1:]
     count = int(document.numbers(lines[0].split()[:1] if lines else None, "number of cameras", 1)[0])
+    total = 15 if document.text.startswith(TURNED) else 10
     pictures = []
     for line in lines[1 : 1 + max(count, 0)]:
         document.check()
         match = PICTURE.fullmatch(line)
         name = match[1].strip('"') if match else line[:20]
-        pictures.append((name, document.numbers(match[2].split() if match else None, f"line of {name}", 10)))
+        pictures.append((name, document.numbers(match[2].split() if match else None, f"line of {name}", total)))
     if len(pictures) < count:
         raise document.refusal(f"it has {len(pictures)} of {count:,} cameras")
     return pictures
@@ -83,10 +85,12 @@ def read(document: Document) -> list[Lens]:
 
 def poses(document: Document) -> list[Placed]:
     placed = []
-    for (name, (_, w, x, y, z, *center, _radial, _end)), lens in zip(
-        _pictures(document), _lenses(document), strict=True
-    ):
-        pose = of_quaternion(document, [w, -x, -y, -z], center, name)
+    for (name, (_, *pose_numbers, _radial, _end)), lens in zip(_pictures(document), _lenses(document), strict=True):
+        *turn, x, y, z = pose_numbers
+        if len(turn) == 4:
+            pose = of_quaternion(document, [turn[0], *(-part for part in turn[1:])], [x, y, z], name)
+        else:
+            pose = inverted(of_rotation(document, turn, [x, y, z], f"rotation of {name}"))
         placed.append(Placed(lens.name, name, None, pose))
     return placed
 

@@ -11,6 +11,7 @@ Calibration.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from .parts.lens import Lens, matrix_of, one_of_several, word_of
 from .parts.placed import Placed, inverted, of_rotation
 from .parts.plain import TERMS, has_plain, plain_lens, plain_lenses
 from .parts.program import CameraRecord, FileWriter, ProgramFiles, by_lens
-from .parts.spelled import Spelled
+from .parts.spelled import SIDES, Spelled
 
 PINHOLE = TERMS["OPENCV_PINHOLE"]
 MODELS = {f"pinhole {count}": ("OPENCV_PINHOLE", PINHOLE[:count]) for count in (5, 8, 12, 14)} | {
@@ -31,24 +32,40 @@ ROTATION = "r", "rotation", "rotationmatrix", "rmat", "rotmatrix"
 TRANSLATION = "t", "translation", "translationvector", "tvec", "transvec"
 """What leads from the first camera of a pair to the second."""
 EXTRINSICS = "extrinsic_parameters"
+FILES = "intrinsics", "extrinsics"
+"""Names of the files with the lenses of a pair, M1, D1, M2 and D2, and with R and T."""
 PLAIN = "fisheye_model: 0\n"
 EXTRA = {"fisheye": "fisheye_model: 1\n", "omnidir": "xi: {unified_xi!r}\n"}
 
 
 def looks(document: Document) -> bool:
-    return has_plain(document) or bool(_pair(document))
+    return has_plain(document) or bool(_pair(document)) or _is_apart(document)
 
 
 def read(document: Document) -> list[Lens] | None:
+    if _is_apart(document):
+        raise document.refusal(f"it has the places of two cameras: their lenses are in the file {FILES[0]}")
     pair = _pair(document)
     if not pair:
         return plain_lenses(document)
     return [one_of_several(name, plain_lens, camera)._replace(name=name) for name, camera in pair.items()]
 
 
+def pair(path: Path) -> tuple[Path, Path] | None:
+    """See ProgramFiles: the two files of OpenCV's sample of stereo calibration."""
+    files = path.with_stem(FILES[0]), path.with_stem(FILES[1])
+    is_of_pair = path.stem in FILES and path.suffix in (".yml", ".yaml", ".xml")
+    return files if is_of_pair and all(map(Path.is_file, files)) else None
+
+
 def _is_pair(document: Document) -> bool:
     entries = Spelled(document.entries)
     return entries.has(ROTATION) and entries.has(TRANSLATION)
+
+
+def _is_apart(document: Document) -> bool:
+    """Whether a document has the places of a pair's cameras without the lenses, as OpenCV's sample writes them."""
+    return document.entries.has("R", "T", "R1", "R2") and not has_plain(document)
 
 
 def _pair(document: Document) -> dict[str, Document]:
@@ -67,7 +84,7 @@ def poses(document: Document) -> list[Placed]:
     entries, is_pair = Spelled(document.entries), _is_pair(document)
     if not is_pair and not document.entries.has(EXTRINSICS):
         return []
-    cameras = [lens.name for lens in read(document) or []]
+    cameras = list(SIDES[0]) if _is_apart(document) else [lens.name for lens in read(document) or []]
     if len(cameras) == 2 and is_pair:
         turn, translation = entries.numbers(ROTATION), entries.numbers(TRANSLATION)
         if len(turn) not in (3, 9) or len(translation) != 3:
@@ -122,6 +139,7 @@ PROGRAM = ProgramFiles(
     marks="camera_matrix distortion_coefficients image_width image_height opencv_storage",
     reads="pinhole with 4, 5, 8, 12 or 14 coefficients, fisheye, omnidir; stereo pairs",
     lost="of four coefficients without a model's name: which model they are of", read=read, poses=poses,
+    pair=pair,
     export=FileWriter(
         "opencv", "OpenCV", "<camera>.yml for FileStorage: pinhole, fisheye and omnidir, and poses", write, MODELS,
         ending=".yml",

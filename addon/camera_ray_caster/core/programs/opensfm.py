@@ -16,6 +16,11 @@ from .parts.placed import Placed, inverted, of_rotation
 from .parts.program import ProgramFiles
 
 RADIAL, EQUIDISTANT = ("k1", "k2"), ("k1", "k2", "k3", "k4")
+FISHEYE = (*EQUIDISTANT, "p1", "p2")
+PRISM = {"s0": "s1", "s2": "s3"}
+"""Our settings for coefficients of a fisheye624."""
+BEYOND = "k5", "k6", "s1", "s3"
+"""Coefficients of a fisheye62 and 624 that no model has."""
 MODELS = {
     "perspective": ("OPENCV_PINHOLE", RADIAL),
     "brown": ("OPENCV_PINHOLE", ("k1", "k2", "p1", "p2", "k3")),
@@ -23,6 +28,8 @@ MODELS = {
     "radial": ("OPENCV_PINHOLE", RADIAL),
     "fisheye": ("OPENCV_FISHEYE", RADIAL),
     "fisheye_opencv": ("OPENCV_FISHEYE", EQUIDISTANT),
+    "fisheye62": ("THIN_PRISM_FISHEYE", FISHEYE),
+    "fisheye624": ("THIN_PRISM_FISHEYE", FISHEYE),
     "spherical": ("EQUIRECTANGULAR", ()),
     "equirectangular": ("EQUIRECTANGULAR", ()),
 }
@@ -30,10 +37,10 @@ MODELS = {
 
 
 def looks(document: Document) -> bool:
+    if _reconstructions(document):
+        return True
     parts = document.entries.named()
-    if len(parts) < len(document.entries):
-        return False
-    return all(camera.has("projection_type") for camera in parts.values()) or bool(_reconstructions(document))
+    return len(parts) == len(document.entries) and all(camera.has("projection_type") for camera in parts.values())
 
 
 def read(document: Document) -> list[Lens]:
@@ -45,7 +52,8 @@ def read(document: Document) -> list[Lens]:
 
 def _reconstructions(document: Document) -> list[Fields]:
     """Return the parts of a reconstruction.json; [] of any other file."""
-    parts = list(document.entries.named().values())
+    entries = document.entries
+    parts = [entries] if entries.has("cameras", "shots") else list(entries.named().values())
     return parts if all(reconstruction.has("cameras", "shots") for reconstruction in parts) else []
 
 
@@ -77,7 +85,8 @@ def note(document: Document) -> str:
 
 
 def _lens(camera: Fields, name: str) -> Lens:
-    model, terms = MODELS[camera.word("projection_type", MODELS)]
+    kind = camera.word("projection_type", MODELS, "perspective")
+    model, terms = MODELS[kind]
     width, height = camera.number("width"), camera.number("height")
     size = camera.document.size(width, height)
     if model == "EQUIRECTANGULAR":
@@ -86,13 +95,19 @@ def _lens(camera: Fields, name: str) -> Lens:
     settings = {f"f{axis}": camera.number(f"focal_{axis}", focal or None) * unit for axis in "xy"}
     for axis, side in (("x", width), ("y", height)):
         settings[f"c{axis}"] = (side - 1) / 2 + camera.number(f"c_{axis}", 0.0) * unit
-    return Lens(name, model, size | settings | {term: camera.number(term, 0.0) for term in terms})
+    settings |= {term: camera.number(term, 0.0) for term in terms}
+    if terms is FISHEYE:
+        unread = [term for term in BEYOND if camera.number(term, 0.0)]
+        if unread:
+            raise camera.document.refusal(f"its {', '.join(unread)} of a {kind} is not 0, which no model here has")
+        settings |= {setting: camera.number(term, 0.0) for term, setting in PRISM.items()}
+    return Lens(name, model, size | settings)
 
 
 PROGRAM = ProgramFiles(
     "OpenSfM", "camera_models.json, reconstruction.json, of ODM, too", looks,
     marks="projection_type focal focal_x width height k1",
-    reads="perspective, brown, radial, fisheye, fisheye_opencv, spherical",
-    lost="other projections are refused", models=MODELS, read=read, poses=poses, note=note,
-    unit=METERS,
+    reads="perspective, brown, radial, fisheye, fisheye_opencv, fisheye62, fisheye624, spherical",
+    lost="k5, k6, s1 and s3 of a fisheye62 or 624, and other projections, are refused", models=MODELS,
+    read=read, poses=poses, note=note, unit=METERS,
 )  # fmt: skip

@@ -26,11 +26,11 @@ from .parts.program import PictureFolders, ProgramFiles
 PREFIX, DESCRIPTION = "xcr:", "rdf:Description"
 SPLIT = {"Rotation", "Position", "DistortionCoeficients"}
 """Entries of an .xmp that are lists of numbers."""
-MODELS = {"perspective": 0, "brown3": 3, "brown3t2": 3, "brown4": 4, "brown4t2": 4}
+MODELS = {"perspective": 0, "division": 0, "brown3": 3, "brown3t2": 3, "brown4": 4, "brown4t2": 4}
 """Number of radial coefficients that are read, by the distortion model."""
 FILM = 36.0
 """Millimeters of a picture's longer side."""
-HEAD = ("x", "y", "alt", "heading", "pitch", "roll", "f")
+HEAD = ("x", "y", "alt", "heading", "pitch", "roll")
 FIRST_LINES = 9
 """Lines of a .csv among which one names the columns."""
 COEFFICIENTS = ("k1", "k2", "k3", "k4", "t1", "t2")
@@ -51,7 +51,7 @@ def _head(document: Document) -> int | None:
 
 
 def _words(line: str) -> list[str]:
-    return [word.strip() for word in line.strip().split(",")]
+    return [word.strip() for word in line.strip().replace(";", ",").split(",")]
 
 
 def _of_xmp(document: Document) -> list[Fields]:
@@ -88,13 +88,17 @@ def _pictures(document: Document) -> list[Fields]:
 def _lens(document: Document, picture: Fields) -> Lens:
     width, height = document.picture_size or (1, 1)
     longer = max(width, height)
-    if picture.has("f"):
+    if picture.has("heading"):
         coefficients = [picture.number(name, 0.0) for name in COEFFICIENTS]
         focal, center, count = picture.number("f"), ("px", "py"), 4
     else:
         focal, center = picture.number("FocalLength35mm"), ("PrincipalPointU", "PrincipalPointV")
         count = MODELS[picture.word("DistortionModel", MODELS, "perspective")]
-        coefficients = picture.numbers("DistortionCoeficients", 6, default=[0.0] * 6) if count else [0.0] * 6
+        coefficients = picture.numbers("DistortionCoeficients", 6, default=[0.0] * 6)
+        if not count:
+            if picture.text("DistortionModel") == "division" and any(coefficients):
+                raise document.refusal("its DistortionModel is division, which is not read: choose Brown3 or Brown4")
+            coefficients = [0.0] * 6
         if picture.number("Skew", 0.0) or picture.number("AspectRatio", 1.0) != 1:
             raise document.refusal("its Skew is not 0, or its AspectRatio not 1: undistort the pictures first")
     if any(coefficients[count:]):
@@ -117,7 +121,8 @@ def read(document: Document) -> list[Lens]:
 
 def poses(document: Document) -> list[Placed]:
     """See ProgramFiles: none of an .xmp that has only a lens."""
-    pictures = [picture for picture in _pictures(document) if picture.has("f") or picture.has("Rotation", "Position")]
+    pictures = [picture for picture in _pictures(document)
+                if picture.has("heading") or picture.has("Rotation", "Position")]  # fmt: skip
     lenses = once_each(_lens(document, picture) for picture in pictures)
     return [Placed(lens.name, picture.label, None, _pose(picture))
             for picture, lens in zip(pictures, lenses, strict=True)]  # fmt: skip

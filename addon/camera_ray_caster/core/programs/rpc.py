@@ -1,4 +1,4 @@
-"""Rational polynomials of satellites, RPC00B: as text, as .RPB, and in the XML of Maxar and of DIMAP.
+"""Rational polynomials of satellites, RPC00B: as text, also of GDAL, as .RPB, and in the XML of Maxar and DIMAP.
 
 Line and sample are quotients of cubic polynomials of latitude, longitude and height (WGS 84), each less its offset and
 over its scale; the center of the first pixel is (0, 0), in DIMAP (1, 1). A picture without a size, which XML has, is as
@@ -24,7 +24,7 @@ from .parts.lens import Lens
 from .parts.program import ProgramFiles
 from .parts.ray_arrays import sampled
 
-ENTRY = re.compile(r"^[ \t]*([A-Za-z_]+(?:_\d+)?)[ \t]*[:=][ \t]*(\([^()]*\)|[^\s;]+)", re.MULTILINE)
+ENTRY = re.compile(r"^[ \t]*([A-Za-z_]+(?:_\d+)?)[ \t]*[:=][ \t]*(\([^()]*\)|[^\n;]+)", re.MULTILINE)
 GROUND, PICTURE = ("LONG", "LAT", "HEIGHT"), ("SAMP", "LINE")
 MARK = re.compile("samp_?off", re.IGNORECASE)
 MAXAR, DIMAP = ("IMD", "IMAGE"), ("Direct_Model_Validity_Domain", "Inverse_Model", "RFM_Validity")
@@ -69,11 +69,10 @@ def _rational(document: Document) -> Rational:
 def _by_name(entries: Iterable[tuple[str, str]]) -> dict[str, str]:
     texts: dict[str, str] = {}
     for name, text in entries:
-        name = name.upper().replace("_", "").replace("OFFSET", "OFF")
-        if name.endswith("COEF"):
-            terms = text.strip("()").replace(",", " ").split()
-            texts |= {f"{name}F{i}": term for i, term in enumerate(terms, 1)}
-        texts[name] = text
+        name, words = name.upper().replace("_", "").replace("OFFSET", "OFF"), text.strip("()").replace(",", " ").split()
+        if name.endswith(("COEF", "COEFF")):
+            texts |= {f"{name.rstrip('F')}FF{i}": term for i, term in enumerate(words, 1)}
+        texts[name] = words[0] if words else ""
     return texts
 
 

@@ -1,6 +1,7 @@
 """The YAML of camodocal, by which VINS-Mono, VINS-Fusion and KITTI-360 describe their cameras.
 
 The center of the first pixel is (0, 0). In its KANNALA_BRANDT the coefficients of theta³ to theta⁹ are k2 to k5.
+extrinsicRotation and extrinsicTranslation of VINS-Mono's settings lead from the camera to the IMU.
 Its SCARAMUZZA is OCam with x to the right: a pixel's offset is ((ac, ad), (ae, 1)) (u', v'). Its inverse polynomial is
 not needed. Ours has 1 in place of ac, which scales (u', v') and the polynomial.
 References: L. Heng, B. Li and M. Pollefeys, CamOdoCal (2013), and its source, camera_models; KITTI-360 documentation.
@@ -10,9 +11,11 @@ from __future__ import annotations
 
 import re
 
+from ..units import METERS
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens, matrix
+from .parts.placed import Placed, of_rotation
 from .parts.program import ProgramFiles
 from .parts.spelled import HEIGHT, WIDTH, Spelled
 
@@ -31,15 +34,20 @@ MODELS = {
 SCARAMUZZA = "SCARAMUZZA"
 
 PARTS = "projection_parameters", "distortion_parameters", "mirror_parameters"
+TURN, PLACE = "extrinsicRotation", "extrinsicTranslation"
+CALIBRATION = "cam0_calib"
 
 
 def looks(document: Document) -> bool:
     entries = document.entries
-    return entries.has(PARTS[0]) or (entries.has("model_type") and entries.text("model_type") == SCARAMUZZA)
+    is_ocam = entries.has("model_type") and entries.text("model_type") == SCARAMUZZA
+    return entries.has(PARTS[0]) or is_ocam or entries.has(CALIBRATION)
 
 
 def read(document: Document) -> list[Lens]:
     entries = document.entries
+    if entries.has(CALIBRATION):
+        raise document.refusal(f"its lenses are in files of their own: give {entries.text(CALIBRATION)} beside it")
     kind = entries.word("model_type", (*MODELS, SCARAMUZZA))
     if kind == SCARAMUZZA:
         return [_ocam(entries)]
@@ -49,6 +57,14 @@ def read(document: Document) -> list[Lens]:
         parameters = parameters.merged(entries.part(name))
     settings = {setting: parameters.number(name) for name, setting in terms.items()}
     return [Lens("", model, _size(entries) | matrix(*(parameters.number(name) for name in focal)) | settings)]
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles: that of the camera in the body, of settings that tell it."""
+    entries = document.entries
+    if not entries.has(TURN, PLACE):
+        return []
+    return [Placed("", "", None, of_rotation(document, entries.matrix(TURN, 9), entries.matrix(PLACE, 3), TURN))]
 
 
 def _size(entries: Fields) -> dict:
@@ -79,5 +95,5 @@ def _ocam(entries: Fields) -> Lens:
 PROGRAM = ProgramFiles(
     "VINS", "camodocal's .yaml, of VINS-Mono, VINS-Fusion and KITTI-360", looks,
     marks="model_type projection_parameters distortion_parameters mirror_parameters",
-    reads="PINHOLE, PINHOLE_FULL, MEI, KANNALA_BRANDT, SCARAMUZZA", read=read,
+    reads="PINHOLE, PINHOLE_FULL, MEI, KANNALA_BRANDT, SCARAMUZZA", read=read, poses=poses, unit=METERS,
 )  # fmt: skip

@@ -16,7 +16,8 @@ from dataclasses import dataclass
 DEEPEST = 32
 """Levels of nesting that are read: calibrations have three."""
 
-COLON = re.compile(r":(?=[ \t]|$)")
+COLON = re.compile(r":(?=[ \t\[]|$)")
+"""What ends a name; before a list also without a space, as OpenCV reads it."""
 CLOSE = re.compile(r"""([A-Za-z]\w*\.[\w.]+):([-+.\d]\S*|"[^"]*")""")
 """An entry without a space behind its colon, as in settings of ORB-SLAM, which OpenCV reads."""
 KEY = re.compile(r"""[A-Za-z0-9_/.][\w./+ -]*|"[^"]*"|'[^']*'""")

@@ -19,7 +19,7 @@ from .lens import numbers_of
 
 MATRIX = (
     "cameramatrix", "k", "m", "intrinsicmatrix", "mtx", "intrinsic", "intrinsics", "camk", "cameraintrinsics",
-    "intrinsicsmatrix", "cammatrix", "kmatrix",
+    "intrinsicsmatrix", "cammatrix", "kmatrix", "cameramat",
 )  # fmt: skip
 DISTORTION = (
     "distortioncoefficients", "distcoeffs", "distortion", "d", "distcoeff", "dist", "distortioncoeffs",
@@ -46,7 +46,7 @@ CONTAINERS = {
 """Names of mappings whose entries count as if they stood beside them."""
 
 SIDES = ("1", "2"), ("left", "right"), ("l", "r")
-"""What names of a pair's two cameras end in."""
+"""What names of a pair's two cameras end in; words also begin so."""
 
 PREFIX = re.compile(r"(.+?)[._\s-](?:fx|flx)", re.IGNORECASE)
 
@@ -98,6 +98,12 @@ def _may_bend(name: str, value: Any, bend: re.Pattern = BEND_BESIDE) -> bool:
     )
 
 
+def _on_side(stems: Collection[str], side: str) -> dict[str, str]:
+    """Return the stem of each name of one camera of a pair."""
+    before = {f"{side}{stem}": stem for stem in stems} if len(side) > 1 else {}
+    return before | {f"{stem}{side}": stem for stem in stems}
+
+
 class Spelled:
     """Entries by plain name, with the name and the value in the file. Raises InputError for two of the same name."""
 
@@ -141,7 +147,7 @@ class Spelled:
     def sides(self) -> list[str]:
         """Return the ends of the names of a pair's cameras; [] for one camera."""
         for pair in SIDES:
-            there = [side for side in pair if any(self._is_list(stem + side) for stem in MATRIX)]
+            there = [side for side in pair if any(map(self._is_list, _on_side(MATRIX, side)))]
             if there:
                 return there
         return []
@@ -149,11 +155,13 @@ class Spelled:
     def side(self, end: str) -> Spelled:
         """Return the entries of one camera of a pair, under the names of a single one."""
         side_entries, stems = Spelled(Fields(self.document, {})), {*MATRIX, *DISTORTION}
-        others = {stem + side for pair in SIDES if end in pair for side in pair for stem in stems}
+        others = {name for pair in SIDES if end in pair for side in pair for name in _on_side(stems, side)}
         side_entries.by_name = {
             name: entry for name, entry in self.by_name.items() if name not in others or not self._is_list(name)
         }
-        side_entries.by_name |= {stem: self.by_name[stem + end] for stem in stems if self._is_list(stem + end)}
+        for name, stem in _on_side(stems, end).items():
+            if self._is_list(name):
+                side_entries.by_name[stem] = self.by_name[name]
         return side_entries
 
     def _is_list(self, name: str) -> bool:

@@ -219,9 +219,8 @@ def _camera_name(pose: Placed, models: dict[str, str]) -> str:
 
 
 def _in_folders(by_names: list[tuple[Placed, str, float | None]]) -> list[tuple[Placed, str, float | None]]:
-    """Return poses with the names of the pictures' folders, if several have pictures of one name and lens; else []."""
+    """Return poses with the names of the pictures' folders, if several have pictures of one name; else []."""
     folders = [PurePath(pose.image.replace("\\", "/")).parent.name for pose, _, _ in by_names]
     named = [(pose, folder, number) for (pose, _, number), folder in zip(by_names, folders, strict=True)]
-    lenses = {(pose.camera, name, number) for pose, name, number in by_names}
     is_once = len({(folder, number) for _, folder, number in named}) == len(named)
-    return named if is_once and len(lenses) < len(named) else []
+    return named if is_once and len({(name, number) for _, name, number in by_names}) < len(named) else []

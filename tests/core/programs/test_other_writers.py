@@ -1,0 +1,181 @@
+"""Files as other versions of the same programs write them: lens, pose and names by hand."""
+
+import json
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.programs.reading.lenses import lenses_of
+from camera_ray_caster.core.programs.reading.mounted import mounted
+from camera_ray_caster.core.records import InputError
+
+UNIT = [1, 0, 0, 0, 1, 0, 0, 0, 1]
+QUARTER = [0, -1, 0, 1, 0, 0, 0, 0, 1]
+PLACE = [1.0, 2.0, 3.0]
+
+
+def matrix(name, rows, numbers, space=" "):
+    data = ", ".join(map(str, numbers))
+    columns = len(numbers) // rows
+    return f"{name}: !!opencv-matrix\n   rows: {rows}\n   cols: {columns}\n   dt: d\n   data:{space}[ {data} ]\n"
+
+
+def settings(lens, *names):
+    return [lens.settings.get(name, 0.0) for name in names]
+
+
+def written(folder, name, content):
+    path = folder / name
+    path.write_text(content if isinstance(content, str) else json.dumps(content))
+    return str(path)
+
+
+def rig(path):
+    return mounted(path, "", (640, 480), 24.0)
+
+
+def K(f, cx, cy):
+    return [f, 0, cx, 0, f, cy, 0, 0, 1]
+
+
+def opensfm(**camera):
+    shot = {"rotation": [0, 0, 0], "translation": [-1, -2, -3], "camera": "a"}
+    return {"cameras": {"a": {"width": 400, "height": 300, "focal": 0.8} | camera}, "shots": {"x.jpg": shot}}
+
+
+def meshroom(**entries):
+    camera = {"intrinsicId": "1", "width": "400", "height": "300", "sensorWidth": "36", "focalLength": "27",
+              "type": "pinhole", "principalPoint": ["1", "-2"]} | entries  # fmt: skip
+    transform = {"rotation": [*map(str, UNIT)], "center": [*map(str, PLACE)]}
+    return {"version": ["1", "2", "11"], "intrinsics": [camera],
+            "views": [{"viewId": "1", "poseId": "1", "intrinsicId": "1", "path": "a.jpg"}],
+            "poses": [{"poseId": "1", "pose": {"transform": transform}}]}  # fmt: skip
+
+
+PHOTOSCAN = """<document version="0.9.1"><chunk><sensors><sensor id="0" label="A"><calibration type="frame">
+<resolution width="400" height="300"/><fx>310</fx><fy>300</fy><cx>201</cx><cy>148</cy><skew>0.5</skew><k1>-0.05</k1>
+<p1>0.001</p1><p2>0.002</p2></calibration></sensor></sensors><cameras><camera id="0" label="a" sensor_id="0">
+<transform>1 0 0 1 0 1 0 2 0 0 1 3 0 0 0 1</transform></camera></cameras></chunk></document>"""
+XMP = """<x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#">
+<rdf:Description xmlns:xcr="http://www.capturingreality.com/ns/xcr/1.1#" xcr:DistortionModel="division"
+xcr:FocalLength35mm="36"><xcr:Rotation>1 0 0 0 1 0 0 0 1</xcr:Rotation><xcr:Position>1 2 3</xcr:Position>
+<xcr:DistortionCoeficients>{} 0 0 0 0 0</xcr:DistortionCoeficients></rdf:Description></rdf:RDF></x:xmpmeta>"""
+SPLAT = {"img_name": "a", "width": 400, "height": 300, "position": PLACE, "rotation": np.eye(3).tolist(),
+         "fx": 310, "fy": 300, "cx": 190.5, "cy": 160.5}  # fmt: skip
+ORB = "Camera.fx: 300\nCamera.fy: 301\nCamera.cx: 200\nCamera.cy: 150\n"
+FILES = {
+    "splat.json": ([SPLAT], {"fx": 310, "fy": 300, "cx": 190, "cy": 160}),
+    "photoscan.xml": (
+        PHOTOSCAN, {"fx": 310, "fy": 300, "cx": 200.5, "cy": 147.5, "skew": 0.5, "k1": -0.05, "p1": 0.001, "p2": 0.002}
+    ),
+    "radialk3pt.sfm": (
+        meshroom(distortionType="radialk3pt", distortionParams=["0.25", "0", "-0.05"]),
+        {"fx": 300 / 1.2, "fy": 300 / 1.2, "cx": 201, "cy": 148, "k1": 0.25, "k3": -0.05},
+    ),
+    "alone.json": (opensfm(k1=0.01), {"fx": 320, "cx": 199.5, "k1": 0.01}),
+    "fisheye624.json": (
+        [opensfm(projection_type="fisheye624", k1=0.01, k4=0.02, p1=0.003, p2=0.004, s0=0.005, s2=0.006)],
+        {"fx": 320, "k1": 0.01, "k4": 0.02, "p1": 0.003, "p2": 0.004, "s1": 0.005, "s3": 0.006},
+    ),
+    "turned.nvm": (
+        f"NVM_V3_R9T\n\n1\na.jpg 300 {' '.join(map(str, QUARTER))} 2 -1 -3 0 0\n", {"fx": 300, "cx": 319.5}
+    ),
+    "no_distortion.xmp": (XMP.format(0), {"fx": 640, "k1": 0}),
+    "semicolons.csv": ("#name;x;y;alt;heading;pitch;roll;f\na.jpg;1;2;3;0;0;0;36\n", {"fx": 640}),
+    "body.yaml": (ORB + matrix("IMU.T_b_c1", 4, [1, 0, 0, 1, 0, 1, 0, 2, 0, 0, 1, 3, 0, 0, 0, 1]), {"fx": 300}),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_lens_and_place_are_those_of_the_file(name, tmp_path):
+    content, wanted = FILES[name]
+    (camera,) = rig(written(tmp_path, name, content))
+    assert settings(camera.lenses[0], *wanted) == pytest.approx([*wanted.values()], rel=1e-14)
+    assert camera.poses[0][:3, 3] == pytest.approx(PLACE, abs=1e-15)
+
+
+REFUSED = {
+    "k5.json": ([opensfm(projection_type="fisheye62", k5=0.1)], "its k5 of a fisheye62 is not 0"),
+    "sum.sfm": (meshroom(distortionType="radialk3pt", distortionParams=["-1", "0", "0"]), "add up to 0"),
+    "division.xmp": (XMP.format(0.1), "DistortionModel is division, which is not read"),
+    "no_f.csv": ("#name,x,y,alt,heading,pitch,roll\na.jpg,1,2,3,0,0,0\n", "no f of a.jpg"),
+    "crop.pto": ('i w400 h400 f2 v180 r0 p0 y0 C10,390,10,390 n"a.jpg"\n', "a.jpg is cropped (C)"),
+    "fusion.yaml": ('%YAML:1.0\ncam0_calib: "cam0_mei.yaml"\nnum_of_cam: 1\n', "give cam0_mei.yaml"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_is_not_read_is_named(name, tmp_path):
+    content, says = REFUSED[name]
+    path = written(tmp_path, name, content)
+    try:
+        refusal = lenses_of(path, "", (640, 480))[0].refusal
+    except InputError as raised:
+        refusal = raised
+    assert says in str(refusal)
+    assert "\n" not in str(refusal)
+
+
+PAIR = [("left", [300, 200, 150]), ("right", [310, 201, 151])]
+PLACES = matrix("R", 3, UNIT) + matrix("T", 3, [-0.12, 0, 0])
+
+
+@pytest.mark.parametrize("files", [
+    {"pair.yml": "".join(matrix(f"{side}_camera_matrix", 3, K(*numbers)) + matrix(f"{side}_distortion", 1, [0.1] * 5)
+                         for side, numbers in PAIR) + PLACES},
+    {"intrinsics.yml": "".join(matrix(f"M{i}", 3, K(*numbers)) + matrix(f"D{i}", 1, [0.1] * 5)
+                               for i, (_, numbers) in enumerate(PAIR, 1)),
+     "extrinsics.yml": PLACES + matrix("R1", 3, UNIT) + matrix("R2", 3, UNIT)},
+], ids=["words before", "two files"])  # fmt: skip
+def test_pairs_of_opencv(files, tmp_path):
+    for path in [written(tmp_path, name, content) for name, content in files.items()]:
+        first, second = rig(path)
+        assert [camera.lens.settings["fx"] for camera in (first, second)] == [300, 310]
+        assert [camera.lens.settings["k1"] for camera in (first, second)] == [0.1, 0.1]
+        assert [camera.poses[0][0, 3] for camera in (first, second)] == pytest.approx([0, 0.12])
+
+
+def test_the_matrices_that_rectified_a_pair_of_orbslam_are_not_its_camera(tmp_path):
+    text = ORB + "LEFT.width: 400\n" + matrix("LEFT.K", 3, K(400, 210, 140), "") + matrix("LEFT.D", 1, [0.1] * 5, "")
+    (lens,) = lenses_of(written(tmp_path, "stereo.yaml", text))
+    assert settings(lens, "fx", "cx", "k1") == [300, 200, 0]
+
+
+def test_folders_name_cameras_with_lenses_of_their_own(tmp_path):
+    pose = [[1, 0, 0, 1], [0, 1, 0, 2], [0, 0, 1, 3]]
+    frames = [
+        {"file_path": f"{camera}/x_{number:04}.png", "fl_x": focal, "cx": 200, "cy": 150, "w": 400, "h": 300,
+         "transform_matrix": pose}
+        for camera, focal in (("cam0", 300), ("cam1", 310)) for number in (1, 2)
+    ]  # fmt: skip
+    cameras = rig(written(tmp_path, "transforms.json", {"frames": frames}))
+    assert [(camera.name, camera.frames, camera.lens.settings["fx"]) for camera in cameras] == [
+        ("cam0", [1, 2], 300), ("cam1", [1, 2], 310)
+    ]  # fmt: skip
+
+
+def test_cameras_of_depthai_that_lead_nowhere_are_not_placed(tmp_path):
+    camera = {"cameraType": 0, "intrinsicMatrix": np.reshape(K(300, 200, 150), (3, 3)).tolist(), "width": 400,
+              "height": 300, "extrinsics": {"toCameraSocket": -1}}  # fmt: skip
+    path = written(tmp_path, "device.json", {"cameraData": [[0, camera], [1, camera]]})
+    with pytest.raises(InputError, match="extrinsics of CAM_B lead to no camera, and so do those of CAM_A"):
+        rig(path)
+
+
+def test_rational_polynomials_as_gdal_tells_them(tmp_path):
+    offsets = {"LINE": (500, 500), "SAMP": (600, 600), "LAT": (45, 0.05), "LONG": (7, 0.06), "HEIGHT": (200, 500)}
+    text = "".join(f"{name}_OFF={offset}\n{name}_SCALE={scale}\n" for name, (offset, scale) in offsets.items())
+    terms = {"LINE_NUM": {0: 0.001, 2: -1, 3: 0.02}, "SAMP_NUM": {1: 1, 3: -0.015}}
+    terms |= {"LINE_DEN": {0: 1}, "SAMP_DEN": {0: 1}}
+
+    def lines(one_by_one):
+        for name, powers in terms.items():
+            numbers = [powers.get(i, 0) for i in range(20)]
+            if one_by_one:
+                yield from (f"{name}_COEFF_{i}: {number}\n" for i, number in enumerate(numbers, 1))
+            else:
+                yield f"{name}_COEFF={' '.join(map(str, numbers))}\n"
+
+    (listed,), (apart,) = (lenses_of(written(tmp_path, name, text + "".join(lines(name == "apart.txt"))))
+                           for name in ("listed.txt", "apart.txt"))  # fmt: skip
+    assert repr(listed) == repr(apart)
