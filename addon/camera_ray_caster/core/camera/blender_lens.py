@@ -19,6 +19,7 @@ import numpy as np
 
 from ..cameras.fisheye_polynomial import COEFFICIENTS, FisheyePolynomial
 from ..cameras.orthographic import Orthographic
+from ..cameras.parts.parameters import with_values
 from ..cameras.parts.pitched import Pitched
 from ..cameras.parts.pose import pose_from
 from ..cameras.parts.radial import FISHEYE_FOV, Radial
@@ -181,13 +182,9 @@ def _record(raw: BlenderCamera, kind: str, aspect: float, values: dict[str, floa
     if abs(aspect / (raw.pixel_aspect_y / raw.pixel_aspect_x) - 1) > 1e-6:
         values |= {"pixel_aspect_x": max(1.0, 1 / aspect), "pixel_aspect_y": max(1.0, aspect)}
     settings = {name: float(np.float32(value)) for name, value in values.items()}
-    fields: dict[str, Any] = {name: value for name, value in settings.items() if hasattr(raw, name)}
-    others = {name: value for name, value in settings.items() if name not in fields}
     is_plain = kind in (Perspective.key, Orthographic.key)
     panorama = {} if is_plain else {"panorama_type": kind}
-    new = replace(raw, type=kind if is_plain else "PANO", model="", **fields,
-                  settings={**raw.settings, **panorama, **others})  # fmt: skip
-    return new, settings
+    return with_values(replace(raw, type=kind if is_plain else "PANO", model=""), panorama | settings), settings
 
 
 def _judged(raw: BlenderCamera, settings: dict[str, Any], pixels, rays) -> BlenderLens | None:

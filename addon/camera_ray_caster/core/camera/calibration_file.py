@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from ..cameras import MODELS
 from ..cameras.model import Model
 from ..cameras.parts.calibration import CENTER, FILE, FILE_CAMERA, SIZE
-from ..cameras.parts.settings import RECORD_FIELDS
+from ..cameras.parts.parameters import defaults_of, with_values
 from ..programs.parts.lens import FRAME_SIZE, Lens
 from ..programs.reading.lenses import lenses_of
 from ..records import BlenderCamera, InputError, Raster
@@ -31,15 +29,8 @@ def with_file(raw: BlenderCamera, model: type[Model], raster: Raster) -> Blender
     if lens.model != model.key:
         raise InputError(f"{path!r} is a calibration for {model_of(lens).label}, not {model.label}: choose that model")
     _check_shape(path, lens, raster)
-    kept = model.BESIDE_FILE
-    defaults = {
-        setting.name: setting.default
-        for setting in model.SETTINGS
-        if setting not in kept and setting.name not in RECORD_FIELDS
-    }
-    fields = {name: value for name, value in lens.settings.items() if name in RECORD_FIELDS}
-    settings = {name: value for name, value in lens.settings.items() if name not in RECORD_FIELDS}
-    return replace(raw, **fields, settings={**raw.settings, **defaults, **settings})
+    defaults = defaults_of(setting for setting in model.SETTINGS if setting not in model.BESIDE_FILE)
+    return with_values(raw, defaults | lens.settings)
 
 
 def _check_shape(path: str, lens: Lens, raster: Raster) -> None:

@@ -19,13 +19,12 @@ from ..maths.speed import lazy
 from ..maths.vector import matvec, norm
 from ..memory import of_pixels, require
 from ..records import BlenderCamera, InputError, Pose, Raster, Rays, RaysJacobian
-from .changed import changed
+from .changed import changed, posed
 from .description import Description
 from .evaluation import pixels_of, rays_through
 from .jacobian import of_projection, of_rays, of_settings
 from .meeting import meeting
 from .pixel_coordinates import by_time, checked_pixels
-from .posed import posed
 from .sampling import sampled
 from .spherical_stereo import with_eye
 from .sweep import rays_in_sweep

@@ -1,4 +1,4 @@
-"""The record of a camera with other settings."""
+"""A camera moved to another pose, and the record of one with other settings."""
 
 from __future__ import annotations
 
@@ -11,14 +11,34 @@ from ..arguments import name as a_name
 from ..cameras import find_model
 from ..cameras.behind_port import behind
 from ..cameras.parts.calibration import FILE
+from ..cameras.parts.parameters import defaults_of, with_values
 from ..cameras.parts.port_settings import PORT
 from ..cameras.parts.port_settings import SETTINGS as PORTS
+from ..cameras.parts.pose import pose_from, pose_matrix
 from ..cameras.parts.settings import RECORD_FIELDS
-from ..records import BlenderCamera
+from ..records import BlenderCamera, InputError
 from . import pixel_time
 from .completion import check_effect
-from .posed import check_still
 from .setting_values import checked, declared_by
+from .spherical_stereo import with_eye
+
+
+def posed(camera, matrix):
+    """Return a ``Camera`` with another pose. Raises InputError for an invalid matrix, and for a camera that
+    moves while it is exposed.
+    """
+    check_still(camera, "pose")
+    raw = replace(camera.record, matrix_world=pose_matrix(matrix))
+    pose = pose_from(raw)
+    model = with_eye(find_model(raw).from_blender(raw, camera.raster), raw, pose)
+    others = {"motion": None, "next": None, "previous": None}
+    return replace(camera, model=model, pose=pose, record=raw, aperture=model.aperture(raw, pose), **others)
+
+
+def check_still(camera, remedy: str) -> None:
+    """Raise InputError for a camera that moves while it is exposed."""
+    if camera.motion is not None:
+        raise InputError(f"camera {camera.name!r} moves from pixel to pixel: give camera.at(frame) another {remedy}")
 
 
 def changed(camera, settings: Mapping[str, Any]) -> BlenderCamera:
@@ -37,7 +57,7 @@ def changed(camera, settings: Mapping[str, Any]) -> BlenderCamera:
     kind = behind(lens, port)
     declared = declared_by(kind, mode)
     explicit = checked(lens.key, declared, others)
-    values = {name: setting.default for name, setting in declared.items() if name not in RECORD_FIELDS}
+    values = defaults_of(declared.values())
     values |= {**raw.settings, pixel_time.MODE.name: mode, "frame": frame, PORT.name: port}
     if values.get(FILE.name):
         values[FILE.name] = FILE.default
@@ -45,8 +65,7 @@ def changed(camera, settings: Mapping[str, Any]) -> BlenderCamera:
     for key in explicit:
         if key in declared:
             check_effect(lens.key, declared, now, declared[key])
-    fields = {key: value for key, value in explicit.items() if key in RECORD_FIELDS}
-    values |= {key: value for key, value in explicit.items() if key not in RECORD_FIELDS}
     if port == PORT.default != raw.settings.get(PORT.name):
         values.pop(PORT.name)
-    return replace(raw, name=name, **fields, settings=values)
+        explicit.pop(PORT.name, None)
+    return with_values(replace(raw, name=name, settings=values), explicit)

@@ -11,8 +11,8 @@ import numpy as np
 from ..cameras.model import Model
 from ..cameras.parts.calibration import CENTER, FOCAL, SIZE, UNIT
 from ..cameras.parts.film import OFF_AXIS, Film
+from ..cameras.parts.parameters import defaults_of, with_values
 from ..cameras.parts.port_settings import PORT
-from ..cameras.parts.settings import RECORD_FIELDS
 from ..records import BlenderCamera, InputError, Pose
 from .camera import Camera
 from .jacobian import of_projection
@@ -26,7 +26,7 @@ def guesses(camera: Camera, kind: type[Model], explicit: Mapping[str, Any]) -> l
     center of a camera. Raises InputError for a camera without rays about its viewing direction.
     """
     raw = camera.record
-    settings = {setting.name: setting.default for setting in kind.SETTINGS if setting.name not in RECORD_FIELDS}
+    settings = defaults_of(kind.SETTINGS)
     settings |= {name: value for name, value in raw.settings.items() if name not in (*settings, OFF_AXIS, PORT.name)}
     fx, fy, cx, cy = _matrix(camera)
     if UNIT in kind.SETTINGS:
@@ -36,10 +36,8 @@ def guesses(camera: Camera, kind: type[Model], explicit: Mapping[str, Any]) -> l
     start = replace(raw, type="PERSP", model=kind.key, settings=settings, shift_x=0.0, shift_y=0.0)
     film = Film.from_blender(start, camera.raster)
     start = replace(start, lens=fx * film.size / film.fitted_pixels)
-    fields = {name: value for name, value in explicit.items() if name in RECORD_FIELDS}
-    others = {name: value for name, value in explicit.items() if name not in fields}
     shapes = _shapes(kind.key, fx, fy) if UNIT in kind.SETTINGS else [{}]
-    return [replace(start, **fields, settings={**start.settings, **shape, **others}) for shape in shapes]
+    return [with_values(start, {**shape, **explicit}) for shape in shapes]
 
 
 def _shapes(key: str, fx: float, fy: float) -> list[dict[str, Any]]:

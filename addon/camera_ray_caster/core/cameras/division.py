@@ -16,10 +16,9 @@ from math import inf
 import numpy as np
 
 from ..maths.recording.scalars import sqrt
-from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibrated import Calibrated
-from .parts.calibration import CALIBRATION, Calibration
+from .parts.calibration import CALIBRATION
 from .parts.radial import COORDINATES
 from .parts.settings import Number
 
@@ -41,17 +40,13 @@ class Division(Calibrated):
     label = "Division"
     description = "A calibrated lens or fisheye with a single distortion coefficient"
     number = 23
+    NUMBERS = {"bend": LAMBDA}
     SETTINGS = (*CALIBRATION, LAMBDA)
     FORMULA = (
         COORDINATES,
         Step("Radius and depth", "rho = sqrt(a² + b²), n = 1 + lambda rho²"),
         Step("Direction", "r = (a, b, -n) / sqrt(rho² + n²)"),
     )
-
-    @classmethod
-    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Division:
-        window = Calibration.from_blender(raw, raster).window()
-        return cls(raster.size, window, inf, LAMBDA.read(raw)).settled()
 
     @property
     def own_rim(self) -> float:

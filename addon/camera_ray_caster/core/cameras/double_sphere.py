@@ -11,9 +11,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..records import BlenderCamera, Raster
 from .model import Step
-from .parts.calibration import CALIBRATION, Calibration
+from .parts.calibration import CALIBRATION
 from .parts.radial import COORDINATES, RADIUS
 from .parts.unified import ALPHA, XI, Unified
 
@@ -26,6 +25,7 @@ class DoubleSphere(Unified):
     label = "Double Sphere"
     description = "A calibrated fisheye: two spheres, the second seen from behind its center"
     number = 19
+    NUMBERS = {"xi": XI, "alpha": ALPHA}
     SETTINGS = (*CALIBRATION, XI, ALPHA)
     FORMULA = (
         COORDINATES,
@@ -35,8 +35,3 @@ class DoubleSphere(Unified):
         Step("Distance from the second sphere's center to the first sphere", "t = xi c + sqrt(1 - xi² s²)"),
         Step("Direction", "r = (a/rho t s, b/rho t s, xi - t c)"),
     )
-
-    @classmethod
-    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> DoubleSphere:
-        calibration = Calibration.from_blender(raw, raster)
-        return cls.of(raw, raster, calibration, xi=XI.read(raw), alpha=ALPHA.read(raw))

@@ -11,9 +11,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..records import BlenderCamera, Raster
 from .model import Step
-from .parts.calibration import CALIBRATION, Calibration
+from .parts.calibration import CALIBRATION
 from .parts.radial import COORDINATES, RADIUS
 from .parts.unified import ALPHA, BETA, Unified
 
@@ -26,6 +25,7 @@ class EnhancedUnifiedCamera(Unified):
     label = "Enhanced Unified (EUCM)"
     description = "A calibrated fisheye: an ellipsoid seen from behind its center"
     number = 18
+    NUMBERS = {"alpha": ALPHA, "beta": BETA}
     SETTINGS = (*CALIBRATION, ALPHA, BETA)
     FORMULA = (
         COORDINATES,
@@ -33,8 +33,3 @@ class EnhancedUnifiedCamera(Unified):
         Step("Lengths", "D = alpha sqrt(1 + (1 - 2 alpha) beta rho²) + 1 - alpha, N = 1 - beta alpha² rho²"),
         Step("Direction", "r = (D a, D b, -N) / sqrt(D² rho² + N²)"),
     )
-
-    @classmethod
-    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> EnhancedUnifiedCamera:
-        calibration = Calibration.from_blender(raw, raster)
-        return cls.of(raw, raster, calibration, alpha=ALPHA.read(raw), beta=BETA.read(raw))

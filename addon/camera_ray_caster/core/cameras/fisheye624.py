@@ -14,15 +14,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..records import BlenderCamera, Raster
 from .model import Step
-from .parts.calibration import CALIBRATION, K1, K2, K3, K4, K5, K6, P1, P2, S1, S2, S3, S4, Calibration
+from .parts.calibration import CALIBRATION, K1, K2, K3, K4, K5, K6, P1, P2, S1, S2, S3, S4
 from .parts.kannala_brandt import KannalaBrandt
 from .parts.radial import DISTORTED, RAY
-from .parts.radial_tangential import RadialTangential
-
-RADIAL = K1, K2, K3, K4, K5, K6
-REST = P1, P2, S1, S2, S3, S4
 
 
 @dataclass(frozen=True)
@@ -33,7 +28,9 @@ class Fisheye624(KannalaBrandt):
     label = "Fisheye624"
     description = "A calibrated fisheye of Project Aria: radial, tangential and thin prism distortion"
     number = 20
-    SETTINGS = (*CALIBRATION, *RADIAL, *REST)
+    RADIAL = K1, K2, K3, K4, K5, K6
+    DISTORTION = P1, P2, S1, S2, S3, S4
+    SETTINGS = (*CALIBRATION, *RADIAL, *DISTORTION)
     FORMULA = (
         DISTORTED,
         Step("Radius of the undistorted a and b, y up, found by Newton's method", "rho = sqrt(a² + b²)"),
@@ -49,11 +46,3 @@ class Fisheye624(KannalaBrandt):
     def formula_values(self, x, y):
         """See KannalaBrandt; also the undistorted coordinates."""
         return self.undistorted(x, y) | super().formula_values(x, y)
-
-    @classmethod
-    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Fisheye624:
-        calibration = Calibration.from_blender(raw, raster, (*RADIAL, *REST))
-        radial, others = (
-            {number.name: calibration.coefficients[number.name] for number in group} for group in (RADIAL, REST)
-        )
-        return cls.of(calibration, raster, list(radial.values()), RadialTangential(**others))

@@ -15,10 +15,9 @@ from math import atan, inf, pi, radians
 import numpy as np
 
 from ..maths.recording import tan
-from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibrated import Calibrated
-from .parts.calibration import CALIBRATION, Calibration
+from .parts.calibration import CALIBRATION
 from .parts.film import FARTHEST_PIXELS
 from .parts.radial import COORDINATES, RADIUS, RAY, radii_of
 from .parts.settings import Number
@@ -40,6 +39,7 @@ class FieldOfView(Calibrated):
     description = "A calibrated wide-angle lens whose distortion is given by a single angle"
     number = 22
     guarded = False
+    NUMBERS = {"omega": OMEGA}
     SETTINGS = (*CALIBRATION, OMEGA)
     FORMULA = (
         COORDINATES,
@@ -47,11 +47,6 @@ class FieldOfView(Calibrated):
         Step("Angle from the axis", "theta = atan(tan(rho omega) / (2 tan(omega / 2)))"),
         RAY,
     )
-
-    @classmethod
-    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FieldOfView:
-        window = Calibration.from_blender(raw, raster).window()
-        return cls(raster.size, window, inf, OMEGA.read(raw)).settled()
 
     @property
     def own_rim(self) -> float:

@@ -26,7 +26,7 @@ from ..maths.vector import components
 from ..records import BlenderCamera, InputError, Raster
 from .model import IN_RAYS, Model, Step
 from .parts.settings import Numbers, Setting
-from .parts.silhouette import PIXEL_MARGIN
+from .parts.silhouette import MARGINS
 
 RAY_ROUNDING = 16 * EPS32
 """Magnitude relative to the rays' numbers below which a value counts as zero: Blender stores the rays as float32."""
@@ -131,9 +131,7 @@ class GeneralLinear(Model):
     def bounds(self, centers, radii):
         across, up, determinant = self._solved(*(Interval.around(c, radii) for c in components(centers)))
         x, y = across / determinant * self.size[0], up / determinant * self.size[1]
-        bounds = np.stack(
-            (x.low - PIXEL_MARGIN, x.high + PIXEL_MARGIN, y.low - PIXEL_MARGIN, y.high + PIXEL_MARGIN), axis=-1
-        )
+        bounds = np.stack((x.low, x.high, y.low, y.high), axis=-1) + MARGINS
         bounds[centers[:, 2] > radii] = np.nan
         return bounds
 

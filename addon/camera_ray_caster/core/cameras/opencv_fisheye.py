@@ -13,9 +13,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..records import BlenderCamera, Raster
 from .model import Step
-from .parts.calibration import CALIBRATION, FISHEYE, Calibration
+from .parts.calibration import CALIBRATION, FISHEYE
 from .parts.kannala_brandt import KannalaBrandt
 from .parts.radial import COORDINATES, RADIUS, RAY
 
@@ -28,6 +27,7 @@ class OpencvFisheye(KannalaBrandt):
     label = "OpenCV Fisheye"
     description = "A calibrated fisheye, by Kannala and Brandt"
     number = 5
+    RADIAL = FISHEYE
     SETTINGS = (*CALIBRATION, *FISHEYE)
     FORMULA = (
         COORDINATES,
@@ -35,8 +35,3 @@ class OpencvFisheye(KannalaBrandt):
         Step("Angle, by Newton's method", "rho = theta (1 + k1 theta² + k2 theta⁴ + k3 theta⁶ + k4 theta⁸)"),
         RAY,
     )
-
-    @classmethod
-    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OpencvFisheye:
-        calibration = Calibration.from_blender(raw, raster, FISHEYE)
-        return cls.of(calibration, raster, [calibration.coefficients[setting.name] for setting in FISHEYE])

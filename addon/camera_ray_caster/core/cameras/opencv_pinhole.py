@@ -27,7 +27,7 @@ from .parts.calibration import CALIBRATION, PINHOLE, Calibration
 from .parts.film import OFF_AXIS, Film, raster_from
 from .parts.radial import DISTORTED, up_to
 from .parts.radial_tangential import RadialTangential
-from .parts.silhouette import angular_radius, pixel_bounds, radial_intervals
+from .parts.silhouette import pixel_bounds
 from .parts.tilt import Tilt
 
 EDGE_POINTS, EDGE_MARGIN = 129, 1.01
@@ -166,16 +166,7 @@ class OpencvPinhole(WindowModel):
 
     def bounds(self, centers, radii):
         widest = atan(self.distortion.limit)
-
-        def radius(theta):
-            r = np.tan(theta)
-            return r * self.distortion.gain(r * r)[0]
-
-        across = np.hypot(centers[:, 0], centers[:, 1])
-        far = np.arctan2(across, -centers[:, 2]) + angular_radius(np.hypot(across, centers[:, 2]), radii)
-        spread = self.distortion.off_radius(np.minimum(np.tan(np.minimum(far, widest)), self._reach))
-        intervals = radial_intervals(centers, radii, radius, widest)
-        (left, right), (low, high) = ((low - spread, high + spread) for low, high in intervals)
+        (left, right), (low, high) = self.distortion.intervals(centers, radii, np.tan, widest, self._reach)
         if self.tilt:
             (left, right), (low, high) = self.tilt.intervals((left, right), (-high, -low))
             low, high = -high, -low

@@ -34,7 +34,7 @@ from .parts.calibration import FROM_FILE
 from .parts.ray_grid import BORDER_ENTRIES, LINEAR, NONE, SPLINE, RayGrid, weights_of
 from .parts.ray_search import entries_of, places_of
 from .parts.ray_settings import AREA, AXES, BLOCK_COLUMNS, BLOCK_ROWS, DIRECTIONS, INTERPOLATION, OPENCV, ORIGINS, SLIDE
-from .parts.silhouette import PIXEL_MARGIN
+from .parts.silhouette import MARGINS
 
 BESIDE = 1e-9
 """Fraction of an entry by which a place may lie beyond the table: rounding must not lose the frame's edges."""
@@ -188,7 +188,7 @@ class RayTable(Model):
         """See Model: those of the parts of the table whose rays may meet the balls."""
         (a, c), (b, d) = self.scale, self.shift
         places = self.grid.seen_parts.bounds(centers, radii)
-        return (places - (b, b, d, d)) / (a, a, c, c) + (-PIXEL_MARGIN, PIXEL_MARGIN, -PIXEL_MARGIN, PIXEL_MARGIN)
+        return (places - (b, b, d, d)) / (a, a, c, c) + MARGINS
 
     @property
     def formula_reach(self) -> float:

@@ -27,7 +27,7 @@ from .model import Model, Step
 from .parts.film import Window
 from .parts.lines import LINE_ROUNDING, path_from
 from .parts.settings import Flag, Line
-from .parts.silhouette import PIXEL_MARGIN
+from .parts.silhouette import MARGINS
 from .perspective import PLANE, Perspective
 
 PATH = Line(
@@ -165,18 +165,12 @@ class Strip(Model):
             first = np.flatnonzero(np.diff(ball, prepend=-1))
             slope = _slopes(center[ball], radius[ball], eyes[piece], eyes[piece + 1])
             low, high = np.minimum.reduceat(slope.low, first), np.maximum.reduceat(slope.high, first)
-            bounds[start + ball[first]] = np.stack(
-                (
-                    marks[piece[first]],
-                    marks[np.maximum.reduceat(piece, first) + 1],
-                    *(self.rows.pixels_from_plane(0.0, end)[1] for end in (low, high)),
-                ),
-                axis=1,
-            )
-        return bounds + np.array((-PIXEL_MARGIN, PIXEL_MARGIN, -PIXEL_MARGIN, PIXEL_MARGIN))
+            left, right = marks[piece[first]], marks[np.maximum.reduceat(piece, first) + 1]
+            bottom, top = (self.rows.pixels_from_plane(0.0, end)[1] for end in (low, high))
+            bounds[start + ball[first]] = np.stack((left, right, bottom, top), axis=1)
+        return bounds + MARGINS
 
     def _stretch(self, x):
-        """Return the stretch of the path on which columns are."""
         return np.clip(np.searchsorted(self.columns, x, side="right") - 1, 0, len(self.columns) - 2)
 
     def _at(self, x):

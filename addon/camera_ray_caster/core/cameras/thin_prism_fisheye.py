@@ -12,6 +12,7 @@ COLMAP documentation, Camera Models.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 
 from ..records import BlenderCamera, Raster
 from .model import Step
@@ -52,5 +53,5 @@ class ThinPrismFisheye(KannalaBrandt):
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> ThinPrismFisheye:
         calibration = Calibration.from_blender(raw, raster, DISTORTION)
         coefficients = dict(calibration.coefficients)
-        eighth = coefficients.pop(K4.name)
-        return cls.of(calibration, raster, (), RadialTangential(**coefficients, r8=eighth))
+        distortion = RadialTangential(r8=coefficients.pop(K4.name), **coefficients)
+        return cls(raster.size, calibration.window(), inf, (), distortion=distortion).settled()

@@ -12,13 +12,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..records import BlenderCamera, Raster
 from .model import Step
-from .parts.calibration import CALIBRATION, K1, K2, P1, P2, Calibration
+from .parts.calibration import CALIBRATION, K1, K2, P1, P2
 from .parts.radial import DISTORTED, RAY
 from .parts.unified import XI, Unified
-
-DISTORTION = K1, K2, P1, P2
 
 
 @dataclass(frozen=True)
@@ -29,6 +26,7 @@ class UnifiedCamera(Unified):
     label = "Unified (UCM, Mei)"
     description = "A calibrated mirror lens or fisheye: a sphere seen from behind its center"
     number = 17
+    NUMBERS, DISTORTION = {"xi": XI}, (K1, K2, P1, P2)
     SETTINGS = (*CALIBRATION, XI, *DISTORTION)
     FORMULA = (
         DISTORTED,
@@ -49,7 +47,3 @@ class UnifiedCamera(Unified):
         """See Model: the undistorted coordinates."""
         return self.undistorted(x, y)
 
-    @classmethod
-    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> UnifiedCamera:
-        calibration = Calibration.from_blender(raw, raster, DISTORTION)
-        return cls.of(raw, raster, calibration, xi=XI.read(raw))

@@ -20,10 +20,11 @@ from ..camera.setting_values import checked, declared_by, line_in_words
 from ..cameras.behind_port import behind
 from ..cameras.parts.aperture import DEPTH_OF_FIELD
 from ..cameras.parts.calibration import FILE, SIZE
+from ..cameras.parts.parameters import defaults_of, with_values
 from ..cameras.parts.port_settings import PORT
 from ..cameras.parts.port_settings import SETTINGS as PORTS
 from ..cameras.parts.pose import pose_matrix
-from ..cameras.parts.settings import RECORD_FIELDS, Line
+from ..cameras.parts.settings import Line
 from ..programs import READ
 from ..programs.parts.lens import FRAME_SIZE, Lens
 from ..records import BlenderCamera, InputError
@@ -75,20 +76,12 @@ def camera(model: str, size, pose=None, **settings: Any) -> Camera:
         explicit.pop(PORT.name, None)
     explicit |= completed(model, declared, explicit, (width, height))
     explicit = {**kind.following(explicit), **explicit}
-    values = {key: setting.default for key, setting in declared.items() if key not in RECORD_FIELDS}
-    values |= {key: value for key, value in explicit.items() if key not in RECORD_FIELDS}
-    fields: dict[str, Any] = {"clip_start": 0.0, "clip_end": np.inf}
-    fields |= {key: value for key, value in explicit.items() if key in RECORD_FIELDS}
+    others = {pixel_time.MODE.name: mode, "frame": frame, "focus_position": None, **defaults_of(declared.values())}
     raw = BlenderCamera(
-        name=name,
-        type="PERSP",
-        model=model,
-        matrix_world=pose_matrix(pose),
-        resolution_x=width,
-        resolution_y=height,
-        settings={pixel_time.MODE.name: mode, "frame": frame, "focus_position": None, **values},
-        **fields,
-    )
+        name=name, type="PERSP", model=model, matrix_world=pose_matrix(pose), settings=others, clip_start=0.0,
+        clip_end=np.inf, resolution_x=width, resolution_y=height,
+    )  # fmt: skip
+    raw = with_values(raw, explicit)
     for setting in DEPTH_OF_FIELD:
         setting.read(raw)
     return camera_from(raw)

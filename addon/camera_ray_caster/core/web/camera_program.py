@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
@@ -16,8 +16,8 @@ import numpy as np
 
 from ..camera.camera import Camera
 from ..cameras.model import Model
-from ..cameras.parts.parameters import parameters_of, with_parameters
-from ..cameras.parts.settings import RECORD_FIELDS, Choice, Flag, Number, Numbers, Setting, Whole
+from ..cameras.parts.parameters import parameters_of, with_parameters, with_values
+from ..cameras.parts.settings import Choice, Flag, Number, Numbers, Setting, Whole
 from ..maths.recording import NUMPY, NotRecordable, Record, needed, record_known
 from ..records import BlenderCamera, InputError
 from .formula_values import values_of
@@ -118,10 +118,7 @@ def with_settings(raw: BlenderCamera, model: type[Model], values: Mapping[str, A
     numbers = {name: values.get(name, number) for name, number in parameters_of(model.SETTINGS, raw).items()}
     made = with_parameters(model.SETTINGS, raw, numbers.values())
     not_numbers = {setting.name for setting in model.SETTINGS} & set(values) - set(numbers)
-    fields = {name: values[name] for name in not_numbers & RECORD_FIELDS}
-    return replace(
-        made, **fields, settings={**made.settings, **{name: values[name] for name in not_numbers - RECORD_FIELDS}}
-    )
+    return with_values(made, {name: values[name] for name in not_numbers})
 
 
 def knobs_of(setting: Setting, raw: BlenderCamera) -> Iterator[Knob]:

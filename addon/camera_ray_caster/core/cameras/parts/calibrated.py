@@ -11,18 +11,22 @@ from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Self
+from math import inf
+from typing import ClassVar, Self
 
 import numpy as np
 
 from ...maths.panels import Disc, on_raster
 from ...maths.recording import is_recorded
 from ...maths.recording.scalars import least, plain
+from ...records import BlenderCamera, Raster
 from ..model import IN_RAYS
+from .calibration import Calibration
 from .film import FARTHEST_PIXELS
 from .radial import RIM_SLACK, Radial
 from .radial_tangential import RadialTangential
-from .silhouette import angular_radius, pixel_bounds, radial_intervals
+from .settings import Number
+from .silhouette import pixel_bounds
 
 SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -41,6 +45,18 @@ class Calibrated(Radial):
 
     group = "Calibrated"
     polynomials = IN_RAYS  # and in casts where there is distortion: see ``rays``
+    NUMBERS: ClassVar[dict[str, Number]] = {}
+    """The settings of the model's own numbers, by its fields."""
+    DISTORTION: ClassVar[tuple[Number, ...]] = ()
+    """The settings of the coefficients of ``distortion``."""
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Self:
+        """See Model: by K or the lens, NUMBERS and DISTORTION."""
+        calibration = Calibration.from_blender(raw, raster, cls.DISTORTION)
+        numbers = {field: setting.read(raw) for field, setting in cls.NUMBERS.items()}
+        distortion = RadialTangential(**calibration.coefficients)
+        return cls(raster.size, calibration.window(), inf, **numbers, distortion=distortion).settled()
 
     @property
     def guarded(self) -> bool:  # type: ignore[override]
@@ -108,13 +124,4 @@ class Calibrated(Radial):
         return super()._pixels(across, -down)
 
     def bounds(self, centers, radii):
-        across = np.hypot(centers[:, 0], centers[:, 1])
-        far = np.arctan2(across, -centers[:, 2]) + angular_radius(np.hypot(across, centers[:, 2]), radii)
-        spread = self.distortion.off_radius(self.radius(np.minimum(far, self.widest)))
-
-        def radius(theta):
-            r = self.radius(theta)
-            return r * self.distortion.gain(r * r)[0]
-
-        intervals = radial_intervals(centers, radii, radius, self.widest)
-        return pixel_bounds(self.window, *((low - spread, high + spread) for low, high in intervals))
+        return pixel_bounds(self.window, *self.distortion.intervals(centers, radii, self.radius, self.widest))

@@ -7,11 +7,10 @@ Reference: J. Kannala and S. Brandt, A Generic Camera Model and Calibration Meth
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import inf, pi
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -20,12 +19,13 @@ from ...maths.polynomials import horner
 from ...maths.recording import is_recorded, least_root
 from ...maths.recording.scalars import least, plain, sqrt
 from ...maths.speed import lazy
-from ...records import Raster
+from ...records import BlenderCamera, Raster
 from ..model import IN_CASTS
 from .calibrated import Calibrated
 from .calibration import Calibration
 from .radial import factors_of, radii_of
 from .radial_tangential import RadialTangential
+from .settings import Number
 
 
 @dataclass(frozen=True)
@@ -37,18 +37,15 @@ class KannalaBrandt(Calibrated):
 
     guarded = False
     polynomials = IN_CASTS
+    RADIAL: ClassVar[tuple[Number, ...]] = ()
+    """The settings of ``coefficients``."""
 
     @classmethod
-    def of(
-        cls,
-        calibration: Calibration,
-        raster: Raster,
-        coefficients: Sequence[float],
-        distortion: RadialTangential | None = None,
-    ) -> Self:
-        """Return the lens with these coefficients, as far as the polynomial and the distortion are one-to-one."""
-        distortion = distortion or RadialTangential()
-        return cls(raster.size, calibration.window(), inf, tuple(coefficients), distortion=distortion).settled()
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Self:
+        calibration = Calibration.from_blender(raw, raster, (*cls.RADIAL, *cls.DISTORTION))
+        others = dict(calibration.coefficients)
+        radial = tuple(others.pop(setting.name) for setting in cls.RADIAL)
+        return cls(raster.size, calibration.window(), inf, radial, distortion=RadialTangential(**others)).settled()
 
     def distorted(self, theta):
         """Return the radii r of angles."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -36,13 +36,20 @@ def varied(settings: Iterable[Setting], raw: BlenderCamera, names: Sequence[str]
 def with_parameters(settings: Iterable[Setting], raw: BlenderCamera, numbers: Iterable[float]) -> BlenderCamera:
     """Return the record with these numbers in place of those of ``parameters_of``."""
     remaining = iter(numbers)
-    fields: dict[str, Any] = {}
-    in_settings: dict[str, Any] = {}
-    for setting in settings:
-        values = tuple(next(remaining) for _ in _named(setting, raw))
-        if values:
-            (fields if setting.name in RECORD_FIELDS else in_settings)[setting.name] = _value(setting, values)
-    return replace(raw, **fields, settings={**raw.settings, **in_settings})
+    values = {setting: tuple(next(remaining) for _ in _named(setting, raw)) for setting in settings}
+    return with_values(raw, {setting.name: _value(setting, several) for setting, several in values.items() if several})
+
+
+def with_values(raw: BlenderCamera, values: Mapping[str, Any]) -> BlenderCamera:
+    """Return the record with other values of settings, by name."""
+    fields: dict[str, Any] = {name: value for name, value in values.items() if name in RECORD_FIELDS}
+    others = {name: value for name, value in values.items() if name not in fields}
+    return replace(raw, **fields, settings={**raw.settings, **others})
+
+
+def defaults_of(settings: Iterable[Setting]) -> dict[str, Any]:
+    """Return the defaults, by name, of settings that are not fields of a record, which have their own."""
+    return {setting.name: setting.default for setting in settings if setting.name not in RECORD_FIELDS}
 
 
 def _named(setting: Setting, raw: BlenderCamera) -> dict[str, float]:

@@ -14,6 +14,7 @@ A. Sanchez-Salmeron (2010), thin prism.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 from functools import cached_property
 from math import atan, inf, radians, tan
@@ -25,6 +26,7 @@ from ...maths.polynomials import horner, with_slope
 from ...maths.recording import is_recorded, least_root, loop, roundoff, stop_gradient
 from ...maths.recording.scalars import hypot, least
 from .edge import Edge
+from .silhouette import angular_radius, radial_intervals
 
 STEEPEST = tan(radians(89.9))
 """Largest undistorted radius of a picture without an end."""
@@ -118,6 +120,20 @@ class RadialTangential:
         """Return a bound on the distorted radius of a point at this radius, within the limit; it grows with r."""
         return r * self.gain(r * r)[0] + self.off_radius(r)
 
+    def intervals(self, centers, radii, radius: Callable, widest: float, reach: float = inf):
+        """Return the intervals in x and y that spheres cover in the distorted picture, whose radii are up to ``reach``;
+        ``radius`` and ``widest`` are those of ``radial_intervals``, of the undistorted picture.
+        """
+        across = np.hypot(centers[:, 0], centers[:, 1])
+        far = np.arctan2(across, -centers[:, 2]) + angular_radius(np.hypot(across, centers[:, 2]), radii)
+        spread = self.off_radius(np.minimum(radius(np.minimum(far, widest)), reach))
+
+        def distorted(theta):
+            r = radius(theta)
+            return r * self.gain(r * r)[0]
+
+        return [(low - spread, high + spread) for low, high in radial_intervals(centers, radii, distorted, widest)]
+
     @cached_property
     def limit(self) -> float:
         """Return the undistorted radius up to which the map is one-to-one, inf if it is so everywhere.
@@ -191,7 +207,6 @@ class RadialTangential:
         return x, y
 
     def _step(self, x, y, u, v):
-        """Return Newton's step."""
         s = x * x + y * y
         gain, slope = self.gain(s)
         turn = self._turn(x, y, gain)

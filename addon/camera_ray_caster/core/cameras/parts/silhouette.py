@@ -11,6 +11,8 @@ from ...maths.vector import components
 
 PIXEL_MARGIN = 1 / 16
 """Pixels added on each side: far more than the rounding of the bounds, and too few to cost culling much."""
+MARGINS = np.array((-PIXEL_MARGIN, PIXEL_MARGIN, -PIXEL_MARGIN, PIXEL_MARGIN))
+"""The same for bounds x0, x1, y0, y1."""
 
 EVERYWHERE = -np.inf, np.inf
 
@@ -129,4 +131,4 @@ def _mark(everywhere, nowhere, interval):
 def pixel_bounds(window, interval_x, interval_y):
     """Return (n, 4) pixel bounds x0, x1, y0, y1 of intervals on a window, with the margin; NaN means nowhere."""
     (x0, x1), (y0, y1) = window.pixel_intervals(interval_x, interval_y)
-    return np.stack((x0 - PIXEL_MARGIN, x1 + PIXEL_MARGIN, y0 - PIXEL_MARGIN, y1 + PIXEL_MARGIN), axis=-1)
+    return np.stack((x0, x1, y0, y1), axis=-1) + MARGINS

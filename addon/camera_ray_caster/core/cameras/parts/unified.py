@@ -16,15 +16,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import inf
-from typing import Self
 
 import numpy as np
 
 from ...maths.recording.scalars import least, sqrt
-from ...records import BlenderCamera, Raster
 from .calibrated import Calibrated
-from .calibration import Calibration
-from .radial_tangential import RadialTangential
 from .settings import Number
 
 XI = Number(
@@ -47,13 +43,6 @@ class Unified(Calibrated):
     xi: float = 0.0
     alpha: float = 0.0
     beta: float = 1.0
-
-
-    @classmethod
-    def of(cls, raw: BlenderCamera, raster: Raster, calibration: Calibration, **shape: float) -> Self:
-        """Return the lens with this shape and the calibration's coefficients as its distortion."""
-        distortion = RadialTangential(**calibration.coefficients)
-        return cls(raster.size, calibration.window(), inf, **shape, distortion=distortion).settled()
 
     @property
     def own_rim(self) -> float:
