@@ -9,6 +9,8 @@ from camera_ray_caster.core.programs.reading.lenses import lenses_of
 from camera_ray_caster.core.programs.reading.mounted import mounted
 from camera_ray_caster.core.records import InputError
 
+from .test_contract import SAMPLES
+
 UNIT = [1, 0, 0, 0, 1, 0, 0, 0, 1]
 QUARTER = [0, -1, 0, 1, 0, 0, 0, 0, 1]
 PLACE = [1.0, 2.0, 3.0]
@@ -116,6 +118,12 @@ def test_what_is_not_read_is_named(name, tmp_path):
     assert "\n" not in str(refusal)
 
 
+def test_the_view_of_isaac_sim_is_its_pose():
+    """A quarter turn about z; 3 m above (1, 2): its centimeters are 100, 200 and 300."""
+    (camera,) = rig(str(SAMPLES / "nvidia.json"))
+    assert camera.poses[0][:3] == pytest.approx(np.array([[0, 1, 0, 1], [-1, 0, 0, 2], [0, 0, 1, 3]]), abs=1e-15)
+
+
 PAIR = [("left", [300, 200, 150]), ("right", [310, 201, 151])]
 PLACES = matrix("R", 3, UNIT) + matrix("T", 3, [-0.12, 0, 0])
 
@@ -139,6 +147,21 @@ def test_the_matrices_that_rectified_a_pair_of_orbslam_are_not_its_camera(tmp_pa
     text = ORB + "LEFT.width: 400\n" + matrix("LEFT.K", 3, K(400, 210, 140), "") + matrix("LEFT.D", 1, [0.1] * 5, "")
     (lens,) = lenses_of(written(tmp_path, "stereo.yaml", text))
     assert settings(lens, "fx", "cx", "k1") == [300, 200, 0]
+
+
+def test_of_echoed_messages_the_first_is_read(tmp_path):
+    message = f"header:\n  seq: 1\nheight: 300\nwidth: 400\ndistortion_model: plumb_bob\nD: []\nK: {K(300, 200, 150)}\n"
+    (lens,) = lenses_of(written(tmp_path, "echo.yaml", f"{message}---\n{message}---\n"))
+    assert settings(lens, "fx", "calibration_width") == [300, 400]
+    with pytest.raises(InputError, match="line 9 begins a second document"):
+        lenses_of(written(tmp_path, "two.yaml", f"{message}---\nK: 1\n"))
+
+
+@pytest.mark.parametrize("name", ["Kd", "ks", "extra_params", "fisheye_params", "poly", "lens_correction", "distortion_w"])
+def test_a_distortion_that_is_not_understood_is_named(name, tmp_path):
+    content = {"K": K(300, 200, 150), name: 0.9 if name == "distortion_w" else [-0.2, 0.1]}
+    with pytest.raises(InputError, match=f"{name} may be its distortion"):
+        lenses_of(written(tmp_path, "camera.json", content))
 
 
 def test_folders_name_cameras_with_lenses_of_their_own(tmp_path):

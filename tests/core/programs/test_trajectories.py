@@ -30,6 +30,10 @@ def read(tmp_path, text, name="path.txt"):
         (f"%time,field.header.seq,field.header.stamp,field.pose.position.x,field.pose.position.y,field.pose.position.z,"
          f"field.pose.orientation.x,field.pose.orientation.y,field.pose.orientation.z,field.pose.orientation.w\n"
          f"1500000000500000000,7,1500000000500000000,1,2,3,0,0,{H},{H}\n", [1]),
+        (f"time_s,tx,ty,tz,ox,oy,oz,ow\n1,1,2,3,0,0,{H},{H}\n2,1,2,3,0,0,{H},{H}\n", [1, 11]),
+        (f"graph_uid,tracking_timestamp_us,tx_world_device,ty_world_device,tz_world_device,qx_world_device,"
+         f"qy_world_device,qz_world_device,qw_world_device,gravity_x_world,tx_ecef_device\n"
+         f"01234567-89ab-cdef-0123-456789abcdef,500000,1,2,3,0,0,{H},{H},9,0\n", [1]),
         (f"1 2 3 0 0 {H} {H}\n1 2 3 0 0 {H} {H}\n", [1, 2]),
         (f"1,2,3,0,0,{H},{H}\n1,2,3,0,0,{H},{H}\n", [1, 2]),
         (f"time;x;y;z;qx;qy;qz;qw\n1.0;1;2;3;0;0;{H};{H}\n1.5;1;2;3;0;0;{H};{H}\n", [1, 6]),

@@ -8,6 +8,7 @@ The center of the first pixel is (0, 0).
 The camera_params.json of Omniverse Replicator and Isaac Sim has a pinhole with square pixels, or a fisheye by a
 polynomial that gives the angle, rad, of a radius in pixels of the nominal picture. There the center counts from the
 picture's corner, so that half the width is the middle.
+cameraViewTransform leads from the world to a camera like Blender's, as a matrix behind rows, in units of the scene.
 References: NVIDIA DriveWorks SDK documentation, Rig Configuration; NVIDIA NCore documentation, Camera Models; NVIDIA
 Omniverse Replicator documentation, Annotators: CameraParams.
 """
@@ -16,9 +17,13 @@ from __future__ import annotations
 
 from math import radians
 
+import numpy as np
+
+from ..units import METERS
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens, matrix, one_of_several
+from .parts.placed import FROM_BLENDER, Placed, inverted, pose_of
 from .parts.program import ProgramFiles
 
 REFERENCES = {
@@ -31,6 +36,7 @@ REFERENCES = {
 }
 """Names of the polynomial that is the model, or NCore's number of it, and our key of it."""
 NOMINAL = "cameraFisheyeNominalWidth", "cameraFisheyeNominalHeight"
+VIEW = "cameraViewTransform"
 FISHEYE, PINHOLE = "fisheyePolynomial", "pinhole"
 
 
@@ -61,6 +67,16 @@ def read(document: Document) -> list[Lens]:
         return [one_of_several(name, _of_nurec, calibration.labeled(name)) for name, calibration in named]
     inside = entries.part("camera_model_parameters")
     return [of_parameters(entries if entries.has("reference_poly") else inside)]
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles: that of Isaac Sim's camera; none of other files."""
+    entries = document.entries
+    if not entries.has(VIEW):
+        return []
+    to_camera = pose_of(document, np.reshape(entries.numbers(VIEW, 16), (4, 4)).T.tolist(), VIEW)
+    to_camera[:3, 3] *= entries.number("metersPerSceneUnit", 1.0)
+    return [Placed("", "", None, inverted(to_camera) @ FROM_BLENDER)]
 
 
 def _of_rig(properties: Fields) -> Lens:
@@ -136,5 +152,5 @@ def _of_isaac(entries: Fields) -> Lens:
 PROGRAM = ProgramFiles(
     "NVIDIA (f-theta, Isaac Sim)", "DriveWorks rigs, NCore, NuRec, camera_params.json", looks,
     marks="rig sensors properties ftheta polynomial reference_poly cameraModel",
-    reads="f-theta, fisheyePolynomial, pinhole", lost="windshields are refused", read=read,
+    reads="f-theta, fisheyePolynomial, pinhole", lost="windshields are refused; poses but those of Isaac Sim", read=read, poses=poses, unit=METERS,
 )  # fmt: skip

@@ -2,8 +2,8 @@
 
 The subset: block mappings and block sequences by indentation; flow sequences and mappings, ``[ ... ]`` and ``{ ... }``,
 also over several lines, and in the line below their key; plain and quoted scalars, each in one line; comments; tags,
-which are ignored, as are directives and document marks. Anchors, block scalars, several documents and keys that are
-neither quoted nor plain words are refused. A sequence in place of the outermost mapping is read, too.
+which are ignored, as are directives and document marks. Of documents that begin alike, as messages that are echoed, the first
+is read. Anchors, block scalars, other documents and keys that are neither quoted nor plain words are refused. A sequence in place of the outermost mapping is read, too.
 Reference: YAML 1.2.2, chapters 6 to 9; OpenCV documentation, File Input and Output using XML / YAML / JSON files.
 """
 
@@ -54,7 +54,7 @@ def parse(text: str, check: Callable[[], None] = lambda: None) -> dict[str, Valu
     levels = [_Level(0, root)]
     waiting: tuple[dict | list, str | int, int] | None = None  # an entry whose value may follow, and its column
     lines = text.splitlines()
-    at, ended = 0, False
+    at, ended, first = 0, False, ""
     while at < len(lines):
         check()
         number, line = at + 1, _without_comment(lines[at])
@@ -65,6 +65,9 @@ def parse(text: str, check: Callable[[], None] = lambda: None) -> dict[str, Valu
         if content in ("---", "..."):
             ended = bool(root)
             continue
+        if ended and content == first:
+            return root
+        first = first or content
         if ended:
             raise YamlError(f"line {number} begins a second document")
         column, is_item = len(line) - len(line.lstrip()), content == "-" or content.startswith("- ")

@@ -51,9 +51,11 @@ SIDES = ("1", "2"), ("left", "right"), ("l", "r")
 PREFIX = re.compile(r"(.+?)[._\s-](?:fx|flx)", re.IGNORECASE)
 
 
-BEND = re.compile(r"dist(?!anc|rib)|coef|radial|tangent|kappa|aberration|barrel|^warp|polynom")
+BEND = re.compile(r"dist(?!anc|rib)|coef|radial|tangent|kappa|aberration|barrel|^warp|polynom|lenscorr")
 """What names of distortions have."""
-BEND_BESIDE = re.compile(BEND.pattern + r"|^k?[dk]c\d?$|^((lens|type)?param(eter)?|value)s$|^d\d?$")
+BEND_BESIDE = re.compile(
+    BEND.pattern + r"|^k?[dk]c\d?$|^k[ds]$|^rd$|^poly$|^((lens|type|extra|fisheye|rad)?param(eter)?|value)s$|^d\d?$"
+)
 """What they have beside a camera matrix."""
 TERM = re.compile(r"[kpsd]\d|tau[xy]|radial|tangential")
 """Names of what a mapping of a distortion has."""
@@ -61,8 +63,8 @@ INSIDE = "distortion."
 """What stands before other names in it, as no plain name begins."""
 COEFFICIENT = re.compile(
     r"(.*(dist(ortion)?|lens|radial|tangential|coef\w*?|cam))?"
-    r"(k|p|s|d|kappa|dist(ortion)?|radial|tangential|coeff?)[0-9]|.*distortion(value|amount)?|"
-    r"(lens)?(barrel|warp|aberration)|omega"
+    r"(k|p|s|d|kappa|dist(ortion)?|radial|tangential|coeff?)[0-9]|.*distortion(value|amount|w|omega|lambda)?|"
+    r"(lens)?(barrel|warp|aberration|correction)|omega|lambda|division"
 )
 """Names of a distortion's coefficients."""
 SHAPES = {"alpha", "beta"}, {"alpha", "xi"}

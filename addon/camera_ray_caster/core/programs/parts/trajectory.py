@@ -28,8 +28,8 @@ UNIT_LENGTH = 2e-3
 """Departure of a quaternion's squared length from 1: files have from 3 digits on."""
 
 COLUMN = re.compile(
-    r"(?P<frame>frame(?:_?(?:id|idx|index|nr|no|number))?)|(?P<time>%?u?(?:time|timestamp|stamp|t|sec|secs|seconds|nsec|nsecs|nanoseconds)(?:_?(?:ns|nsec|us|ms|s|sec))?)|"
-    r"(?P<turn>(?:.*(?:quat|orient|rot)\w*[._]|q[a-z_]*|rot[a-z_]*|r|rvec_?))(?P<turned>[wxyz])|"
+    r"(?P<frame>frame(?:_?(?:id|idx|index|nr|no|number))?)|(?P<time>%?u?(?:tracking_)?(?:time|timestamp|stamp|t|sec|secs|seconds|nsec|nsecs|nanoseconds)(?:_?(?:ns|nsec|us|ms|s|sec))?)|"
+    r"(?P<turn>(?:.*(?:quat|orient|rot)\w*[._]|q[a-z_]*|rot[a-z_]*|r|o|rvec_?))(?P<turned>[wxyz])|"
     r"(?P<place>(?:.*(?:pos|transl)\w*[._]|p[a-z_]*|t(?:ransl[a-z_]*)?_?|))(?P<placed>[xyz])"
 )  # fmt: skip
 """Names of columns: times, parts of rotations, and parts of places."""
@@ -37,6 +37,10 @@ UNITS = {"ns": 1e-9, "nsec": 1e-9, "nsecs": 1e-9, "nanoseconds": 1e-9, "us": 1e-
          "secs": 1.0, "seconds": 1.0, "utime": 1e-6}  # fmt: skip
 """Seconds of the units in names of times."""
 ANGLES = "roll", "pitch", "yaw"
+WORLD = "_world_device"
+"""End of the names of Project Aria's poses, which have others in other frames."""
+NAMED = re.compile(r"[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12},")
+"""Begin of lines with a unique identifier before the numbers."""
 LONGEST_NAME = 100
 """Characters of a name of a column."""
 LONGEST_LINE = 1 << 14
@@ -183,7 +187,7 @@ def _has_commas(line: str) -> bool:
 
 
 def _is_number(line: str) -> bool:
-    return bool(numbers_of(_words(line)[:1]))
+    return bool(numbers_of(_words(line)[:1])) or NAMED.match(line) is not None
 
 
 def _named(head: str, line: str) -> list[tuple[str, str]] | None:
@@ -197,7 +201,8 @@ def _named(head: str, line: str) -> list[tuple[str, str]] | None:
     names = []
     for word in words:
         name, _, unit = re.sub(r"[\])\s]", "", word.lower()).replace("(", "[").partition("[")
-        names.append((name.split("field.")[-1].removeprefix("%").removeprefix("#"), unit))
+        name = name.split("field.")[-1].removeprefix("%").removeprefix("#")
+        names.append((name.removesuffix(WORLD), unit))
     known = sum(COLUMN.fullmatch(name) is not None or name in ANGLES for name, _ in names)
     return names if known >= LEAST else None
 
