@@ -157,7 +157,10 @@ def test_of_echoed_messages_the_first_is_read(tmp_path):
         lenses_of(written(tmp_path, "two.yaml", f"{message}---\nK: 1\n"))
 
 
-@pytest.mark.parametrize("name", ["Kd", "ks", "extra_params", "fisheye_params", "poly", "lens_correction", "distortion_w"])
+BENT = "Kd", "ks", "extra_params", "fisheye_params", "poly", "lens_correction", "distortion_w"
+
+
+@pytest.mark.parametrize("name", BENT)
 def test_a_distortion_that_is_not_understood_is_named(name, tmp_path):
     content = {"K": K(300, 200, 150), name: 0.9 if name == "distortion_w" else [-0.2, 0.1]}
     with pytest.raises(InputError, match=f"{name} may be its distortion"):

@@ -152,5 +152,6 @@ def _of_isaac(entries: Fields) -> Lens:
 PROGRAM = ProgramFiles(
     "NVIDIA (f-theta, Isaac Sim)", "DriveWorks rigs, NCore, NuRec, camera_params.json", looks,
     marks="rig sensors properties ftheta polynomial reference_poly cameraModel",
-    reads="f-theta, fisheyePolynomial, pinhole", lost="windshields are refused; poses but those of Isaac Sim", read=read, poses=poses, unit=METERS,
+    reads="f-theta, fisheyePolynomial, pinhole", lost="windshields are refused; poses but those of Isaac Sim",
+    read=read, poses=poses, unit=METERS,
 )  # fmt: skip

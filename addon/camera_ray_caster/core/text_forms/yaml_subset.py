@@ -2,8 +2,9 @@
 
 The subset: block mappings and block sequences by indentation; flow sequences and mappings, ``[ ... ]`` and ``{ ... }``,
 also over several lines, and in the line below their key; plain and quoted scalars, each in one line; comments; tags,
-which are ignored, as are directives and document marks. Of documents that begin alike, as messages that are echoed, the first
-is read. Anchors, block scalars, other documents and keys that are neither quoted nor plain words are refused. A sequence in place of the outermost mapping is read, too.
+which are ignored, as are directives and document marks. Of documents that begin alike, as messages that are echoed,
+the first is read. Anchors, block scalars, other documents and keys that are neither quoted nor plain words are refused.
+A sequence in place of the outermost mapping is read, too.
 Reference: YAML 1.2.2, chapters 6 to 9; OpenCV documentation, File Input and Output using XML / YAML / JSON files.
 """
 
