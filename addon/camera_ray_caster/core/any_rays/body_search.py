@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from math import inf
+from threading import Lock
 from typing import Any, NamedTuple, Self
 from weakref import WeakKeyDictionary
 
@@ -87,9 +88,15 @@ class BodySearch(RayBodies):
             inside[:] = False
         self._one_by_one, self._in_boxes = np.flatnonzero(~inside), np.flatnonzero(inside)
         self._boxes = enlarged(low[:, self._in_boxes], high[:, self._in_boxes])
+        self._making = Lock()
+
+    @property
+    def _tree(self) -> Tree | None:
+        with self._making:  # of several threads one makes it
+            return self._made_tree
 
     @lazy
-    def _tree(self) -> Tree | None:
+    def _made_tree(self) -> Tree | None:
         return tree_of(*self._boxes, self._in_boxes) if len(self._in_boxes) else None
 
     def nearest(self, origin, direction, near: float, far: float) -> tuple[np.ndarray, np.ndarray]:

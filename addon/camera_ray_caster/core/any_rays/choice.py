@@ -81,7 +81,7 @@ def _by_tree(bodies: BodySearch, plan: Plan, rays: TileRays, listen: Callable[[]
 
 def sweep_tiles(scene: Scene, passes: tuple[str, ...]) -> Iterator[Tile]:
     """Return a picture in tiles for ``cast_sweep``, and make the trees that its threads share."""
-    prepare(scene.shapes, passes)
+    prepare(scene.shapes, None if scene.shapes.motion is None else np.zeros(1), passes)
     height, width = scene.camera.raster.shape
     return bands(slice(0, height), slice(0, width), RAYS)
 

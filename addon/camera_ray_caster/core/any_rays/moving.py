@@ -135,11 +135,15 @@ class HitGroup:
         return cls(bodies, every, rows[bodies.at[hits.body]], bodies.number[hits.body])
 
 
-def prepare(shapes: Shapes, passes: tuple[str, ...]) -> None:
-    """Make the trees of shapes that do not move, before several threads need them for rays with times."""
-    apart = _apart(shapes, np.zeros(1), passes)
-    if apart is not None or shapes.motion is None:
-        search_of(shapes if apart is None else apart.still)
+def prepare(shapes: Shapes, times: np.ndarray | None, passes: tuple[str, ...]) -> bool:
+    """Prepare shapes that do not move for rays with these times, (n,), and return whether threads may share the rays:
+    not those that meet other shapes at each time, which would be made by each thread.
+    """
+    apart = _apart(shapes, times, passes)
+    if apart is None and times is not None:
+        return False
+    search_of(shapes if apart is None else apart.still)
+    return True
 
 
 def write_nearest(
@@ -157,7 +161,7 @@ def write_nearest(
 
 
 def hit_groups(
-    shapes: Shapes, times: np.ndarray | None, origin, direction, span: Span, passes: tuple[str, ...] = ()
+    shapes: Shapes, origin, direction, times: np.ndarray | None, span: Span, passes: tuple[str, ...] = ()
 ) -> Iterator[HitGroup]:
     """Yield all hits of rays (3, n) at their times (n,), in groups."""
     apart = _apart(shapes, times, passes)

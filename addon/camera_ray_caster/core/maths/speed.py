@@ -10,7 +10,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from itertools import pairwise
 from math import prod, sqrt
 from threading import Condition
 from typing import Any, Generic, TypeVar, overload
@@ -41,6 +43,17 @@ def sharing(threads: int, work: float) -> int:
     holds the interpreter, so that threads do it one at a time: n threads need at least work / n + 1, and at least n.
     """
     return max(1, min(threads, round(sqrt(work))))
+
+
+def in_shares(run: Callable[[slice], T], count: int, threads: int) -> list[T]:
+    """Return the results of ``run(items)`` for as many slices of ``count`` items as there are threads, in order. Raises
+    the error of the first slice that failed, once all have ended.
+    """
+    slices = [slice(*ends) for ends in pairwise(count * k // threads for k in range(threads + 1))]
+    if threads == 1:
+        return [run(slices[0])]
+    with ThreadPoolExecutor(threads) as pool:
+        return list(pool.map(run, slices))
 
 
 def taken(values: np.ndarray, indices: np.ndarray) -> np.ndarray:
