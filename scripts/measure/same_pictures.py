@@ -36,7 +36,9 @@ def _hashes(root: Path) -> dict[str, dict[str, str]]:
 
 
 def tell() -> None:
-    """Print the hashes with the add-on of a folder. Flow is left out of scenes whose other frames are refused."""
+    """Print the hashes with the add-on of a folder, of all passes that a scene can have: no flow to frames that are
+    refused, and no areas of the pixels of scanners.
+    """
     sys.path[:0] = [str(Path(sys.argv[1]) / "addon")]
     import bpy
 
@@ -47,7 +49,8 @@ def tell() -> None:
     hashes = {}
     for path in sorted(SCENES.glob("*.blend")):
         bpy.ops.wm.open_mainfile(filepath=str(path))
-        for passes in (list(PASSES), [name for name in PASSES if not name.startswith("flow")]):
+        still = [name for name in PASSES if not name.startswith("flow")]
+        for passes in (list(PASSES), still, [name for name in still if name not in ("solid_angle", "footprint")]):
             try:
                 images = crc.cast(crc.read_scene(bpy.context.scene, passes=passes), passes=passes)
             except crc.InputError:

@@ -34,7 +34,7 @@ class Watch:
 
     def __init__(self):
         self.spent, self.waited, self.made, self._undo = [], [], [], []
-        self.viewport, self.cast = addon("engine.viewport"), sys.modules[f"{MODULE}.core.cast"]
+        self.viewport, self.cast = addon("engine.viewport"), sys.modules[f"{MODULE}.core.any_rays.picture_work"]
         view_draw, cast_tile, cast = self.viewport.Viewport.view_draw, self.cast.cast_tile, self.viewport._cast
 
         def drawn(self_, context, depsgraph):

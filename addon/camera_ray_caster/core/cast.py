@@ -3,27 +3,23 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterable
 from time import perf_counter
 
 import numpy as np
 
-from . import arguments, memory, tuning
-from .any_rays.choice import cast_sweep, search_for, sweep_tiles
+from . import arguments
+from .any_rays.picture_work import work_of
 from .camera.camera import Camera
-from .camera.times import SweepTime
-from .casting.images import Images, check_reusable
-from .casting.pass_needs import check_passes, image_bytes, pictures
+from .casting.images import Images, images_for
+from .casting.pass_needs import check_passes, pictures
 from .casting.passes import PASSES
-from .casting.plan import Plan, make_plan
-from .casting.previews import Previews, Show
+from .casting.picture_run import PictureRun
+from .casting.previews import Show
 from .casting.request import MATERIAL, SHADINGS, Request
-from .casting.search import nearest_hits
-from .casting.tiles import TIMED_STEPS, Effort, Tile, cast_tile, in_threads, listening, moments, shares
 from .casting.top_down import top_down
 from .conventions import BOTTOM, TOP
-from .maths.speed import Scratch, processors
+from .maths.speed import processors
 from .records import InputError, Shapes
 from .scene import Scene
 
@@ -98,110 +94,13 @@ def cast(
         raise InputError("into has row 0 at the bottom: cast without rows, and call top_down(images)")
     if precision is not None:
         warnings.warn("precision has no effect; version 0.4 will refuse it", DeprecationWarning, stacklevel=2)
-    request = Request(passes, tuple(PASSES), shading, arguments.flag(cull, "cull"))
-    shape = scene.camera.raster.shape
-    if into is None:
-        memory.require(image_bytes(shape, passes, dtype), memory.of_pixels("the passes", shape))
-    else:
-        check_reusable(into, passes, shape, dtype)
+    images = images_for(passes, scene.camera.raster.shape, dtype, into)
     check_passes(scene.camera, passes)
-    work = _Work(scene, replace(request, others=pictures(scene, passes)), samples, threads, progress)
-    images = Images({name: PASSES[name].empty(shape, dtype) for name in passes}) if into is None else into
+    request = Request(passes, shading, arguments.flag(cull, "cull"), others=pictures(scene, passes))
+    work = work_of(scene, request, samples, threads, progress)
     images.keep(passes)
     images.camera, images.shapes, images.plan = scene.camera, scene.shapes, work.plan
-    images.rays = shape[0] * shape[1] * work.rays
+    images.rays = images.camera.raster.shape[0] * images.camera.raster.shape[1] * work.rays
     images.seconds = {"plan": perf_counter() - started}
-    effort = Effort(len(work.tiles) * work.rays)
-    show = preview if "combined" in passes and not work.by_beam else None
-    previews = Previews(work.plan, work.time, work.samples, show)
-    whole_rows = work.time is None or work.by_beam  # else a row may have pixels of many times
-    last, open_tiles, write = previews.spans[-1], list(work.tiles), 0.0
-
-    def run(job: tuple[range, Tile], scratch: Scratch) -> np.ndarray:
-        span, tile = job
-        return work.cast(tile, span, span is last, images, scratch, effort, previews.sums)
-
-    def tell(rows: slice) -> None:
-        nonlocal write
-        if finished is not None:
-            since = perf_counter()
-            finished(images, rows)
-            write += perf_counter() - since
-
-    def end(job: tuple[range, Tile]) -> None:
-        span, tile = job
-        if whole_rows and span is last:
-            open_tiles.remove(tile)
-            tell(tile.rows)
-
-    def meanwhile() -> None:
-        previews.look(effort, work.threads, [tile.rows for tile in open_tiles], progress)
-
-    def rounds() -> Iterator[list[tuple[range, Tile]]]:
-        nonlocal write
-        for span, tiles in previews.rounds(work.tiles):
-            yield [(span, tile) for tile in tiles]
-            since = perf_counter()
-            previews.show(images, span, tiles)
-            write += perf_counter() - since
-
-    began = perf_counter()
-    busy = in_threads(run, rounds(), work.threads, effort, progress, end, work.is_small, meanwhile)
-    if not whole_rows:
-        tell(slice(0, shape[0]))
-    share = (perf_counter() - began - write) / max(busy.sum(), np.finfo(float).tiny)
-    images.seconds |= dict(zip(TIMED_STEPS, busy * share, strict=True))
-    if finished is not None:
-        images.seconds["write"] = write
+    PictureRun(work, images, progress, finished, preview).all()
     return images if rows == BOTTOM else top_down(images)
-
-
-class _Work:
-    """The tiles of a picture, and what is cast of each: rays, search, hits, passes."""
-
-    def __init__(self, scene: Scene, request: Request, samples: int, threads: int, progress):
-        self._scene = scene = scene.at_rest()
-        time = self.time = scene.camera.pixel_time
-        self.by_beam = isinstance(time, SweepTime)
-        """Whether each pixel has a ray with a time of its own."""
-        middle = scene.at(None if time is None else (time.first + time.last) / 2)
-        self.plan = make_plan(middle.camera, middle.shapes, request)
-        """The plan of the chief rays, at the middle of the pixels' times."""
-        sampled = ("combined",) if samples > 1 and "combined" in request.passes and not self.by_beam else ()
-        self.samples = samples if sampled else 1
-        chief = replace(request, passes=tuple(name for name in request.passes if name not in sampled))
-        self._requests = [(chief, 1)] if chief.passes or not sampled else []
-        self._requests += [(replace(request, passes=sampled, sampled=True), samples)] if sampled else []
-        self.rays = sum(count for wanted, count in self._requests if wanted.passes)
-        """Number of rays per pixel."""
-        self._plans: dict[Request, Plan] = {}
-        self._search = search_for(self.plan) if time is None else nearest_hits
-        if time is None:
-            for wanted, count in self._requests:
-                self._plans[wanted] = self.plan if count == 1 else make_plan(scene.camera, scene.shapes, wanted)
-            self.tiles = list(shares(self._plans[self._requests[-1][0]], threads, self._requests[-1][1]))
-        elif self.by_beam:
-            self.tiles = list(sweep_tiles(scene, request.passes))
-        else:
-            self.tiles = list(listening(moments(scene.camera, time), progress))
-        amount = self.plan.work.sum()
-        self.is_small = len(self.tiles) == 1 and bool(amount * samples < tuning.SERIAL_WORK)
-        """Whether it takes less than the start of a thread would pay for."""
-        others = round(amount / len(self.tiles) / tuning.SERIAL_WORK)  # may hold the interpreter in turn
-        self.threads = min(threads, 1 + others)
-
-    def cast(self, tile: Tile, samples: range, is_last: bool, images, scratch: Scratch, effort: Effort, sums):
-        """Cast some samples of a tile, and with the last ones the passes of its chief rays, into images; return the
-        seconds of TIMED_STEPS.
-        """
-        if self.by_beam:
-            return cast_sweep(self._scene, tile, images, effort)
-        seconds, then = np.zeros(len(TIMED_STEPS)), self._scene.at(tile.frame)
-        with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
-            for request, _ in self._requests:
-                if request.passes and (request.sampled or is_last):
-                    plan = self._plans.get(request) or make_plan(then.camera, then.shapes, request)
-                    outs = {name: images[name] for name in request.passes}
-                    numbers = samples if request.sampled else None
-                    seconds += cast_tile(plan, self._search, tile, numbers, outs, scratch, effort, sums)
-        return seconds

@@ -10,6 +10,7 @@ from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE, BlenderCamera, Cancelled, InputError, Shapes
+from camera_ray_caster.core.report.omitted import omitted
 
 from ..still import STILL
 
@@ -215,12 +216,12 @@ def test_dtype_is_only_what_is_stored():
 
 def test_what_is_not_needed_is_said():
     images = cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0), (SPHERE, (0, 0, 5), 1.0)), passes=("depth",))
-    lines = "\n".join(images.plan.left_out())
+    lines = "\n".join(omitted(images.plan))
     assert "1 of 2 shapes" in lines
     for word in ("plane", "normal", "start at the eye", "clip end"):
         assert word in lines
     slanted = cast(camera_at(type="ORTHO", clip_end=5.5), shapes_of((SPHERE, (0, 0, -5), 1.0)), passes=("depth",))
-    assert not any("eye" in line or "clip" in line for line in slanted.plan.left_out())
+    assert not any("eye" in line or "clip" in line for line in omitted(slanted.plan))
 
 
 def test_precision_has_no_effect_and_warns_until_it_goes():

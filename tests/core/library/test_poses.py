@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import camera_ray_caster as crc
+from camera_ray_caster.core.report.omitted import omitted
 
 POSE = crc.look_at((1.0, 2.0, 3.0), (0.0, -1.0, 0.5))
 SIZE = 8, 6
@@ -113,4 +114,4 @@ def test_the_report_names_shapes_beyond_the_clip_range():
         ({}, []),
     ):
         plan = crc.cast(crc.camera("PERSP", (9, 9), **settings), balls, passes="depth").plan
-        assert [line for line in plan.left_out() if "clip range" in line] == words
+        assert [line for line in omitted(plan) if "clip range" in line] == words

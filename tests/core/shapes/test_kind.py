@@ -14,6 +14,7 @@ from camera_ray_caster.core.motion.landmarks import lit
 from camera_ray_caster.core.records import INFINITE_PLANE, SPHERE, InputError
 from camera_ray_caster.core.report.accuracy import accuracy
 from camera_ray_caster.core.report.indices import indices_of
+from camera_ray_caster.core.report.omitted import omitted
 from camera_ray_caster.core.shapes import kinds
 
 from ..cameras.model_examples import camera as camera_of
@@ -124,7 +125,7 @@ def test_toy_kinds_are_culled_sampled_and_asked_at_given_pixels_as_all_others(ke
 
 def test_kinds_that_are_not_in_view_are_named():
     camera = camera_of("PERSP", SIZE)
-    lines = "\n".join(cast(camera, shapes_of((DISCS.number, (0, 0, -5), 1.0)), passes=("depth",)).plan.left_out())
+    lines = "\n".join(omitted(cast(camera, shapes_of((DISCS.number, (0, 0, -5), 1.0)), passes=("depth",)).plan))
     others = ", ".join(kind.name for kind in kinds.SHAPE_KINDS if kind is not DISCS)
     assert f"kernels of {others}: no such shape" in lines
     assert "sphere, plane, infinite plane, mesh" in lines

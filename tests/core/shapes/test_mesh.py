@@ -10,7 +10,6 @@ import pytest
 from camera_ray_caster.core import memory
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cast import cast
-from camera_ray_caster.core.casting.passes import PASSES
 from camera_ray_caster.core.casting.plan import make_plan
 from camera_ray_caster.core.casting.request import Request
 from camera_ray_caster.core.records import InputError, Slots
@@ -257,7 +256,7 @@ def test_more_triangles_than_the_memory_holds_are_refused_before_any_is_placed(m
     monkeypatch.setattr(np, "empty", None)
     many = shapes_of(*[(ball(100, 100), (0, 0, -5), 1.0)] * 5050)
     with pytest.raises(InputError, match=r"^99,990,000 triangles in view take .* GiB are available: show"):
-        make_plan(camera_at(), many, Request(("depth",), tuple(PASSES)))
+        make_plan(camera_at(), many, Request(("depth",)))
 
 
 def test_many_triangles_in_one_pixel_are_a_hit_of_the_nearest():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core import tuning
-from camera_ray_caster.core.casting.rays import chief_rays
+from camera_ray_caster.core.casting.rays import rays_of
 from camera_ray_caster.core.maths.speed import Scratch
 from camera_ray_caster.core.shapes.mesh.spans import RayLattice
 from camera_ray_caster.core.shapes.mesh.triangles import EDGES, edge_vectors
@@ -19,7 +19,7 @@ def test_each_part_of_a_picture_of_planar_rays_is_a_lattice(kind):
     """However its coordinates are rounded: otherwise its triangles are tested pixel by pixel, in twice the time."""
     cam = camera_at(type=kind, resolution_x=1920, resolution_y=1080, shift_x=0.13, ortho_scale=7.3)
     x, y = cam.raster.columns(), cam.raster.rows()
-    rays = chief_rays(cam, x, y, (0, 0), Scratch())
+    rays = rays_of(cam, x, y, (0, 0), Scratch())
     whole = SearchRays(None if rays.from_eye else rays.origin, rays.direction, (0, 0), rays.shape, rays.scratch)
     random = np.random.default_rng(0)
     for _ in range(500):

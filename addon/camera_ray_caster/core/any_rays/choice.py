@@ -1,13 +1,9 @@
-"""Which search finds the nearest hits of a picture: that of tiles, or the tree of bodies, ray by ray; and the cast of a
-scanner that sweeps, in which each beam is a ray with a time of its own.
-"""
+"""Which search finds the nearest hits of a picture: that of tiles, or the tree of bodies, ray by ray."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import replace
+from collections.abc import Callable
 from functools import partial
-from time import perf_counter
 
 import numpy as np
 
@@ -15,12 +11,8 @@ from ..casting.hits import Hits
 from ..casting.plan import Plan
 from ..casting.rays import TileRays
 from ..casting.search import HitSearch, nearest_hits
-from ..casting.tiles import Effort, Tile, bands
 from ..maths.vector import matvec, norm
-from ..scene import Scene
-from .body_search import RAYS, BodySearch, search_of
-from .door import times_of
-from .moving import prepare, write_nearest
+from .body_search import BodySearch, search_of
 
 TRIANGLES, TRIANGLES_OF_SHAPE = 10_000, 40
 """Number of triangles from which the tree, with its making, pays for a model without bounds, and as how many a shape
@@ -40,7 +32,7 @@ PROBES = 8
 
 def search_for(plan: Plan) -> HitSearch:
     """Return the search for the rays of a plan, ready to be used by several threads."""
-    return partial(_by_tree, search_of(plan.shapes)) if uses_tree(plan) else nearest_hits
+    return nearest_hits if not uses_tree(plan) else partial(_by_tree, search_of(plan.shapes))
 
 
 def uses_tree(plan: Plan) -> bool:
@@ -77,24 +69,3 @@ def _by_tree(bodies: BodySearch, plan: Plan, rays: TileRays, listen: Callable[[]
     t, body = bodies.nearest(origin, direction, camera.clip_start, camera.clip_end)
     listen()
     return bodies.hits_of(plan.target, rays, t.reshape(shape), body.reshape(shape))
-
-
-def sweep_tiles(scene: Scene, passes: tuple[str, ...]) -> Iterator[Tile]:
-    """Return a picture in tiles for ``cast_sweep``, and make the trees that its threads share."""
-    prepare(scene.shapes, None if scene.shapes.motion is None else np.zeros(1), passes)
-    height, width = scene.camera.raster.shape
-    return bands(slice(0, height), slice(0, width), RAYS)
-
-
-def cast_sweep(scene: Scene, tile: Tile, images: dict[str, np.ndarray], effort: Effort) -> np.ndarray:
-    """Cast the beams of a tile of whole rows and store their passes in ``images``; return their TIMED_STEPS."""
-    began, camera, shapes = perf_counter(), scene.camera, scene.shapes
-    raster = replace(camera.raster, y0=camera.raster.y0 + tile.rows.start, y1=camera.raster.y0 + tile.rows.stop)
-    rays = replace(camera, raster=raster).rays()
-    origin, direction = (np.array(vectors.reshape(-1, 3).T, order="C") for vectors in (rays.origins, rays.directions))
-    generated = perf_counter()
-    outs = {name: image[tile.rows].reshape(1, -1, *image.shape[2:]) for name, image in images.items()}
-    span = camera.clip_start, camera.clip_end
-    write_nearest(shapes, origin, direction, times_of(shapes, rays.time, raster.shape), span, outs)
-    effort.step()
-    return np.array([generated - began, perf_counter() - generated, 0.0])

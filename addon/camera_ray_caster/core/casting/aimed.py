@@ -38,7 +38,7 @@ def aiming_plan(camera: Camera, shapes: Shapes) -> Plan:
     """Return the plan for chief rays anywhere in the full frame of a camera, at one moment."""
     raster = replace(camera.raster, x0=0, y0=0, x1=camera.raster.width, y1=camera.raster.height)
     camera = replace(camera, raster=raster, aperture=None, pixel_time=None)
-    return make_plan(camera, shapes, Request((), (), sampled=True))
+    return make_plan(camera, shapes, Request((), sampled=True))
 
 
 def is_before(plan: Plan, pixels: np.ndarray, points: np.ndarray, error: np.ndarray) -> np.ndarray:

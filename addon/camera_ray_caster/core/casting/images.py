@@ -7,10 +7,12 @@ from itertools import combinations
 
 import numpy as np
 
+from .. import memory
 from ..arguments import shown
 from ..camera.camera import Camera
 from ..conventions import BOTTOM
 from ..records import InputError, Shapes
+from .pass_needs import image_bytes
 from .passes import PASSES
 from .plan import Plan
 
@@ -42,6 +44,17 @@ class Images(dict[str, np.ndarray]):
         for name, image in images.items():
             if image is not self[name]:
                 self[name][...] = image
+
+
+def images_for(passes: tuple[str, ...], shape: tuple[int, int], dtype, into: Images | None) -> Images:
+    """Return the images that a cast writes: ``into``, or uninitialized ones. Raises InputError for passes that need
+    more memory than is available, and as ``check_reusable`` does.
+    """
+    if into is not None:
+        check_reusable(into, passes, shape, dtype)
+        return into
+    memory.require(image_bytes(shape, passes, dtype), memory.of_pixels("the passes", shape))
+    return Images({name: PASSES[name].empty(shape, dtype) for name in passes})
 
 
 def reusable(images: Images | None, passes: tuple[str, ...], shape: tuple[int, int], dtype) -> Images | None:

@@ -8,7 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..camera.camera import Camera
+from ..conventions import EPS
 from ..maths.speed import taken
+from ..shapes.shape_frames import InCamera
 
 SAMPLE_MARGIN = 0.5
 """Margin of bounds, in pixels, when samples are spread over the pixels."""
@@ -85,6 +87,18 @@ class CameraPixelBounds:
         if self.camera.from_eye(self.sampled) and not self.camera.is_rigid:  # t has another scale in each direction
             return np.full(len(radii), -np.inf)
         return np.sqrt((centers * centers).sum(axis=1)) - radii
+
+    def t_range(self, shapes: InCamera) -> tuple[np.ndarray, np.ndarray]:
+        """Return lower and upper bounds of the t of each shape, (n,) each; -inf and inf where none are known."""
+        reach = shapes.radius
+        if self.is_planar:
+            middle, reach = -shapes.center[:, 2], shapes.reach
+        elif self.camera.is_rigid and self.camera.from_eye(self.sampled):
+            middle = np.sqrt((shapes.center * shapes.center).sum(axis=1))
+        else:
+            return np.full(len(reach), -np.inf), np.full(len(reach), np.inf)
+        reach = reach * (1 + 8 * EPS)
+        return middle - reach, middle + reach
 
     @property
     def is_planar(self) -> bool:

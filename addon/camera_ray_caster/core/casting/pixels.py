@@ -16,7 +16,7 @@ from .hits import Hits
 from .pass_needs import pictures
 from .passes import PASSES
 from .plan import Plan, make_plan
-from .rays import chief_rays
+from .rays import rays_of
 from .request import Request
 from .search import nearest_hits
 from .store import store
@@ -34,7 +34,7 @@ def hits_at(
     raster, camera = plan.camera.raster, plan.camera
     of_lattice = plan.at_pixels(columns - raster.x0, rows - raster.y0)
     with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
-        rays = chief_rays(camera, columns[None, :] + 0.5, rows[:, None] + 0.5, (0, 0), Scratch())
+        rays = rays_of(camera, columns[None, :] + 0.5, rows[:, None] + 0.5, (0, 0), Scratch())
         return nearest_hits(of_lattice, rays, listen, met=met)
 
 
@@ -45,7 +45,7 @@ def is_hit(plan: Plan, scratch: Scratch) -> np.ndarray:
     with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
         for tile in shares(plan, threads=1):
             centers = columns[:, tile.columns], rows[tile.rows], (tile.columns.start, tile.rows.start)
-            hits = nearest_hits(plan, chief_rays(plan.camera, *centers, scratch))
+            hits = nearest_hits(plan, rays_of(plan.camera, *centers, scratch))
             is_seen[tile.rows, tile.columns] = hits.seen
     return is_seen
 
@@ -58,7 +58,7 @@ def passes_at(
     ``options`` are those of ``Request``.
     """
     still = window_of(camera, columns, rows)
-    request = Request(tuple(passes), tuple(PASSES), others=pictures(Scene(camera, shapes), passes), **options)
+    request = Request(tuple(passes), others=pictures(Scene(camera, shapes), passes), **options)
     return stored(hits_at(make_plan(still, shapes, request), columns, rows), passes)
 
 

@@ -14,14 +14,10 @@ from ..records import Shapes
 from ..shapes import kinds
 from ..shapes.in_camera import in_camera
 from ..shapes.kind import ShapeSet, Visible
-from ..shapes.shape_frames import InCamera
 from ..shapes.windows import pixels_in
 from .pixel_bounds import CameraPixelBounds
 from .request import Request
 from .target import RayTarget
-
-MOST_NAMED = 8
-"""Number of shapes that a line of a report names."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,34 +120,12 @@ class Plan:
         """Number of shapes that no pixel can see."""
         return len(self.shapes) - len(self.seen)
 
-    def left_out(self) -> list[str]:
-        """Return the omitted work in words, for the report."""
-        lines = []
-        if self.unseen:
-            lines.append(f"{self.unseen} of {len(self.shapes)} shapes: no pixel can see them")
-        if len(self.beyond):
-            names = [*dict.fromkeys(self.shapes.names[self.shapes.name_index[row]] for row in self.beyond)]
-            unnamed = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
-            ends = f"{self.camera.clip_start:g} to {self.camera.clip_end:g}"
-            lines.append(f"{', '.join(map(repr, names[:MOST_NAMED]))}{unnamed}: beyond the clip range, {ends}")
-        there = {kind.number for kind, _ in kinds.by_kind(self.shapes.kind[self.seen])}
-        missing = [kind.name for kind in kinds.SHAPE_KINDS if kind.number not in there]
-        if missing:
-            lines.append(f"kernels of {', '.join(missing)}: no such shape is in view")
-        if self.camera.model.central:
-            lines.append("origins of rays: all rays start at the eye")
-        if not self.clips:
-            lines.append("the clip end: no shape in view extends beyond it")
-        if self.request.spare:
-            lines.append(f"passes {', '.join(self.request.spare)}: not requested")
-        return lines
-
 
 def make_plan(camera: Camera, shapes: Shapes, request: Request) -> Plan:
     """Return the plan. Raises InputError, which names the shape, if a shape cannot be cast."""
     placed = in_camera(shapes, camera.pose)
-    near, far = _reach(camera, placed, request.sampled)
     pixels = CameraPixelBounds(camera, request.sampled, request.cull)
+    near, far = pixels.t_range(placed)
     bounds, seen = pixels.of_balls(placed.center, placed.radius)
     within = (near <= camera.clip_end) & (far >= camera.clip_start)
     beyond = np.flatnonzero(seen & ~within)
@@ -170,16 +144,3 @@ def make_plan(camera: Camera, shapes: Shapes, request: Request) -> Plan:
     )
     _ = plan.set_of  # computed now, before threads share the plan
     return plan
-
-
-def _reach(camera: Camera, shapes: InCamera, sampled: bool):
-    """Return lower and upper bounds of the t of each shape, (n,) each; -inf and inf where none are known."""
-    reach = shapes.radius
-    if camera.model.planar:
-        middle, reach = -shapes.center[:, 2], shapes.reach
-    elif camera.is_rigid and camera.from_eye(sampled):
-        middle = np.sqrt((shapes.center * shapes.center).sum(axis=1))
-    else:
-        return np.full(len(reach), -np.inf), np.full(len(reach), np.inf)
-    reach = reach * (1 + 8 * np.finfo(float).eps)
-    return middle - reach, middle + reach

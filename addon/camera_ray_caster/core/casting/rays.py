@@ -35,6 +35,8 @@ class TileRays:
     """The working arrays of the thread, which also hold the hits."""
     camera: Camera | None = None
     """The camera whose rays they are; None for rays that are given in the world, whose numbers are exact."""
+    light: Any = None
+    """The light that the rays of a sample carry: see ``Model.light``. None if all carry the same."""
 
     @property
     def of_camera(self) -> Camera:
@@ -68,15 +70,14 @@ def given_rays(origin: np.ndarray, direction: np.ndarray, scratch: Scratch) -> T
     return TileRays(x, y, (0, 0), False, tuple(origin[:, None]), tuple(direction[:, None]), scratch)
 
 
-def chief_rays(camera: Camera, x: np.ndarray, y: np.ndarray, corner: tuple[int, int], scratch: Scratch) -> TileRays:
-    """Return the rays through the pixels' centers and the center of the lens or hole."""
-    origin, direction = camera.camera_rays(x, y)
-    return TileRays(x, y, corner, camera.from_eye(sampled=False), origin, direction, scratch, camera)
-
-
-def sampled_rays(
-    camera: Camera, x: np.ndarray, y: np.ndarray, sample: int, corner: tuple[int, int], scratch: Scratch
+def rays_of(
+    camera: Camera, x: np.ndarray, y: np.ndarray, corner: tuple[int, int], scratch: Scratch, sample: int | None = None
 ) -> TileRays:
-    """Return the rays of one sample of the pixels and the aperture."""
-    origin, direction = camera.sample_rays(x, y, sample)
-    return TileRays(x, y, corner, camera.from_eye(sampled=True), origin, direction, scratch, camera)
+    """Return the chief rays, through the pixels' centers and the center of the lens or hole, or those of one sample of
+    the pixels and the aperture.
+    """
+    if sample is None:
+        (origin, direction), light = camera.camera_rays(x, y), None
+    else:
+        (origin, direction), light = camera.sample_rays(x, y, sample), camera.sample_light(x, y, sample)
+    return TileRays(x, y, corner, camera.from_eye(sample is not None), origin, direction, scratch, camera, light)

@@ -46,11 +46,11 @@ def _write_missed(name: str, values: HitValues, out: np.ndarray, everywhere: boo
         write_where(out, missed, values.hits.missed)
 
 
-def add_combined(hits: Hits, total: np.ndarray, light) -> None:
-    """Add the combined pass to a sum, (rows, columns, 4). ``light``, an array that broadcasts to the rays or three of
-    red, green and blue, multiplies its colors; rays without a direction are then black and opaque, since the lens is in
-    their way.
+def add_combined(hits: Hits, total: np.ndarray) -> None:
+    """Add the combined pass to a sum, (rows, columns, 4), its colors multiplied by the rays' light; rays without a
+    direction are then black and opaque, since the lens is in their way.
     """
+    light = hits.rays.light
     parts = light if isinstance(light, tuple) else (light,)
     lights = None if light is None else np.stack([np.broadcast_to(color, total.shape[:2]) for color in parts], axis=-1)
     for window, block in hits.blocks():

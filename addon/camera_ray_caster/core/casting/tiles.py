@@ -1,31 +1,27 @@
-"""Division of a picture into tiles, and their casting in threads."""
+"""Division of a picture into tiles, and the cast of one: rays, search, hits, passes."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from itertools import chain, pairwise
-from threading import Lock, local
+from itertools import pairwise
+from threading import Lock
 from time import perf_counter
-from typing import TypeVar
 
 import numpy as np
 
 from .. import tuning
 from ..camera.camera import Camera
 from ..camera.pixel_time import PixelTime, groups
-from ..maths.speed import STRIP, Scratch, lending, sharing
+from ..maths.speed import STRIP, Scratch, sharing
 from ..records import Cancelled
 from .plan import Plan
-from .rays import chief_rays, sampled_rays
+from .rays import rays_of
 from .search import HitSearch
 from .store import add_combined, store
 
 TIMED_STEPS = "rays", "cast", "passes"
 """The steps whose seconds are measured per tile: making the rays, finding the nearest hits, writing the passes."""
-
-Job = TypeVar("Job")
 
 LISTEN = 0.05
 """Maximum seconds between two calls of ``progress`` in the calling thread."""
@@ -140,69 +136,19 @@ def cast_tile(
     total = None
     if samples is not None:
         total = np.zeros_like(parts["combined"], np.float64) if sums is None else sums[tile.rows, tile.columns]
-    for sample in samples or range(1):
+    for sample in samples or [None]:
         began = perf_counter()
-        if total is None:
-            rays = chief_rays(plan.camera, *centers, scratch)
-        else:
-            rays = sampled_rays(plan.camera, *centers[:2], sample, centers[2], scratch)
+        rays = rays_of(plan.camera, *centers, scratch, sample)
         generated = perf_counter()
         hits = search(plan, rays, effort.listen)
         searched = perf_counter()
         if total is None:
             store(hits, parts, tile.where)
         else:
-            add_combined(hits, total, plan.camera.sample_light(*centers[:2], sample))
+            add_combined(hits, total)
         seconds += generated - began, searched - generated, perf_counter() - searched
         effort.step()
     if samples is not None and total is not None:
         where = True if tile.where is None else tile.where[..., None]
         np.divide(total, samples.stop, out=parts["combined"], where=where, casting="same_kind")
     return seconds
-
-
-def in_threads(
-    run: Callable[[Job, Scratch], np.ndarray],
-    rounds: Iterable[Sequence[Job]],
-    workers: int,
-    effort: Effort,
-    progress: Callable[[float], bool] | None,
-    finished: Callable[[Job], object],
-    alone: bool = False,
-    meanwhile: Callable[[], object] = bool,
-) -> np.ndarray:
-    """Run jobs on threads (numpy releases the interpreter), each with working arrays of its own, and return the sum of
-    the seconds of all. A round begins when the one before has ended. ``progress`` and Cancelled: as in ``cast``.
-    ``finished(job)``, and ``meanwhile()`` while others work, are called in this thread. ``alone``: whether all jobs
-    take less than the start of a thread would pay for: they are run in this thread.
-    """
-    thread = local()
-    total = np.zeros(len(TIMED_STEPS))
-    if alone:
-        with lending() as lend:
-            scratch = lend()
-            for job in chain.from_iterable(rounds):
-                total += run(job, scratch)
-                finished(job)
-                if progress is not None and not progress(effort.fraction):
-                    raise Cancelled
-        return total
-    with lending() as lend, ThreadPoolExecutor(workers, initializer=lambda: setattr(thread, "scratch", lend())) as pool:
-        waiting: dict[Future, Job] = {}
-        try:
-            for jobs in rounds:
-                for job in jobs:  # raises if no thread can be started
-                    waiting[pool.submit(lambda job: run(job, thread.scratch), job)] = job
-                while waiting:
-                    for future in wait(waiting, LISTEN, FIRST_COMPLETED).done or [None]:
-                        if future is not None:
-                            total += future.result()
-                            finished(waiting.pop(future))
-                        meanwhile()
-                        if progress is not None and not progress(effort.fraction):
-                            raise Cancelled
-        finally:
-            effort.stop()
-            for future in waiting:
-                future.cancel()
-    return total

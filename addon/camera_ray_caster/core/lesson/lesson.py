@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..arguments import word
 from ..camera.camera import Camera
 from ..cameras.behind_port import lens_of
 from ..cameras.model import WindowModel
@@ -17,10 +18,9 @@ from ..cameras.parts.film import Film
 from ..cameras.real_lens import RealLens
 from ..cast import MOST_SAMPLES, cast
 from ..casting.hit_values import HitValues
-from ..casting.passes import PASSES
 from ..casting.pixels import hits_at, stored, window_of
 from ..casting.plan import make_plan
-from ..casting.request import MATERIAL, Request
+from ..casting.request import MATERIAL, SHADINGS, Request
 from ..records import InputError, Shapes
 from .diagram import PROBED, Probe, probe_of
 from .formula import NOISE, digits, shown, worked_out
@@ -148,10 +148,10 @@ def lesson(
             f"{raster.width - 1},{raster.height - 1}"
         )
     indices = np.array([column]), np.array([row])
-    look: dict[str, Any] = {"shading": shading}
+    look: dict[str, Any] = {"shading": word(shading, "shading", SHADINGS)}
     names, still = ("position", "normal", "combined", "depth"), window_of(camera, *indices)
     passes = *PROBED, *names
-    hits = hits_at(make_plan(still, shapes, Request(passes, tuple(PASSES), **look)), *indices)
+    hits = hits_at(make_plan(still, shapes, Request(passes, **look)), *indices)
     values = stored(hits, passes)
     seen = probe_of(camera, shapes, column, row, values)
     point, normal, color, depth = (values[name][0, 0] for name in names)

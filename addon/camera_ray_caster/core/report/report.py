@@ -13,8 +13,9 @@ import numpy as np
 from ..camera.camera import Camera
 from ..camera.facts import CONVENTIONS, camera_facts
 from ..camera.pixel_time import ImageTime
-from ..cast import TIMED_STEPS, Images
+from ..casting.images import Images
 from ..casting.pass_needs import has_colors
+from ..casting.tiles import TIMED_STEPS
 from ..conventions import EPS32
 from ..exports.camera_json import recorded
 from ..exports.json_values import differing, plain
@@ -22,6 +23,7 @@ from ..records import Finding, Shapes
 from ..version import VERSION
 from .accuracy import QUANTITIES, Accuracy
 from .indices import indices_of
+from .omitted import omitted
 from .pass_notes import camera_notes, sentences
 
 WIDTH = 100
@@ -103,22 +105,16 @@ class Report:
         """Return the report of both: another view layer or eye of the same frame. The camera is that of ``self``; eyes
         see the same shapes.
         """
+        united = "layers", "passes", "findings", "not_done", "left_out", "notes", "exact", "motion", "warnings"
+        unions: dict[str, Any] = {name: _union(getattr(self, name), getattr(other, name)) for name in united}
         return replace(
             self,
-            layers=_union(self.layers, other.layers),
-            passes=_union(self.passes, other.passes),
+            **unions,
             shapes=max(self.shapes, other.shapes) if self.layers == other.layers else self.shapes + other.shapes,
             pixels=self.pixels + other.pixels,
             rays=self.rays + other.rays,
             seconds=_sum(self.seconds, other.seconds),
-            findings=_union(self.findings, other.findings),
-            not_done=_union(self.not_done, other.not_done),
-            left_out=_union(self.left_out, other.left_out),
-            notes=_union(self.notes, other.notes),
-            exact=_union(self.exact, other.exact),
-            motion=_union(self.motion, other.motion),
             accuracy=self.accuracy + other.accuracy,
-            warnings=_union(self.warnings, other.warnings),
             views={**self.views, **other.views},
             indices={**self.indices, **other.indices},
         )
@@ -149,7 +145,7 @@ def report_cast(
         rays=images.rays,
         seconds=seconds,
         findings=tuple(findings),
-        not_done=tuple(f"{layer}: {line}" if several else line for line in images.plan.left_out()),
+        not_done=tuple(f"{layer}: {line}" if several else line for line in omitted(images.plan)),
         left_out=(*shapes.left_out, *uncolored(shapes, images.plan.request.passes)),
         notes=(*camera_notes(camera), *shapes.notes, *accuracy.notes(pixels)),
         exact=_union(shapes.exact, ()),
