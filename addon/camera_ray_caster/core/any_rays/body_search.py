@@ -17,7 +17,7 @@ from ..records import Shapes
 from ..shapes.bodies import Bodies
 from ..shapes.kinds import by_kind
 from .balls import may_meet, pairs_may_meet, unit_directions
-from .bundle import bundle_of
+from .bundle import Limit, bundle_of
 from .packets import coherent_order, packets_of
 from .ray_bodies import RayBodies, RayHits
 from .traversal import Traversal
@@ -109,7 +109,7 @@ class BodySearch(RayBodies):
         def keep(rays: np.ndarray, hits: RayHits) -> None:
             keep_nearest(hits, t, body, rays)
 
-        self._search(origin, direction, near, far, lambda rays: np.minimum(t[rays], far), keep)
+        self._search(origin, direction, near, far, lambda rays: np.minimum(taken(t, rays), far), keep)
         return t, body
 
     def all(self, origin: np.ndarray, direction: np.ndarray, near: float, far: float) -> RayHits:
@@ -124,7 +124,7 @@ class BodySearch(RayBodies):
         return hits.only(np.lexsort((hits.body, hits.t, hits.ray)))
 
     def _search(
-        self, origin, direction, near: float, far: float, limit: Callable, keep: Callable, twice: bool = False
+        self, origin, direction, near: float, far: float, limit: Limit, keep: Callable, twice: bool = False
     ) -> None:
         """Give all hits that may count to ``keep(rays, hits)``, where the hits count the given rays from 0."""
         finite = np.flatnonzero(np.isfinite(origin).all(axis=0) & np.isfinite(direction).all(axis=0))
@@ -137,13 +137,14 @@ class BodySearch(RayBodies):
                 rays = SearchedRays(start, ahead, from_eye=bool((start == start[:, :1]).all()))
                 for order, pairs in self._parts(rays, near):
                     chunk, of_chunk = numbers[order], rays.only(order)
-                    for ray, body in self._candidates(of_chunk, pairs(partial(limit, chunk)), scratch):
+                    in_boxes = pairs(lambda places, chunk=chunk: limit(taken(chunk, places)))
+                    for ray, body in self._candidates(of_chunk, in_boxes, scratch):
                         for hits in self._met(kinds, ray, body, of_chunk, near, far, scratch, twice):
                             keep(chunk, hits)
 
     def _parts(self, rays: SearchedRays, near: float) -> Iterator[tuple[np.ndarray, Callable]]:
         """Yield the rays in parts, by index, with a function that yields rays of the part and bodies whose boxes they
-        may meet, (m,) each, given a function that returns the largest t of hits.
+        may meet, (m,) each, given a ``Limit``.
         """
         origin, direction, _ = rays
         count = origin.shape[1]
@@ -157,10 +158,10 @@ class BodySearch(RayBodies):
             order = every[first : first + RAYS]
             yield order, partial(self._descended, rays.only(order), near)
 
-    def _descended(self, rays: SearchedRays, near: float, limit: Callable) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    def _descended(self, rays: SearchedRays, near: float, limit: Limit) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         if self._tree is not None:
-            packets = packets_of(rays.origin, rays.direction)
-            yield from Traversal(self._tree, packets, near, lambda: packets.farthest(limit())).pairs()
+            packets, every = packets_of(rays.origin, rays.direction), np.arange(rays.origin.shape[1])
+            yield from Traversal(self._tree, packets, near, lambda: packets.farthest(limit(every))).pairs()
 
     def _candidates(self, of_chunk: SearchedRays, in_boxes: Iterator, scratch: Scratch) -> Iterator[tuple[Any, Any]]:
         """Yield rays and bodies that may meet: (m,) each, or rays and one body."""

@@ -33,6 +33,9 @@ MOST_CELLS = 1 << 16, 1 << 12
 ROUNDED = 2.0**-40
 """Relative rounding of boxes as seen from the rays, and of depths, with a wide margin."""
 
+Limit = Callable[[np.ndarray], np.ndarray]
+"""A function that returns the largest t of hits of rays, (m,), by their places."""
+
 
 @dataclass(frozen=True, eq=False)
 class FaceRays:
@@ -51,8 +54,8 @@ class FaceRays:
     box: np.ndarray
     """(3, r): the least distance of the body's box towards the face, the least and the largest v."""
 
-    def pairs(self, limit: Callable[[], np.ndarray]) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Yield places in ``rays`` and bodies, (m,) each, given a function that returns the largest t of hits, (n,)."""
+    def pairs(self, limit: Limit) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Yield places in ``rays`` and bodies, (m,) each."""
         ends, end = np.cumsum(self.count), 0
         while end < len(ends):
             start, before = end, ends[end - 1] if end else 0
@@ -60,9 +63,9 @@ class FaceRays:
             run, ray = counted(self.count[start:end], self.first[start:end])
             depth, least, largest = self.box[:, start:end]
             v = taken(self.v, ray)
-            meets = (taken(least, run) <= v) & (v <= taken(largest, run))
-            meets &= taken(depth, run) <= taken((1 + ROUNDED) * limit() * self.ahead, ray)
-            met = np.flatnonzero(meets)
+            crossed = np.flatnonzero((taken(least, run) <= v) & (v <= taken(largest, run)))
+            run, ray = taken(run, crossed), taken(ray, crossed)
+            met = np.flatnonzero(taken(depth, run) <= (1 + ROUNDED) * limit(ray) * taken(self.ahead, ray))
             yield taken(ray, met), taken(self.body[start:end], taken(run, met))
 
 
@@ -73,16 +76,13 @@ class Bundle:
         self._faces = faces
         self.order = np.concatenate([face.rays for face in faces])
 
-    def pairs(self, limit: Callable[[], np.ndarray]) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Yield places of rays in ``order`` and the bodies that they may meet, (m,) each, given a function that returns
-        the largest t of hits, (n,) in that order.
-        """
+    def pairs(self, limit: Limit) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Yield places of rays in ``order`` and the bodies that they may meet, (m,) each."""
         start = 0
         for face in self._faces:
-            of_face = slice(start, start + len(face.rays))
-            for ray, body in face.pairs(lambda of_face=of_face: limit()[of_face]):  # type: ignore[misc]
+            for ray, body in face.pairs(lambda ray, start=start: limit(ray + start)):  # type: ignore[misc]
                 yield ray + start, body
-            start = of_face.stop
+            start += len(face.rays)
 
 
 def bundle_of(

@@ -10,7 +10,7 @@ Reference: L. Williams, Pyramidal Parametrics, SIGGRAPH 1983.
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -38,8 +38,6 @@ FIRST = np.cumsum([0] + [(CELLS >> level) ** 2 for level in range(LEVELS)])
 class CubeFace(NamedTuple):
     """The cells of a face of the cube."""
 
-    axis: int
-    sign: int
     start: np.ndarray
     """(2,): the slopes at the first cell."""
     scale: np.ndarray
@@ -56,8 +54,15 @@ class DirectionMap:
         x0, x1, y0, y1 (n, 4), numbers of float32. Boxes with NaN have no rays.
         """
         turned = parts * (1, -1, 1, -1)
-        faces = [_face(axis, sign, low, high, turned) for axis in range(3) for sign in (1, -1)]
-        self._faces = {(face.axis, face.sign): face for face in faces if face is not None}
+        made = [_face(axis, sign, low, high, turned) for axis in range(3) for sign in (-1, 1)]
+        seen = np.flatnonzero([face is not None for face in made])
+        faces = [face for face in made if face is not None]
+        self._axis, self._sign = seen // 2, 2 * (seen % 2) - 1
+        self._number = np.full(6, -1)
+        self._number[seen] = np.arange(len(seen))
+        self._start = np.array([face.start for face in faces]).reshape(-1, 2).T
+        self._scale = np.array([face.scale for face in faces]).reshape(-1, 2).T
+        self._parts = np.concatenate([np.zeros((0, 4), np.float32), *(face.parts for face in faces)])
 
     def bounds(self, centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
         """Return x0, x1, y0, y1 (n, 4) of balls, with centers (n, 3) relative to the eye: parts of the picture outside
@@ -68,24 +73,41 @@ class DirectionMap:
         axis = size.argmax(axis=1)
         depth = size[np.arange(len(axis)), axis]
         is_small = radii < SMALL * depth
-        for (face_axis, sign), face in self._faces.items():
-            balls = np.flatnonzero(is_small & (axis == face_axis) & ((centers[:, face_axis] > 0) == (sign > 0)))
-            low, high = _slopes(taken(centers.T, balls), taken(radii, balls), face)
-            _look_up(face, balls, low, high, bounds)
-        large = np.flatnonzero(~is_small)
-        for face in self._faces.values() if large.size else ():
-            beside, radius = centers[large], radii[large]
-            depth = face.sign * beside[:, face.axis]
-            first, second = (pinhole_interval(beside[:, axis], depth, radius) for axis in _across(face.axis))
-            _look_up(face, large, np.array((first[0], second[0])), np.array((first[1], second[1])), bounds)
+        face = taken(self._number, 2 * axis + (centers[np.arange(len(axis)), axis] > 0))
+        small = np.flatnonzero(is_small & (face >= 0))
+        face = taken(face, small)
+        bounds[small] = self._look_up(face, *_slopes(*self._beside(small, face, centers), taken(radii, small)))
+        large, count = np.flatnonzero(~is_small), len(self._axis)
+        if large.size and count:
+            balls, face = np.repeat(large, count), np.tile(np.arange(count), len(large))
+            depth, others = self._beside(balls, face, centers)
+            low, high = pinhole_interval(others, depth, taken(radii, balls))
+            bounds[large] = self._look_up(face, low, high).reshape(-1, count, 4).min(axis=1)
         bounds[:, 1::2] *= -1
         bounds[np.isinf(bounds).any(axis=1)] = np.nan
         holds = (centers * centers).sum(axis=1) <= radii * radii * (1 + SLOPE_MARGIN)
         bounds[holds] = everywhere(int(holds.sum()))
         return bounds
 
+    def _beside(self, balls: np.ndarray, face: np.ndarray, centers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the depths (m,) of balls before faces, and their places across these, (2, m)."""
+        axis, first = taken(self._axis, face), 3 * balls
+        depth, *others = (taken(centers.reshape(-1), first + side) for side in (axis, *_across(axis)))
+        return taken(self._sign, face) * depth, np.array(others)
 
-def _across(axis: int) -> tuple[int, int]:
+    def _look_up(self, face: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+        """Return x0, -x1, y0, -y1 (m, 4) of what is seen on faces within slopes, (2, m) ends; inf for nothing."""
+        seen = np.full((len(face), 4), np.inf)
+        here, cells = _cells(taken(self._start, face), taken(self._scale, face), low, high)
+        first = taken(face, here) * FIRST[-1]
+        parts = self._parts.take(first + cells[0], axis=0)
+        for cell in cells[1:]:
+            np.minimum(parts, self._parts.take(first + cell, axis=0), out=parts)
+        seen[here] = parts
+        return seen
+
+
+def _across(axis: Any) -> tuple[Any, Any]:
     return (axis + 1) % 3, (axis + 2) % 3
 
 
@@ -104,8 +126,8 @@ def _face(axis: int, sign: int, low: np.ndarray, high: np.ndarray, parts: np.nda
     slopes += np.array((-SLOPE_MARGIN, SLOPE_MARGIN))[:, None]
     start = slopes[:, 0].min(axis=1)
     scale = CELLS / np.maximum(slopes[:, 1].max(axis=1) - start, 1e-6)
-    face = CubeFace(axis, sign, start, scale, np.full((FIRST[-1], 4), np.inf, np.float32))
-    _, cells = _cells(face, slopes[:, 0], slopes[:, 1])
+    face = CubeFace(start, scale, np.full((FIRST[-1], 4), np.inf, np.float32))
+    _, cells = _cells(start[:, None], scale[:, None], slopes[:, 0], slopes[:, 1])
     cell, bounds = np.concatenate(cells), np.tile(parts[here], (len(cells), 1))
     order = np.argsort(cell, kind="stable")
     starts = np.flatnonzero(np.diff(cell[order], prepend=-1))
@@ -120,10 +142,11 @@ def _face(axis: int, sign: int, low: np.ndarray, high: np.ndarray, parts: np.nda
     return face
 
 
-def _cells(face: CubeFace, low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, list[np.ndarray]]:
-    """Return which intervals of slopes, (2, n) ends, meet the face, by index, and up to four cells that hold each."""
-    first = np.floor((low - face.start[:, None]) * face.scale[:, None])
-    last = np.floor((high - face.start[:, None]) * face.scale[:, None])
+def _cells(start: np.ndarray, scale: np.ndarray, low: np.ndarray, high: np.ndarray):
+    """Return which intervals of slopes, (2, n) ends, meet their faces, by index, and up to four cells that hold each,
+    given the first slopes and the scales of the faces, which broadcast.
+    """
+    first, last = (np.floor((end - start) * scale) for end in (low, high))
     here = np.flatnonzero(((first < CELLS) & (last >= 0)).all(axis=0))
     first, last = (np.clip(end[:, here], 0, CELLS - 1).astype(np.intp) for end in (first, last))
     level = taken(LEVEL_OF, (last - first).max(axis=0))
@@ -133,24 +156,14 @@ def _cells(face: CubeFace, low: np.ndarray, high: np.ndarray) -> tuple[np.ndarra
     return here, [row + column for row in rows for column in (first[1], last[1])]
 
 
-def _slopes(centers: np.ndarray, radii: np.ndarray, face: CubeFace) -> tuple[np.ndarray, np.ndarray]:
-    """Return the least and largest slopes, (2, n) each, of small balls."""
-    depth, others = face.sign * centers[face.axis], centers[list(_across(face.axis))]
+def _slopes(depth: np.ndarray, others: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the least and largest slopes, (2, n) each, of small balls at depths (n,), at places (2, n) across these.
+    """
     below = depth * depth - radii * radii
     half = radii * np.sqrt(others * others + below) / below
     middle = others * depth / below
     half += SLOPE_MARGIN
     return middle - half, middle + half
-
-
-def _look_up(face: CubeFace, balls: np.ndarray, low: np.ndarray, high: np.ndarray, bounds: np.ndarray) -> None:
-    """Lower the bounds of balls, by index, to those of a face, given the ends of their slopes, (2, n) each."""
-    meeting, cells = _cells(face, low, high)
-    parts = face.parts.take(cells[0], axis=0)
-    for cell in cells[1:]:
-        np.minimum(parts, face.parts.take(cell, axis=0), out=parts)
-    balls = balls[meeting]
-    bounds[balls] = np.minimum(bounds[balls], parts)
 
 
 LEVEL_OF = np.ceil(np.log2(np.maximum(np.arange(CELLS), 1))).astype(np.intp)
