@@ -1,4 +1,5 @@
-"""Rays given as arrays, by processor time: beside filling these arrays, and beside Open3D where it is installed.
+"""Rays given as arrays, by processor time on one thread: beside filling these arrays, and beside Open3D where it is
+installed; and by the clock on one thread and on all.
 
 The scenes are a closed room of 150,000 triangles, and two example scenes. Open3D is asked with all its threads; its
 tree and that of ``cast_rays`` are there before.
@@ -8,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from time import process_time
+from time import perf_counter, process_time
 
 import numpy as np
 
@@ -26,7 +27,7 @@ BUMPS = 112
 
 
 def run(rounds: int, quick: bool) -> list[dict]:
-    """Print and return the least processor time of a cast of distances and shape indices, in milliseconds."""
+    """Print and return the least times of a cast of distances and shape indices, in milliseconds."""
     scenes: dict[str, tuple[Shapes, np.ndarray]] = {"room": (_room(), np.zeros(3))}
     if c.has("bpy"):
         from .redraws import _stored
@@ -34,24 +35,25 @@ def run(rounds: int, quick: bool) -> list[dict]:
         for name in ("street", "living_room"):
             pose, shapes = _stored(name)
             scenes[name] = shapes, pose.eye
-    print(f"\nms of processor time, least of {rounds}; distance and shape_index")
-    print(f"  {'':34}{'rays':>10}{'fill':>8}{'cast_rays':>11}{'rays/s':>12}{'Open3D':>9}")
+    print(f"\nms of processor time, least of {rounds}; distance and shape_index; by the clock: one thread and all")
+    print(f"  {'':34}{'rays':>10}{'fill':>8}{'cast_rays':>11}{'rays/s':>12}{'clock 1':>9}{'all':>8}{'Open3D':>9}")
     rows = []
     for scene, (shapes, eye) in scenes.items():
         contender = _open3d(shapes) if c.has("open3d") else None
         for kind, (origins, directions) in _rays(eye, WIDTH // 8 if quick else WIDTH).items():
+            cast = partial(crc.cast_rays, origins, directions, shapes, passes=("distance", "shape_index"))
             timed: dict[str, Callable] = {
-                "fill_ms": partial(_filled, directions.shape),
-                "cast_ms": partial(crc.cast_rays, origins, directions, shapes, passes=("distance", "shape_index")),
-            }
+                "fill": partial(_filled, directions.shape), "cast": partial(cast, threads=1), "shared": cast
+            }  # fmt: skip
             if contender is not None:
-                timed["open3d_ms"] = partial(contender, np.concatenate((origins, directions), 1).astype(np.float32))
+                timed["open3d"] = partial(contender, np.concatenate((origins, directions), 1).astype(np.float32))
             row: dict = {"scene": scene, "rays": kind, "count": len(directions)}
-            row |= {name: _least(function, rounds) for name, function in timed.items()}
+            row |= _least(timed, rounds)
             rows.append(row)
             rate = 1e3 * len(directions) / row["cast_ms"]
             print(f"  {scene:12}{kind:22}{len(directions):10,}{row['fill_ms']:8.1f}{row['cast_ms']:11.1f}{rate:12,.0f}"
-                  f"{row.get('open3d_ms', np.nan):9.1f}", flush=True)  # fmt: skip
+                  f"{row['cast_clock_ms']:9.1f}{row['shared_clock_ms']:8.1f}{row.get('open3d_ms', np.nan):9.1f}",
+                  flush=True)  # fmt: skip
     return rows
 
 
@@ -60,13 +62,18 @@ def _filled(shape: tuple[int, ...]) -> list[np.ndarray]:
     return [np.full(shape, 1.0), np.full(shape, 1.0), np.full(shape[:1], 1.0), np.full(shape[:1], 1, np.int32)]
 
 
-def _least(timed: Callable, rounds: int) -> float:
-    times = []
+def _least(timed: dict[str, Callable], rounds: int) -> dict[str, float]:
+    """Return the least processor time and time by the clock of functions that are called in turns."""
+    times: dict[str, list[tuple[float, float]]] = {name: [] for name in timed}
     for _ in range(rounds + 1):  # the first one makes the tree
-        began = process_time()
-        timed()
-        times.append(1e3 * (process_time() - began))
-    return min(times[1:])
+        for name, function in timed.items():
+            began, clock = process_time(), perf_counter()
+            function()
+            times[name].append((process_time() - began, perf_counter() - clock))
+    row = {}
+    for name, every in times.items():
+        row[f"{name}_ms"], row[f"{name}_clock_ms"] = (1e3 * np.array(every[1:]).min(axis=0)).tolist()
+    return row
 
 
 def _rays(eye: np.ndarray, width: int) -> dict[str, tuple[np.ndarray, np.ndarray]]:
