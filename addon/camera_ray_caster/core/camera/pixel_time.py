@@ -84,11 +84,13 @@ FPS = Whole("fps", "Frame Rate", "Frames in a second, before it is divided by Ba
 FPS_BASE = Number("fps_base", "Base", "Divisor of the frame rate", 1.0, 1e-5, owner=RENDER)
 
 SETTINGS: dict[str, tuple[Setting, ...]] = {
-    NONE: (), ROWS: (START, END, TOLERANCE, EVALUATIONS), COLUMNS: (START, END, TOLERANCE, EVALUATIONS),
+    NONE: (),
+    ROWS: (START, END, TOLERANCE, EVALUATIONS),
+    COLUMNS: (START, END, TOLERANCE, EVALUATIONS),
     IMAGE: (GRAY, START, END, TOLERANCE, EVALUATIONS),
     ROLLING_SHUTTER: (READOUT, POSITION, SHUTTER, DURATION, TOLERANCE, EVALUATIONS),
     SWEEP: (FPS, FPS_BASE, TOLERANCE, EVALUATIONS),
-}  # fmt: skip
+}
 """The settings that each item of MODE reads, in the order of the panel."""
 
 READ_BY_ROWS = "TOP_TO_BOTTOM", "BOTTOM_TO_TOP"
@@ -203,8 +205,11 @@ def rolling_shutter(readout: str, offsets: Sequence[float], size: Sequence[int])
 
 
 MAKERS: dict[str, Callable[[BlenderCamera, Raster], PixelTime]] = {
-    ROWS: _rows, COLUMNS: _columns, IMAGE: _image, ROLLING_SHUTTER: _rolling_shutter,
-}  # fmt: skip
+    ROWS: _rows,
+    COLUMNS: _columns,
+    IMAGE: _image,
+    ROLLING_SHUTTER: _rolling_shutter,
+}
 
 
 def _ends(raw: BlenderCamera) -> tuple[float, float]:

@@ -158,9 +158,15 @@ def _vectors(setting: Setting, value) -> np.ndarray | None:
 
 
 CONVERSIONS: dict[str, Callable[[Any, Any], Any]] = {
-    "FLOAT": lambda setting, value: a_number(value, setting.name), "INT": _whole,
+    "FLOAT": lambda setting, value: a_number(value, setting.name),
+    "INT": _whole,
     "BOOLEAN": lambda setting, value: flag(value, setting.name),
-    "ENUM": lambda setting, value: word(value, setting.name, [item.key for item in setting.items]), "VECTOR": _numbers,
-    "TEXT": _text, "FILE": _file, "OBJECT": _line, "IMAGE": _image, "VECTORS": _vectors,
-}  # fmt: skip
+    "ENUM": lambda setting, value: word(value, setting.name, [item.key for item in setting.items]),
+    "VECTOR": _numbers,
+    "TEXT": _text,
+    "FILE": _file,
+    "OBJECT": _line,
+    "IMAGE": _image,
+    "VECTORS": _vectors,
+}
 """Functions that turn a value into that of a record, by kind of setting."""

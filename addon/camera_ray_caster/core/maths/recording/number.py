@@ -252,11 +252,15 @@ SAME = {"bitwise_and": "logical_and", "bitwise_or": "logical_or", "invert": "log
 """Alternative names of operations."""
 
 DERIVED: dict[str, Callable] = {
-    "greater": lambda a, b: np.less(b, a), "greater_equal": lambda a, b: np.less_equal(b, a),
-    "not_equal": lambda a, b: ~np.equal(a, b), "isnan": lambda a: ~np.equal(a, a),
-    "isfinite": lambda a: np.absolute(a) < np.inf, "square": lambda a: a * a, "reciprocal": lambda a: 1.0 / a,
+    "greater": lambda a, b: np.less(b, a),
+    "greater_equal": lambda a, b: np.less_equal(b, a),
+    "not_equal": lambda a, b: ~np.equal(a, b),
+    "isnan": lambda a: ~np.equal(a, a),
+    "isfinite": lambda a: np.absolute(a) < np.inf,
+    "square": lambda a: a * a,
+    "reciprocal": lambda a: 1.0 / a,
     "positive": lambda a: a,
-}  # fmt: skip
+}
 """Operations that are recorded by means of others."""
 
 
@@ -284,8 +288,13 @@ def _more(method: str, options) -> str:
 
 
 FUNCTIONS: dict[Any, Callable] = {
-    np.where: _where, np.clip: lambda number, low, high: np.minimum(np.maximum(number, low), high),
-    np.searchsorted: _searchsorted, np.broadcast_arrays: lambda *numbers: list(numbers), np.ndim: lambda number: 0,
-    np.shape: lambda number: (), np.zeros_like: lambda number: 0.0, np.ones_like: lambda number: 1.0,
-}  # fmt: skip
+    np.where: _where,
+    np.clip: lambda number, low, high: np.minimum(np.maximum(number, low), high),
+    np.searchsorted: _searchsorted,
+    np.broadcast_arrays: lambda *numbers: list(numbers),
+    np.ndim: lambda number: 0,
+    np.shape: lambda number: (),
+    np.zeros_like: lambda number: 0.0,
+    np.ones_like: lambda number: 1.0,
+}
 """Supported functions of numpy that are not ufuncs."""

@@ -36,10 +36,15 @@ LOGICAL = frozenset(("logical_and", "logical_or", "logical_not"))
 """Operations on truth values."""
 
 DOMAIN: Arithmetic = {
-    "divide": lambda a, b: b != 0, "remainder": lambda a, b: b != 0,
-    "power": lambda a, b: (a > 0) | ((a == 0) & (b >= 0)) | ((a < 0) & (b % 1 == 0)), "sqrt": lambda a: a >= 0,
-    "log": lambda a: a > 0, "log1p": lambda a: a > -1, "arcsin": lambda a: abs(a) <= 1, "arccos": lambda a: abs(a) <= 1,
-}  # fmt: skip
+    "divide": lambda a, b: b != 0,
+    "remainder": lambda a, b: b != 0,
+    "power": lambda a, b: (a > 0) | ((a == 0) & (b >= 0)) | ((a < 0) & (b % 1 == 0)),
+    "sqrt": lambda a: a >= 0,
+    "log": lambda a: a > 0,
+    "log1p": lambda a: a > -1,
+    "arcsin": lambda a: abs(a) <= 1,
+    "arccos": lambda a: abs(a) <= 1,
+}
 """Whether an operation on given numbers gives a number, as functions; operations that are not listed always do."""
 
 
@@ -147,8 +152,13 @@ def _take(places, table):
 
 NUMPY: Arithmetic = {
     **{name: getattr(np, name) for name in NUMERIC | COMPARISONS | LOGICAL | {"where", "all"}},
-    "constant": lambda value: value, "parameter": lambda value, name: value, "varied": lambda value, slopes: value,
-    "roundoff": lambda: EPS, "stop_gradient": lambda a: a, "least_root": lambda *coefficients: least_root(coefficients),
-    "searchsorted": lambda number, table, side: np.searchsorted(table, number, side).astype(np.float64), "take": _take,
-}  # fmt: skip
+    "constant": lambda value: value,
+    "parameter": lambda value, name: value,
+    "varied": lambda value, slopes: value,
+    "roundoff": lambda: EPS,
+    "stop_gradient": lambda a: a,
+    "least_root": lambda *coefficients: least_root(coefficients),
+    "searchsorted": lambda number, table, side: np.searchsorted(table, number, side).astype(np.float64),
+    "take": _take,
+}
 """The arithmetic of float64, for arrays that broadcast. numpy also warns of invalid values in branches not taken."""
