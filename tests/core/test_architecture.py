@@ -30,7 +30,7 @@ MAY_IMPORT = {
     "core.tuning": set(),
     "core.mesh": {"core.tuning"},
     "core.materials": {"core.materials"},
-    "core.shape_records": {"core.materials", "core.mesh"},
+    "core.shape_records": {"core.materials", "core.mesh", "core.other_names"},
     "core.records": {"core.conventions", "core.shape_records"},
     "core.other_names": set(),
     "core.arguments": {"core.other_names", "core.records"},

@@ -92,8 +92,16 @@ model.key <- type camera_type camera_model model_name
 with_pose(pose) <- set_pose look_at move
 with_settings(...) <- replace copy clone with_fov
 crc.camera(model, size) of the other size <- resize rescale with_size downscale
+motion, next and previous <- timeline
 """)
 """What to use in place of an attribute that a camera does not have."""
+
+OF_SHAPES = _table("""
+motion, next and previous <- timeline
+len(shapes) <- count n num_shapes
+center <- centers position location
+""")
+"""What to use in place of an attribute that shapes do not have."""
 
 WORDS = _table("""
 fisheye_fov <- fov hfov vfov fov_x fov_y xfov yfov

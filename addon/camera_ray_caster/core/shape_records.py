@@ -15,6 +15,7 @@ import numpy as np
 from .materials.surface import Surface
 from .materials.values import Value
 from .mesh import Mesh
+from .other_names import OF_SHAPES, instead
 
 SPHERE, PLANE, INFINITE_PLANE, MESH = 0, 1, 2, 3
 """Values of ``Shapes.kind``."""
@@ -214,6 +215,12 @@ class Shapes(_Values):
     def at(self, frame: float) -> Shapes:
         """Return the shapes at a frame: themselves if they do not move."""
         return self if self.motion is None else self.motion.shapes_at(frame)
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str):
+            use = instead(name, OF_SHAPES, dir(type(self)))
+            raise AttributeError(f"shapes have no {name}{use}", name=name, obj=self)
 
 
 for _group, _names in NAMES.items():

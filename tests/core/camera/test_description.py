@@ -1,5 +1,8 @@
 """What a camera says of itself, which cameras are equal, and cameras with other settings."""
 
+import pickle
+from copy import copy
+from dataclasses import replace
 from pathlib import Path
 from subprocess import run
 from sys import executable
@@ -8,6 +11,7 @@ import numpy as np
 import pytest
 
 import camera_ray_caster as crc
+from camera_ray_caster.core.camera.equality import same
 from camera_ray_caster.core.records import no_shapes
 
 SIZE = 640, 480
@@ -31,6 +35,29 @@ def test_equal_cameras_are_equal():
     )
     assert first == second
     assert first != third
+
+
+@pytest.mark.parametrize("second", [np.array(3.0), np.array(3), np.float32(3), 3, 3.0])
+def test_a_number_equals_an_array_of_no_axis(second):
+    first = np.array(3.0)
+    assert same(first, second)
+    assert same({"fx": [first]}, {"fx": np.array([3.0])})
+    assert not any(same(first, other) for other in (np.array(4.0), 4, [3.0], "3", None))
+    camera = fisheye()
+    given = replace(camera, record=replace(camera.record, settings=camera.record.settings | {"k1": np.array(0.1)}))
+    assert given == camera
+    assert given != fisheye(k1=0.2)
+
+
+def test_what_was_the_timeline_is_named():
+    shapes = crc.spheres((0, 0, -4))
+    for thing in (fisheye(), shapes):
+        with pytest.raises(AttributeError, match="no timeline: use motion, next and previous"):
+            thing.timeline  # noqa: B018
+    with pytest.raises(AttributeError, match="shapes have no centre: use center"):
+        shapes.centre  # noqa: B018
+    assert not hasattr(shapes, "_private")
+    assert len(pickle.loads(pickle.dumps(shapes))) == len(copy(shapes)) == 1
 
 
 @pytest.mark.parametrize("key", ["PERSP", "OPENCV_FISHEYE", "RAY_TABLE", "PUSHBROOM"])

@@ -1,6 +1,7 @@
 """What models declare of themselves: names, groups, menu numbers, settings, formulas."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import pytest
 
@@ -60,3 +61,6 @@ def test_the_old_names_of_a_model_work_with_a_warning():
     assert (model.size, model.device_size) == ((6, 5), (8, 4))
     with pytest.warns(DeprecationWarning, match="Model.size"):
         assert model.frame == (6, 5)
+    for make in (partial(Perspective, window=model.window), partial(replace, model)):
+        with pytest.raises(TypeError, match="give size="):
+            make(frame=(6, 5))

@@ -16,6 +16,8 @@ def same(first: Any, second: Any) -> bool:
     """Whether two values are equal in type and content: fields of records, items, numbers of arrays; NaN equals NaN.
     Lists, tuples and arrays of the same numbers are equal, and so are 30 and 30.0: a file has the first ones.
     """
+    first, second = (value.item() if isinstance(value, np.ndarray) and value.ndim == 0 else value
+                     for value in (first, second))  # fmt: skip
     if first is second:
         return True
     if isinstance(first, np.ndarray) and isinstance(second, np.ndarray):

@@ -12,6 +12,12 @@ class OldNames:
 
     size: Any
 
+    def __new__(cls, *values: Any, **fields: Any):
+        """Refuse ``frame=`` of a model that has no such field of its own."""
+        if "frame" in fields.keys() - getattr(cls, "__dataclass_fields__", {}).keys():
+            raise TypeError(f"{cls.__name__} has no frame: give size=, (width, height) in pixels")
+        return super().__new__(cls)
+
     def __init_subclass__(cls, **arguments: Any):
         super().__init_subclass__(**arguments)
         if isinstance(vars(cls).get("size"), property):
