@@ -108,7 +108,7 @@ def test_the_panels_say_how_right_the_hits_are(blender, scene):
     assert 0 < reports.latest().seconds["accuracy"] < sum(reports.latest().seconds.values())
     median, worst = (f"≤ {getattr(found, name)('relative_distance'):.0e}" for name in ("median", "worst"))
     assert f"Median {median} Worst {worst}" in drawn(blender, cast_panels.CastReport)
-    assert "384 rays, 1 shape, " in drawn(blender, cast_panels.SidebarCast)
+    assert " s: 384 rays, 1 shape" in drawn(blender, cast_panels.SidebarCast)
     assert f"Worst distance error: {worst}" in drawn(blender, render_panels.RenderPanel)
     scene.camera.location.z = -6  # it looks away from all there is
     blender.ops.camera_ray_caster.cast()

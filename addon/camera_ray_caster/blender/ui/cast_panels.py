@@ -43,12 +43,13 @@ class SidebarCast(Sidebar, bpy.types.Panel):
 
 
 def summary(report) -> str:
-    """Return the number of rays and shapes of a cast, and its time; of another engine's picture without passes, the
-    engine.
+    """Return the time of a cast, and its numbers of rays and shapes: where a row is too short, these are cut off.
+    Of another engine's picture without passes it has the engine in place of the rays.
     """
+    rays = f"{report.rays / 1e6:.3g} M" if report.rays >= 1e6 else f"{report.rays:,}"
+    made = f"{rays} rays" if report.rays else f"{engine_label(report.combined['engine'])} picture"
     shapes = f"{report.shapes:,} {'shape' if report.shapes == 1 else 'shapes'}"
-    made = f"{report.rays:,} rays" if report.rays else f"{engine_label(report.combined['engine'])} picture"
-    return f"{made}, {shapes}, {sum(report.seconds.values()):.3g} s"
+    return f"{sum(report.seconds.values()):.3g} s: {made}, {shapes}"
 
 
 class SidebarPasses(Sidebar, bpy.types.Panel):
