@@ -89,7 +89,6 @@ def icon(name: str) -> int:
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     undo.callback(_forget)
 
 

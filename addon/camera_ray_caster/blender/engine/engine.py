@@ -259,5 +259,4 @@ CLASSES = (CameraRayCaster,)
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     undo.callback(stop)

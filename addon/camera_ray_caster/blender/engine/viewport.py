@@ -263,5 +263,4 @@ def stop() -> None:
 
 
 def register(undo) -> None:
-    """See ``registration``."""
     undo.callback(stop)

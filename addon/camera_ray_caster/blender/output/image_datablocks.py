@@ -165,7 +165,6 @@ def forget(*_) -> None:
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     undo.add_handlers([
         ("save_pre", pack), ("load_pre", forget), ("undo_pre", hold), ("redo_pre", hold),
         ("undo_post", give_back), ("redo_post", give_back),

@@ -134,7 +134,6 @@ def forget(*_):
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     undo.callback(forget)
     bpy.app.handlers.load_pre.append(forget)
     undo.callback(bpy.app.handlers.load_pre.remove, forget)

@@ -83,5 +83,4 @@ HANDLERS = (
 
 
 def register(undo) -> None:
-    """See ``registration``."""
     undo.add_handlers(HANDLERS)

@@ -189,6 +189,5 @@ def stop() -> None:
 
 
 def register(undo) -> None:
-    """See ``registration``."""
     undo.callback(stop)
     undo.add_handlers([(name, changed) for name in ("depsgraph_update_post", "undo_post", "redo_post", "load_pre")])

@@ -114,6 +114,5 @@ HANDLERS = (
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     undo.callback(forget)
     undo.add_handlers(HANDLERS)

@@ -170,6 +170,5 @@ HANDLERS = (
 
 
 def register(undo) -> None:
-    """See ``registration``."""
     undo.callback(forget)
     undo.add_handlers(HANDLERS)

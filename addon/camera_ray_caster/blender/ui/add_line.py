@@ -10,7 +10,7 @@ from ...core.cameras.parts.lines import SECOND_SLIT, SLIT
 from ...core.cameras.strip import PATH
 from ...core.records import InputError
 from ..properties.declared import GROUP
-from .needs import OfCamera, camera_object_of, reporting, select_alone
+from .needs import OfCamera, camera_object_of, select_alone
 
 QUARTER = 1.5707963267948966
 GRADIENT = 256, 16
@@ -39,13 +39,9 @@ class OfLine(OfCamera):
 class AddLine(OfLine, bpy.types.Operator):
     """Add this line to the scene, parented to the camera, and assign it to the camera"""
 
-    bl_idname = "camera_ray_caster.add_line"
     bl_label = "Add Slit or Path"
-    bl_options = {"REGISTER", "UNDO"}
 
-    @reporting
     def execute(self, context):
-        """Add the line to the collections of the camera."""
         camera = camera_object_of(context)
         name = f"{camera.name} {SETTINGS[self.setting].label}"
         line = bpy.data.objects.new(name, _path(name) if self.setting == PATH.name else None)
@@ -63,13 +59,9 @@ class AddLine(OfLine, bpy.types.Operator):
 class SelectLine(OfLine, bpy.types.Operator):
     """Select only this line, to move it"""
 
-    bl_idname = "camera_ray_caster.select_line"
     bl_label = "Select Slit or Path"
-    bl_options = {"REGISTER", "UNDO"}
 
-    @reporting
     def execute(self, context):
-        """Select the line and make it active."""
         line = getattr(getattr(camera_object_of(context).data, GROUP), self.setting)
         if line is None or line.name not in context.view_layer.objects:
             raise InputError("the object is not in this view layer: enable its collection, or choose another one")
@@ -80,13 +72,9 @@ class AddGradient(OfCamera, bpy.types.Operator):
     """Add an image with an even gradient, from black at the left to white at the right, that sets the time of each
     pixel. Paint or replace it to change the times"""
 
-    bl_idname = "camera_ray_caster.add_gradient"
     bl_label = "Add Gradient"
-    bl_options = {"REGISTER", "UNDO"}
 
-    @reporting
     def execute(self, context):
-        """Add the image to the file, and assign it to the camera."""
         image = bpy.data.images.new("Time Gradient", *GRADIENT, float_buffer=True, is_data=True)
         columns, rows = GRADIENT
         gray = np.repeat(np.linspace(0, 1, columns, dtype=np.float32), 4).reshape(-1, 4)

@@ -24,7 +24,6 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
     bl_label = "Camera"
 
     def draw_header_preset(self, context):
-        """Draw the button of the model presets."""
         camera = context.scene.camera
         if camera is not None and camera.type == "CAMERA":
             self.layout.context_pointer_set("camera", camera.data)  # the presets' target
@@ -32,7 +31,6 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
             self.layout.popover(PRESETS, icon="PRESET", text="")
 
     def draw(self, context):
-        """Draw the camera and its model, the operators, and the first note."""
         layout, camera = self.layout, context.scene.camera
         layout.prop(context.scene, "camera", text="")
         if camera is not None and camera.type == "CAMERA":
@@ -59,7 +57,6 @@ class CameraNotes(Popover, bpy.types.Panel):
     bl_label = "Notes"
 
     def draw(self, context):
-        """Draw the notes."""
         widen(self.layout, context)
         draw_notes(self.layout, context, notes(context))
 
@@ -74,11 +71,9 @@ class SidebarSettings(Sidebar, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        """Show the panel for cameras."""
         return context.scene.camera is not None and context.scene.camera.type == "CAMERA"
 
     def draw(self, context):
-        """Draw the settings of the model, or the lens for Blender's own models; then the pixel times."""
         layout, camera = self.layout, context.scene.camera.data
         put_labels(layout, context)
         layout.use_property_decorate = False

@@ -16,7 +16,7 @@ from .chosen_frames import usual
 from .drawing import Sidebar
 from .export_operators import Export
 from .model_settings import key_of
-from .needs import reporting
+from .needs import Action
 from .notes import draw_line
 from .see_through import is_seen_through
 
@@ -24,12 +24,10 @@ FOLDERS = re.compile(r"(?<=\s)(?:[A-Za-z]:)?[/\\](?=\S).*[/\\]")
 """What a row of the sidebar has no room for in a line with a path; the popover has the whole line."""
 
 
-class UseCamera(bpy.types.Operator):
+class UseCamera(Action, bpy.types.Operator):
     """Make this camera the scene's active camera"""
 
-    bl_idname = "camera_ray_caster.use_camera"
     bl_label = "Use Camera"
-    bl_options = {"REGISTER", "UNDO"}
 
     name: StringProperty(name="Camera", description="Name of the camera object", options={"SKIP_SAVE"})
     see_through: BoolProperty(
@@ -41,9 +39,7 @@ class UseCamera(bpy.types.Operator):
         """Return the tooltip, which differs for the button that also looks through the camera."""
         return "Make this camera the active one and see through it" if properties.see_through else cls.__doc__
 
-    @reporting
     def execute(self, context):
-        """Set the camera."""
         context.scene.camera = find_camera(context.scene, self.name)
         if self.see_through and not is_seen_through(context):
             bpy.ops.camera_ray_caster.see_through()
@@ -64,7 +60,6 @@ class SidebarCameras(Sidebar, bpy.types.Panel):
         return count > 1 or bool(in_process.running() or in_process.latest())
 
     def draw(self, context):
-        """Draw a row for each camera, the buttons that cast and export all, and the result of the latest run."""
         layout, active = self.layout, context.scene.camera
         column = layout.column(align=True)
         try:

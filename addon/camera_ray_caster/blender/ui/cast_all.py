@@ -17,14 +17,13 @@ from ..read.size import SIZE
 from ..terminal import frame_files
 from . import chosen_frames, in_process
 from .drawing import draw_message
-from .needs import can_use, reporting
+from .needs import Action
 from .notes import Popover, widen
 
 
-class CastAll(bpy.types.Operator):
+class CastAll(Action, bpy.types.Operator):
     """Cast all cameras of the scene, at one frame or all frames, and write pictures, passes and reports to a folder"""
 
-    bl_idname = "camera_ray_caster.cast_all"
     bl_label = "Cast All"
     bl_options = {"REGISTER"}
 
@@ -54,9 +53,8 @@ class CastAll(bpy.types.Operator):
     )
 
     @classmethod
-    def poll(cls, context):
-        """Gray out the operator while pictures are made or rendered."""
-        return can_use(cls, in_process.BUSY if in_process.running() else "")
+    def why_gray(cls, context) -> str:
+        return in_process.BUSY if in_process.running() else ""
 
     def invoke(self, context, event):
         """Ask for the folder."""
@@ -68,7 +66,6 @@ class CastAll(bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def draw(self, context):
-        """Draw the options in the file dialog."""
         self.layout.use_property_split = True
         for name in ("frames", "format", "engine", "skip_existing"):
             self.layout.prop(self, name)
@@ -79,9 +76,7 @@ class CastAll(bpy.types.Operator):
             text = in_labels(str(error))
         draw_message(self.layout, context, text, "INFO")
 
-    @reporting
     def execute(self, context):
-        """Begin; a timer does the rest."""
         if self.skip_existing and bpy.data.is_dirty:
             raise InputError("the file has unsaved changes: save it, or disable Skip Existing")
         scene = context.scene
@@ -119,7 +114,6 @@ class LatestRun(Popover, bpy.types.Panel):
     bl_label = "Latest Run"
 
     def draw(self, context):
-        """Draw the result in full."""
         widen(self.layout, context)
         for line in in_process.latest().splitlines():
             draw_message(self.layout, context, line)

@@ -20,7 +20,7 @@ from ..output import image_datablocks, reports
 from ..properties.pass_properties import ticked
 from ..read.camera_fields import view_names
 from ..read.scene_reader import evaluated_camera
-from .needs import OfScene, reporting
+from .needs import OfScene
 from .other_engine import show_in_sidebars
 
 INTERVAL = 0.1
@@ -67,24 +67,18 @@ def fraction() -> float | None:
 class Cast(OfScene, bpy.types.Operator):
     """Cast the chosen passes of the active camera into images; in a stereo scene, for each eye"""
 
-    bl_idname = "camera_ray_caster.cast"
     bl_label = "Cast"
     bl_options = {"REGISTER"}  # no undo: images stay
 
     @classmethod
-    def poll(cls, context):
-        """Gray out the operator without a camera and during a cast."""
-        cls.poll_message_set("A cast is running: press Esc to stop it")
-        return not _running and super().poll(context)
+    def why_gray(cls, context) -> str:
+        return "A cast is running: press Esc to stop it" if _running else super().why_gray(context)
 
-    @reporting
     def execute(self, context):
-        """Cast and wait for the result."""
         source, jobs = self.read(context)
         passes, report = cast_views(jobs)
         self.finish(context, list(image_datablocks.store(passes)), report, source)
 
-    @reporting
     def invoke(self, context, event):
         """Read the scene, then cast on a thread; Blender calls ``modal`` until the cast has ended."""
         source, jobs = self.read(context)
@@ -94,7 +88,6 @@ class Cast(OfScene, bpy.types.Operator):
         show_progress()
         return {"RUNNING_MODAL"}
 
-    @reporting
     def modal(self, context, event):
         """Show the progress, stop on Esc during the cast, then store the images; pass other events to Blender."""
         running = _running[0]
@@ -178,5 +171,4 @@ CLASSES = (Cast,)
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     undo.callback(stop)

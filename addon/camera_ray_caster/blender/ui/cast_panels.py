@@ -22,7 +22,6 @@ class SidebarCast(Sidebar, bpy.types.Panel):
     bl_label = "Cast"
 
     def draw(self, context):
-        """Draw the button or the progress, a menu of the images, and the result and omissions of the latest cast."""
         layout, fraction = self.layout, cast_operator.fraction()
         row = layout.row()
         row.scale_y = 1.4
@@ -61,7 +60,6 @@ class SidebarPasses(Sidebar, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
-        """Draw the check boxes in two columns."""
         grid = self.layout.grid_flow(columns=2, even_columns=True, align=True)
         for entry in PASSES:
             grid.prop(entry.settings(context.scene, context.view_layer), entry.tick)
@@ -76,7 +74,6 @@ class SidebarQuality(Sidebar, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
-        """Draw the settings."""
         layout, settings = self.layout, context.scene.camera_ray_caster
         layout.row().prop(settings, "shading", expand=True)
         for name in ("samples", "exact_shapes"):
@@ -91,11 +88,9 @@ class CastReport(Popover, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        """Open the popover if there is a report."""
         return reports.latest(context.scene) is not None
 
     def draw(self, context):
-        """Draw the seconds per step, the rays per second, the relative error bounds of the distances, and the notes."""
         widen(self.layout, context)
         report = reports.latest(context.scene)
         box = self.layout.box().column(align=True)

@@ -13,7 +13,7 @@ from ...core.library.clouds import save_points
 from ..output.point_files import categories_of
 from ..read.scene_reader import read_scene
 from .drawing import Sidebar
-from .needs import OfScene, reporting, select_alone
+from .needs import OfScene, select_alone
 
 ATTRIBUTES = {
     "range": "FLOAT", "true_range": "FLOAT", "time": "FLOAT", "incidence": "FLOAT", "reflectance": "FLOAT",
@@ -52,13 +52,9 @@ class PointsToMesh(OfPoints, bpy.types.Operator):
     """Add a mesh whose vertices are the points that the active camera's rays hit, with their ranges, rings, times and
     labels as attributes"""
 
-    bl_idname = "camera_ray_caster.points_to_mesh"
     bl_label = "Points to Mesh"
-    bl_options = {"REGISTER", "UNDO"}
 
-    @reporting
     def execute(self, context):
-        """Add the mesh and select it."""
         cloud = self.points(context)
         mesh = bpy.data.meshes.new(f"{cloud.name} Points")
         mesh.vertices.add(len(cloud))
@@ -79,7 +75,6 @@ class PointsToMesh(OfPoints, bpy.types.Operator):
 class SavePoints(OfPoints, ExportHelper, bpy.types.Operator):
     """Write the points that the active camera's rays hit at the current frame, as files of scanners"""
 
-    bl_idname = "camera_ray_caster.save_points"
     bl_label = "Save Points"
     bl_options = {"REGISTER"}
 
@@ -90,9 +85,7 @@ class SavePoints(OfPoints, ExportHelper, bpy.types.Operator):
     filename_ext = ""
     check_extension = None
 
-    @reporting
     def execute(self, context):
-        """Write the files and report the result."""
         path = Path(bpy.path.abspath(self.filepath))
         cloud = self.points(context)
         paths = save_points(cloud, path.parent, self.format, name=path.stem, axes=self.axes).paths
@@ -107,7 +100,6 @@ class SidebarPoints(Sidebar, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
-        """Draw the settings of drawn points, and the buttons."""
         layout, settings = self.layout, context.scene.camera_ray_caster_overlay
         column = layout.column()
         column.active = settings.show

@@ -11,24 +11,20 @@ from ..cycles import add_projector, from_cycles, to_cycles
 from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
 from ..read.camera_fields import shader_mark
 from ..read.scene_reader import read_camera
-from .needs import OfCamera, OfRays, camera_object_of, reporting, select_alone
+from .needs import OfCamera, OfRays, camera_object_of, select_alone
 
 
 class UseInCycles(OfRays, bpy.types.Operator):
     """Let Cycles render with this camera's rays: the camera becomes a custom camera, whose shader is stored in the
     file"""
 
-    bl_idname = "camera_ray_caster.use_in_cycles"
     bl_label = "Use in Cycles"
-    bl_options = {"REGISTER", "UNDO"}
 
     set_engine: BoolProperty(
         name="Set Engine", description="Also set the scene's render engine to Cycles", options={"SKIP_SAVE"}
     )
 
-    @reporting
     def execute(self, context):
-        """Convert the camera, and report what will not update by itself."""
         remarks = to_cycles(context.scene, camera_object_of(context))
         if self.set_engine:
             context.scene.render.engine = "CYCLES"
@@ -39,21 +35,16 @@ class UseInCycles(OfRays, bpy.types.Operator):
 class BackToBlender(OfCamera, bpy.types.Operator):
     """Restore the camera's former type, and remove the shader that the add-on made"""
 
-    bl_idname = "camera_ray_caster.back_to_blender"
     bl_label = "Back to Blender's Camera"
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context):
-        """Gray out the operator for a camera without the add-on's shader."""
-        if not super().poll(context):
-            return False
-        cls.poll_message_set("The camera has no shader made by the add-on")
-        return shader_mark(camera_object_of(context).data) is not None
+    def why_gray(cls, context) -> str:
+        if reason := super().why_gray(context):
+            return reason
+        is_ours = shader_mark(camera_object_of(context).data) is not None
+        return "" if is_ours else "The camera has no shader made by the add-on"
 
-    @reporting
     def execute(self, context):
-        """Restore the camera's type."""
         from_cycles(camera_object_of(context))
 
 
@@ -62,13 +53,9 @@ class FitLens(OfRays, bpy.types.Operator):
     perspective or orthographic, for any engine, or a polynomial fisheye, for Cycles on any device. The lens of a dome
     looks up: it gets a camera of its own, which follows this one"""
 
-    bl_idname = "camera_ray_caster.fit_lens"
     bl_label = "Fit Blender's Lens"
-    bl_options = {"REGISTER", "UNDO"}
 
-    @reporting
     def execute(self, context):
-        """Fit the lens, set it in place of the model, and report its errors and what renders it."""
         item, scene = camera_object_of(context), context.scene
         lens = blender_lens(read_camera(scene, item))
         if lens.elevation:
@@ -100,13 +87,9 @@ class AddProjector(OfRays, bpy.types.Operator):
     """Add a lamp that projects a picture through this camera's model in Cycles, on any device. The picture is a color
     grid: replace it in the lamp's nodes"""
 
-    bl_idname = "camera_ray_caster.add_projector"
     bl_label = "Add Projector"
-    bl_options = {"REGISTER", "UNDO"}
 
-    @reporting
     def execute(self, context):
-        """Add the lamp, select it, and report the error of its table."""
         lamp, error = add_projector(context.scene, camera_object_of(context))
         select_alone(context, lamp)
         self.report({"INFO"}, f"{lamp.name} projects, exact to {error:.2g} pixels; its picture is in its nodes")

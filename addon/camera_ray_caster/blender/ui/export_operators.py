@@ -15,7 +15,7 @@ from ..read.camera_fields import ALL, find_camera, find_cameras
 from ..read.scene_reader import read_camera
 from ..read.unique import unique_name
 from . import chosen_frames, in_process
-from .needs import OfScene, can_use, reporting
+from .needs import OfScene
 
 CHOSEN = {
     "ACTIVE": lambda context: [context.scene.camera],
@@ -36,7 +36,6 @@ def said_of(remarks: list[str], paths: list[Path], folder: Path, fits: bool) -> 
 class Export(OfScene, ExportHelper, bpy.types.Operator):
     """Write cameras, at one or more frames, to a folder, as files for another program"""
 
-    bl_idname = "camera_ray_caster.export"
     bl_label = "Export Cameras"
     bl_options = {"REGISTER"}
 
@@ -96,9 +95,8 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
         return find_format(properties.format).description
 
     @classmethod
-    def poll(cls, context):
-        """Gray out the operator without a camera, and while other work is done."""
-        return super().poll(context) and can_use(cls, in_process.BUSY if in_process.running() else "")
+    def why_gray(cls, context) -> str:
+        return super().why_gray(context) or (in_process.BUSY if in_process.running() else "")
 
     def invoke(self, context, event):
         """Ask for the folder."""
@@ -114,7 +112,6 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
         return before != self.format
 
     def draw(self, context):
-        """Draw the options in the file dialog."""
         layout = self.layout
         layout.use_property_split = True
         layout.prop(self, "format")
@@ -128,9 +125,7 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
             row.active = self.fit
             row.prop(self, "fit_within")
 
-    @reporting
     def execute(self, context):
-        """Write the files and report the result, or begin and let a timer do the rest."""
         scene = context.scene
         cameras = CHOSEN[self.cameras](context)
         if not cameras:
@@ -159,7 +154,6 @@ class ExportMenu(bpy.types.Menu):
     bl_label = "Cameras (Ray Caster)"
 
     def draw(self, context):
-        """Draw an entry for each format."""
         self.layout.operator_context = "INVOKE_DEFAULT"
         for entry in EXPORT_FORMATS:
             self.layout.operator(Export.bl_idname, text=entry.label).format = entry.key
@@ -169,13 +163,10 @@ class CopyK(OfScene, bpy.types.Operator):
     """Copy the active camera's matrix K to the clipboard, in OpenCV's convention: y down, the origin at the center of
     the top left pixel"""
 
-    bl_idname = "camera_ray_caster.copy_k"
     bl_label = "Copy K"
     bl_options = {"INTERNAL"}
 
-    @reporting
     def execute(self, context):
-        """Copy the matrix."""
         camera = read_camera(context.scene)
         if camera.K is None:
             raise InputError(f"{camera.model.label} has no K matrix: use Copy Camera to copy all its numbers")
@@ -185,13 +176,10 @@ class CopyK(OfScene, bpy.types.Operator):
 class CopyWorldToCamera(OfScene, bpy.types.Operator):
     """Copy the world-to-camera matrix of the active camera, in OpenCV's convention: x right, y down, z forward"""
 
-    bl_idname = "camera_ray_caster.copy_world_to_camera"
     bl_label = "Copy World to Camera"
     bl_options = {"INTERNAL"}
 
-    @reporting
     def execute(self, context):
-        """Copy the matrix."""
         context.window_manager.clipboard = _as_text(read_camera(context.scene).opencv_from_world)
 
 
@@ -206,7 +194,6 @@ def _draw_in_file_menu(menu, context) -> None:
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     bpy.types.TOPBAR_MT_file_export.append(_draw_in_file_menu)
     undo.callback(bpy.types.TOPBAR_MT_file_export.remove, _draw_in_file_menu)
 

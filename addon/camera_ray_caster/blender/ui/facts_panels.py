@@ -74,15 +74,12 @@ class SidebarFacts(Sidebar, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        """Show the panel if there is a camera."""
         return context.scene.camera is not None
 
     def draw_header_preset(self, context):
-        """Draw a button that copies all facts."""
         self.layout.operator("camera_ray_caster.copy_facts", text="", icon="COPYDOWN", emboss=False)
 
     def draw(self, context):
-        """Draw the facts, or nothing if the camera cannot be cast."""
         layout, camera = self.layout, context.scene.camera
         facts, _ = facts_of(context, camera)
         if facts is not None:
@@ -105,11 +102,9 @@ class CameraData(bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        """Show the panel for camera objects."""
         return context.object is not None and context.object.type == "CAMERA"
 
     def draw(self, context):
-        """Draw the facts, or the reason why the camera cannot be cast."""
         facts, reason = facts_of(context, context.object)
         if facts is None:
             draw_message(self.layout, context, reason, "ERROR")

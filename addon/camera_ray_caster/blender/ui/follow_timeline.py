@@ -7,7 +7,7 @@ import bpy
 from ...core.camera.pixel_time import END, SETTINGS, START
 from ..properties.declared import GROUP
 from ..read.frames import frame_of
-from .needs import OfCamera, camera_object_of, reporting
+from .needs import OfCamera, camera_object_of
 from .notes import Note
 
 
@@ -16,21 +16,16 @@ class FollowTimeline(OfCamera, bpy.types.Operator):
     same; in an animation each frame gets its own
     """
 
-    bl_idname = "camera_ray_caster.follow_timeline"
     bl_label = "Follow Timeline"
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context):
-        """Gray out the operator for cameras whose pixels have no Start and End."""
-        if not super().poll(context):
-            return False
-        cls.poll_message_set("Available only for slit scans and time displacement")
-        return has_range(camera_object_of(context).data)
+    def why_gray(cls, context) -> str:
+        if reason := super().why_gray(context):
+            return reason
+        is_scan = has_range(camera_object_of(context).data)
+        return "" if is_scan else "Available only for slit scans and time displacement"
 
-    @reporting
     def execute(self, context):
-        """Drive both by the frame."""
         settings = getattr(camera_object_of(context).data, GROUP)
         for setting in (START, END):
             offset = getattr(settings, setting.name) - frame_of(context.scene)

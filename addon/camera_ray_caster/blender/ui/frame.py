@@ -15,7 +15,7 @@ from ...core.records import InputError
 from ..properties.declared import CAMERA as OWN_SETTINGS
 from ..properties.declared import GROUP
 from ..read.camera_fields import camera_record
-from .needs import OfCamera, camera_object_of, reporting
+from .needs import OfCamera, camera_object_of
 from .notes import Note
 
 SET_FRAME = Flag(
@@ -30,13 +30,9 @@ TYPES = ("type", "panorama_type")
 class SetFrame(OfCamera, bpy.types.Operator):
     """Set the scene's resolution to the size or the aspect ratio of the camera's pictures, so that none is stretched"""
 
-    bl_idname = "camera_ray_caster.set_frame"
     bl_label = "Set Frame"
-    bl_options = {"REGISTER", "UNDO"}
 
-    @reporting
     def execute(self, context):
-        """Set the resolution and report it."""
         wanted = frame_of(context, camera_object_of(context))
         if wanted is None:
             self.report({"INFO"}, "The frame already has the aspect ratio of the camera's pictures")

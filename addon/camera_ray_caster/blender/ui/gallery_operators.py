@@ -8,7 +8,7 @@ from mathutils import Matrix
 from ...core.records import InputError
 from .. import gallery
 from . import see_through
-from .needs import reporting, select_alone
+from .needs import Action, select_alone
 
 _opening: list[str] = []
 """The name of the example that is being opened."""
@@ -18,7 +18,7 @@ LINES = 15
 """Number of lines in a column of the menus."""
 
 
-class OfGallery:
+class OfGallery(Action):
     """Base of the operators on a scene of the gallery."""
 
     name: StringProperty(name="Scene", description="Name of the scene in the gallery", options={"SKIP_SAVE"})
@@ -34,13 +34,10 @@ class OfGallery:
 class OpenExample(OfGallery, bpy.types.Operator):
     """Open this scene of the gallery as a new, unsaved file; Blender asks first whether to save changes"""
 
-    bl_idname = "camera_ray_caster.open_example"
     bl_label = "Open Example Scene"
     bl_options = {"INTERNAL"}
 
-    @reporting
     def execute(self, context):
-        """Open the scene."""
         path = self.path()
         _opening[:] = [self.name]
         return bpy.ops.wm.read_homefile("INVOKE_DEFAULT", filepath=path, load_ui=False)
@@ -66,13 +63,9 @@ def look_through(*_) -> None:
 class AppendCamera(OfGallery, bpy.types.Operator):
     """Add this camera from the gallery, with the slits or the path that it needs, and make it the active camera"""
 
-    bl_idname = "camera_ray_caster.append_camera"
     bl_label = "Add Gallery Camera"
-    bl_options = {"REGISTER", "UNDO"}
 
-    @reporting
     def execute(self, context):
-        """Append the camera to the active collection."""
         known = set(bpy.data.objects)
         with bpy.data.libraries.load(self.path(), link=False) as (_, wanted):
             wanted.objects = [CAMERA]
@@ -106,7 +99,6 @@ class GalleryMenu:
     """Base of the menus of the gallery's scenes, in groups."""
 
     def draw(self, context):
-        """Draw an entry for each scene, in columns; small groups share a column."""
         row, free = self.layout.row(), 0
         for group, entries in gallery.groups().items():
             if len(entries) >= free:
@@ -143,7 +135,6 @@ CLASSES = (OpenExample, AppendCamera, ExamplesMenu, CamerasMenu)
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     bpy.types.VIEW3D_MT_camera_add.append(draw_menu)
     undo.callback(bpy.types.VIEW3D_MT_camera_add.remove, draw_menu)
     undo.add_handlers([("load_post", look_through)])

@@ -15,7 +15,7 @@ from .. import gallery
 from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
 from ..properties.setting_labels import label_of
 from .model_settings import key_of
-from .needs import OfCamera, camera_object_of, objection, reporting
+from .needs import OfCamera, camera_object_of, objection
 
 LINES = 15
 """Number of lines in a column of the menu."""
@@ -62,9 +62,7 @@ class ChooseModel(OfCamera, bpy.types.Operator):
         """Return the tooltip, which is the model's."""
         return next((entry.text for entry in every_item() if entry.key == properties.key), cls.__doc__)
 
-    @reporting
     def execute(self, context):
-        """Set the model or the time."""
         if self.key not in [entry.key for entry in every_item()]:
             raise InputError(f"there is no camera model {self.key!r}")
         choose(camera_object_of(context).data, self.key)
@@ -74,7 +72,6 @@ class KeyModel(OfCamera, bpy.types.Operator):
     """Insert a keyframe of the camera model at the current frame. Shift: add a driver, to be edited in a Drivers
     Editor"""
 
-    bl_idname = "camera_ray_caster.key_model"
     bl_label = "Key Camera Model"
     bl_options = {"UNDO", "INTERNAL"}
 
@@ -85,7 +82,6 @@ class KeyModel(OfCamera, bpy.types.Operator):
         self.driver |= event.shift
         return self.execute(context)
 
-    @reporting
     def execute(self, context):
         """Insert the keyframe, or add a driver that keeps the model until it is edited."""
         settings = getattr(camera_object_of(context).data, GROUP)
@@ -124,7 +120,6 @@ class ModelMenu(bpy.types.Menu):
     bl_options = {"SEARCH_ON_KEY_PRESS"}
 
     def draw(self, context):
-        """Draw an entry for each model and time, in groups; small groups share a column."""
         item = camera_object_of(context)
         chosen = () if objection(context, item) else (key_of(item.data), getattr(item.data, GROUP).time_mode)
         row, free = self.layout.row(), 0
@@ -188,7 +183,6 @@ CLASSES = (ChooseModel, KeyModel, ModelMenu)
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     gallery_property = EnumProperty(
         name="Gallery", description="Choose the camera model, or the time of the pixels, by an example picture",
         items=_pictures, get=_place, set=lambda camera, i: choose(camera, pictured()[i].key),

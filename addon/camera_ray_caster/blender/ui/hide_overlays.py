@@ -148,7 +148,6 @@ def stop() -> None:
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     undo.callback(stop)
     undo.add_handlers([("save_pre", restore_all), ("load_pre", restore_all), ("load_post", restore_marked)])
     handle = bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_PIXEL")

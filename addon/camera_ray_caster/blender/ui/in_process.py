@@ -20,7 +20,7 @@ from ...core.file_set import clear_up
 from ...core.records import InputError
 from ..properties.setting_labels import in_labels
 from ..read.unique import unique_name
-from .needs import reporting
+from .needs import Action
 from .other_engine import show_in_sidebars, show_later
 
 INTERVAL = 0.2
@@ -180,16 +180,13 @@ def forget_result(*_) -> None:
     _ended.clear()
 
 
-class StopAll(bpy.types.Operator):
+class StopAll(Action, bpy.types.Operator):
     """Stop after the current tile, frame or file; pictures that are finished stay. Press again to end it at once"""
 
-    bl_idname = "camera_ray_caster.stop_all"
     bl_label = "Stop"
     bl_options = {"INTERNAL"}
 
-    @reporting
     def execute(self, context):
-        """Ask the running work to end."""
         for work in _running:
             work.stop()
 
@@ -198,7 +195,6 @@ CLASSES = (StopAll,)
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     undo.callback(_ended.clear)
     undo.add_handlers([("load_post", forget_result)])
     undo.callback(forget)

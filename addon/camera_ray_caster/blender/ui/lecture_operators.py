@@ -11,7 +11,7 @@ from ..read.scene_cache import cached_scene
 from ..view3d import pixel_lessons, text
 from ..view3d.clicked import clicked
 from .lesson_operators import OfLesson
-from .needs import reporting
+from .needs import Action
 
 SIDES = {
     "OUTSIDE": ("Outside", "from behind the camera, in perspective", (0.7, 0.5, 0.8), "PERSP"),
@@ -31,23 +31,19 @@ MISSED = 10.0
 """Length of a ray that hits nothing, in units of the camera's display size."""
 
 
-class LectureStep(bpy.types.Operator):
+class LectureStep(Action, bpy.types.Operator):
     """Show the next or the previous step of the lecture"""
 
-    bl_idname = "camera_ray_caster.lecture_step"
     bl_label = "Lecture Step"
     bl_options = {"REGISTER"}
     by: IntProperty(name="By", description="Number of steps, negative for previous ones", default=1)
 
     @classmethod
-    def poll(cls, context):
-        """Leave the keys to Blender without a lecture."""
-        cls.poll_message_set("First click a pixel with Step Through, and switch on Lecture")
-        return context.window_manager.camera_ray_caster_place.lecture and bool(pixel_lessons.lessons(context))
+    def why_gray(cls, context) -> str:
+        is_on = context.window_manager.camera_ray_caster_place.lecture and pixel_lessons.lessons(context)
+        return "" if is_on else "First click a pixel with Step Through, and switch on Lecture"
 
-    @reporting
     def execute(self, context):
-        """Change the step, within those of the latest pixel."""
         state, (*_, latest) = context.window_manager.camera_ray_caster_place, pixel_lessons.lessons(context).values()
         last = len(latest.screens) - 1
         state.step = min(max(min(state.step, last) + self.by, 0), last)
@@ -56,7 +52,6 @@ class LectureStep(bpy.types.Operator):
 class RayView(OfLesson, bpy.types.Operator):
     """Look at the ray of the latest pixel in the 3D View"""
 
-    bl_idname = "camera_ray_caster.ray_view"
     bl_label = "Look at Ray"
     side: EnumProperty(name="Side", items=[(key, side[0], side[1].capitalize()) for key, side in SIDES.items()])
 
@@ -65,9 +60,7 @@ class RayView(OfLesson, bpy.types.Operator):
         """Return the tooltip: from where."""
         return f"Look at the ray of the latest pixel {SIDES[properties.side][1]}. Marks stay"
 
-    @reporting
     def execute(self, context):
-        """Turn the 3D View, the first one if the operator runs elsewhere, and frame the ray."""
         views = [area for area in context.screen.areas if area.type == "VIEW_3D"]
         latest = pixel_lessons.lessons(context).get(clicked.pixels[-1])
         if not views or latest is None:
@@ -122,7 +115,6 @@ CLASSES = (LectureStep, RayView)
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     keys = bpy.context.window_manager.keyconfigs.addon
     for name, space in (("3D View", "VIEW_3D"), ("Image", "IMAGE_EDITOR")) if keys else ():  # None in background
         keymap = keys.keymaps.new(name, space_type=space)

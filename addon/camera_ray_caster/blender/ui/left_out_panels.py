@@ -19,12 +19,10 @@ class LeftOut(Popover, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        """Open the popover if something was left out."""
         report = reports.latest(context.scene)
         return report is not None and len(report.left_out) > 0
 
     def draw(self, context):
-        """Draw each reason with a button that selects its objects; below it each object's name and Cast As setting."""
         widen(self.layout, context)
         for reason, names in reports.by_reason(reports.latest(context.scene)).items():
             column = self.layout.column(align=True)

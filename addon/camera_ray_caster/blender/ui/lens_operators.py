@@ -8,15 +8,13 @@ from ...core.lenses.focus import own_focal_length
 from ...core.lenses.read import library, read_lens
 from ..properties.declared import GROUP
 from ..read.camera_fields import own_value
-from .needs import OfCamera, camera_object_of, reporting
+from .needs import OfCamera, camera_object_of
 
 
 class ChooseLens(OfCamera, bpy.types.Operator):
     """Use a lens that comes with the add-on, with its own focal length"""
 
-    bl_idname = "camera_ray_caster.choose_lens"
     bl_label = "Lens"
-    bl_options = {"REGISTER", "UNDO"}
 
     name: EnumProperty(
         name="Lens",
@@ -24,9 +22,7 @@ class ChooseLens(OfCamera, bpy.types.Operator):
         items=[(name, name.replace("_", " "), read_lens(name).source, index) for index, name in enumerate(library())],
     )
 
-    @reporting
     def execute(self, context):
-        """Set the file and the focal length."""
         data = camera_object_of(context).data
         setattr(getattr(data, GROUP), LENS_FILE.name, self.name)
         data.lens = own_focal_length(read_lens(self.name))
@@ -35,13 +31,9 @@ class ChooseLens(OfCamera, bpy.types.Operator):
 class OwnFocalLength(OfCamera, bpy.types.Operator):
     """Set Focal Length to that of the lens file, so that the lens has its own size"""
 
-    bl_idname = "camera_ray_caster.own_focal_length"
     bl_label = "Lens's Own Focal Length"
-    bl_options = {"REGISTER", "UNDO"}
 
-    @reporting
     def execute(self, context):
-        """Read the file and set the focal length."""
         data = camera_object_of(context).data
         file = bpy.path.abspath(own_value(data, LENS_FILE), library=data.library)
         data.lens = own_focal_length(read_lens(file))

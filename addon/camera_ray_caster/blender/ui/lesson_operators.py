@@ -10,7 +10,7 @@ from ..view3d import pixel_lessons
 from ..view3d.camera_frame import frame_in
 from ..view3d.clicked import clicked
 from ..view3d.shown import is_other
-from .needs import OfScene, reporting
+from .needs import Action, OfScene
 
 HINT = "Click or drag in the camera's view or an Image Editor      Shift: One More      Esc, Enter: Done"
 
@@ -21,17 +21,14 @@ _waiting: list[str] = []
 class StepThrough(OfScene, bpy.types.Operator):
     """Click pixels in the camera's view or in an Image Editor, and see each step from the pixel to its color"""
 
-    bl_idname = "camera_ray_caster.step_through"
     bl_label = "Step Through"
     bl_options = {"REGISTER"}
     is_dragging = False
     """Whether the latest pixel follows the mouse."""
 
     @classmethod
-    def poll(cls, context):
-        """Gray out the operator without a camera and while it waits for clicks."""
-        cls.poll_message_set("Click a pixel, or press Esc")
-        return not _waiting and super().poll(context)
+    def why_gray(cls, context) -> str:
+        return "Click a pixel, or press Esc" if _waiting else super().why_gray(context)
 
     def invoke(self, context, event):
         """Wait for clicks, in a view that shows the camera's picture: put the first 3D View into camera view if none
@@ -206,27 +203,22 @@ def begin_lecture(context) -> None:
     redraw(context)
 
 
-class OfLesson:
+class OfLesson(Action):
     """Base of the operators on the clicked pixels."""
 
     bl_options = {"REGISTER"}
 
     @classmethod
-    def poll(cls, context):
-        """Gray out the operator if no pixel was clicked."""
-        cls.poll_message_set("First click a pixel with Step Through")
-        return bool(clicked.pixels)
+    def why_gray(cls, context) -> str:
+        return "" if clicked.pixels else "First click a pixel with Step Through"
 
 
 class CopySteps(OfLesson, bpy.types.Operator):
     """Copy the steps of these pixels to the clipboard, as text"""
 
-    bl_idname = "camera_ray_caster.copy_steps"
     bl_label = "Copy Steps"
 
-    @reporting
     def execute(self, context):
-        """Copy the steps."""
         texts = ["\n".join(steps.lines()) for steps in pixel_lessons.lessons(context).values()]
         context.window_manager.clipboard = "\n\n".join(texts) + "\n"
 
@@ -234,12 +226,9 @@ class CopySteps(OfLesson, bpy.types.Operator):
 class ClearSteps(OfLesson, bpy.types.Operator):
     """Forget the clicked pixels and their steps"""
 
-    bl_idname = "camera_ray_caster.clear_steps"
     bl_label = "Clear Steps"
 
-    @reporting
     def execute(self, context):
-        """Forget the pixels."""
         pixel_lessons.forget()
         redraw(context)
 
@@ -248,7 +237,6 @@ CLASSES = (Place, StepThrough, CopySteps, ClearSteps)
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     bpy.types.WindowManager.camera_ray_caster_place = PointerProperty(type=Place)
     undo.callback(delattr, bpy.types.WindowManager, "camera_ray_caster_place")
     undo.callback(end)

@@ -31,7 +31,6 @@ class Steps:
     bl_label = "Step Through"
 
     def draw(self, context):
-        """Draw the buttons, and the steps of the latest pixel in foldable panels."""
         layout = self.layout
         layout.operator(StepThrough.bl_idname, icon="EYEDROPPER", text="Click a Pixel")
         state, known = context.window_manager.camera_ray_caster_place, lessons(context)
@@ -111,7 +110,6 @@ class ImageLesson(Sidebar, Steps, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        """Show the panel if the image is a picture of a camera."""
         return is_picture(context.space_data.image)
 
 

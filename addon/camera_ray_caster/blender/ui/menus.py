@@ -35,7 +35,6 @@ class RayCasterMenu(bpy.types.Menu):
     bl_label = "Camera Ray Caster"
 
     def draw(self, context):
-        """Draw an entry for each operator and submenu."""
         layout = self.layout
         layout.operator_context = "INVOKE_DEFAULT"
         for operator in LISTED:
@@ -57,6 +56,5 @@ CLASSES = (RayCasterMenu,)
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     bpy.types.TOPBAR_MT_render.append(draw_menu)
     undo.callback(bpy.types.TOPBAR_MT_render.remove, draw_menu)

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from ...core.camera import pixel_time
 from ...core.cameras.parts.calibration import UNIT
-from ...core.cameras.parts.film import FILM, LENS
+from ...core.cameras.parts.film import FILM, LENS, SENSOR_HEIGHT, SENSOR_WIDTH
 from ...core.cameras.parts.lens_settings import LENS_FILE
 from ...core.cameras.parts.settings import CAMERA, Setting
 from ..cycles.shader import CUSTOM
@@ -36,11 +36,12 @@ def draw_model_settings(layout, context, camera, beside_lens: bool = True, drawn
     that panel, and without those that are ``drawn`` elsewhere.
     """
     column = layout.column(align=True)
+    other_side = SENSOR_WIDTH if camera.sensor_fit == "VERTICAL" else SENSOR_HEIGHT
     for setting in read_settings(camera):
-        if setting not in drawn and (not beside_lens or shown(setting, camera, context.engine)):
+        if setting not in (*drawn, other_side) and (not beside_lens or shown(setting, camera, context.engine)):
             draw_setting(column, context, camera, setting)
-    if LENS_FILE in settings_of(camera):
-        draw_lens_file(layout, camera)
+            if setting == LENS_FILE:
+                draw_lens_file(column, camera)
     if UNIT in settings_of(camera):
         draw_message(layout, context, lengths_in_words(getattr(camera, GROUP)))
     if beside_lens and context.engine != ENGINE and camera.type != CUSTOM and (labels := not_used(camera)):

@@ -24,7 +24,6 @@ class CameraPanel:
 
     @classmethod
     def poll(cls, context):
-        """Show the panel for cameras."""
         return context.camera is not None
 
 
@@ -36,12 +35,10 @@ class ModelPanel(CameraPanel, bpy.types.Panel):
     bl_parent_id = "DATA_PT_context_camera"
 
     def draw_header_preset(self, context):
-        """Draw the button of the model presets."""
         self.layout.emboss = "NONE"
         self.layout.popover(PRESETS, icon="PRESET", text="")
 
     def draw(self, context):
-        """Draw the list of models; below it the settings of the chosen model and the Cycles buttons."""
         layout, camera = self.layout, context.camera
         row = draw_model(layout, camera)
         row.operator(LoadCalibration.bl_idname, text="", icon="FILEBROWSER")
@@ -63,11 +60,9 @@ class LensPanel(CameraPanel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        """Show the panel with this engine only, in place of Blender's panel."""
         return super().poll(context) and context.engine == ENGINE
 
     def draw(self, context):
-        """Draw Blender's camera type, the lens settings, shift and clipping."""
         layout, camera = self.layout, context.camera
         put_labels(layout, context)
         draw_lens(layout, context, camera)
@@ -89,15 +84,12 @@ class SensorPanel(CameraPanel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        """Show the panel with this engine only, in place of Blender's panel."""
         return super().poll(context) and context.engine == ENGINE
 
     def draw_header_preset(self, context):
-        """Draw Blender's sensor presets."""
         bpy.types.CAMERA_PT_presets.draw_panel_header(self.layout)
 
     def draw(self, context):
-        """Draw the sensor fit and the sensor size that it uses."""
         layout, camera = self.layout.column(), context.camera
         put_labels(layout, context)
         layout.active = SENSOR_FIT in read_settings(camera)
@@ -114,7 +106,6 @@ class TimePanel(CameraPanel, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
-        """Draw the list of modes; below it the settings of the chosen mode."""
         put_labels(self.layout, context)
         draw_times(self.layout, context, context.camera)
 
@@ -129,11 +120,9 @@ class PortPanel(CameraPanel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        """Show the panel for models that may be behind glass."""
         return context.camera is not None and bool(port_settings(context.camera))
 
     def draw(self, context):
-        """Draw the list of ports; below it the settings of the chosen port."""
         put_labels(self.layout, context)
         draw_port(self.layout, context, context.camera)
 

@@ -3,8 +3,8 @@
 from ...core.cameras import MODELS
 from ...core.cameras.behind_port import takes_port
 from ...core.cameras.model import Model
-from ...core.cameras.parts.calibration import FILE_CAMERA, FROM_FILE, IN_PIXELS, MILLIMETERS, SIZE, UNIT
-from ...core.cameras.parts.film import FILM, LENS
+from ...core.cameras.parts.calibration import FILE, FILE_CAMERA, MILLIMETERS, SIZE
+from ...core.cameras.parts.film import FILM
 from ...core.cameras.parts.port_settings import PORT
 from ...core.cameras.parts.port_settings import SETTINGS as PORTS
 from ...core.cameras.parts.settings import CAMERA, OWN, STEREO, Setting
@@ -65,10 +65,18 @@ def settings_of(camera) -> tuple[Setting, ...]:
 
 
 def read_settings(camera) -> list[Setting]:
-    """Return the settings of a camera's model that are used with its unit of length or its calibration file."""
-    settings = settings_of(camera)
-    hidden = not_counted(settings, getattr(camera, GROUP))
-    return [setting for setting in settings if setting not in hidden]
+    """Return the settings of a camera's model that are used beside its calibration file, or without one."""
+    model, group = model_of(camera), getattr(camera, GROUP)
+    if model is None:
+        return []
+    if FILE in model.SETTINGS and group.calibration_file:
+        return [setting for setting in model.SETTINGS if setting in model.BESIDE_FILE]
+    names = {setting.name for setting in model.SETTINGS}
+    return [
+        setting for setting in model.SETTINGS
+        if setting != FILE_CAMERA
+        and all(getattr(group, name) == value for name, value in setting.used_with if name in names)
+    ]  # fmt: skip
 
 
 def of_type(camera) -> tuple[Setting, ...]:
@@ -83,19 +91,6 @@ def not_used(camera) -> list[str]:
     read = read_settings(camera)
     unread = [setting for setting in dict.fromkeys((*of_type(camera), *FILM)) if setting not in read]
     return ["Type", *(setting.label for setting in unread if setting.owner == CAMERA)]
-
-
-def not_counted(settings, group) -> tuple[Setting, ...]:
-    """Return the settings of a model that its unit of length or its calibration file makes unused.
-
-    A calibration file replaces the other settings of a calibrated lens. Without a file the name of a camera in the
-    file is unused.
-    """
-    if UNIT not in settings:
-        return () if group.calibration_file else (FILE_CAMERA,)
-    if group.calibration_file:
-        return tuple(setting for setting in settings if setting not in FROM_FILE)
-    return FILE_CAMERA, *(IN_PIXELS if group.calibration_unit == MILLIMETERS else (LENS, *FILM))
 
 
 def lengths_in_words(group) -> str:

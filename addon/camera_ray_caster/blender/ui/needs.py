@@ -1,12 +1,14 @@
 """Shared parts of operators: the camera that they work on, when they are grayed out, and error messages."""
 
 import os
+import re
 from functools import wraps
 from pathlib import Path
 
 import bpy
 
 from ...core.records import InputError
+from ..properties.declared import GROUP
 from ..properties.setting_labels import in_labels
 from ..read.camera_fields import check_camera
 from .drawing import draw_message
@@ -37,13 +39,6 @@ def objection(context, item, is_changed: bool = False) -> str:
     return LINKED if is_changed and not item.data.is_editable else ""
 
 
-def can_use(operator, reason: str) -> bool:
-    """Return whether an operator can be used: ``reason`` is empty. Otherwise show the reason in its tooltip."""
-    if reason:
-        operator.poll_message_set(reason)
-    return not reason
-
-
 def select_alone(context, *items) -> None:
     """Select these objects and no others, and make the first one active."""
     for item in context.selected_objects:
@@ -53,35 +48,80 @@ def select_alone(context, *items) -> None:
     context.view_layer.objects.active = items[0]
 
 
-class OfScene:
+class Action:
+    """Base of the operators. Their identifiers are the names of their classes: ``SetFrame`` is
+    ``camera_ray_caster.set_frame``.
+
+    ``execute``, ``invoke`` and ``modal`` return FINISHED where they return nothing. An InputError is reported as a
+    Blender error, and they return CANCELLED.
+    """
+
+    bl_options = {"REGISTER", "UNDO"}
+
+    def __init_subclass__(cls):
+        super().__init_subclass__()
+        if "bl_idname" not in vars(cls):
+            cls.bl_idname = f"{GROUP}.{re.sub('(?<!^)(?=[A-Z])', '_', cls.__name__).lower()}"
+        for name in {"execute", "invoke", "modal"} & vars(cls).keys():
+            setattr(cls, name, _reporting(vars(cls)[name]))
+
+    @classmethod
+    def why_gray(cls, context) -> str:
+        """Return why the operator is gray, for its tooltip; "" if it can be used."""
+        return ""
+
+    @classmethod
+    def poll(cls, context):
+        if reason := cls.why_gray(context):
+            cls.poll_message_set(reason)
+        return not reason
+
+
+def _reporting(method):
+    """Return an operator's method, with its errors reported: see ``Action``."""
+
+    def reported(self, *arguments):
+        try:
+            return method(self, *arguments) or {"FINISHED"}
+        except InputError as error:
+            self.report({"ERROR"}, in_labels(str(error)))
+            return {"CANCELLED"}
+
+    def with_event(self, context, event):
+        return reported(self, context, event)
+
+    def without(self, context):
+        return reported(self, context)
+
+    return wraps(method)(without if method.__name__ == "execute" else with_event)  # Blender counts the parameters
+
+
+class OfScene(Action):
     """Base of the operators on the scene's camera."""
 
     @classmethod
-    def poll(cls, context):
-        """Gray out the operator without a camera."""
-        return can_use(cls, objection(context, context.scene.camera))
+    def why_gray(cls, context) -> str:
+        return objection(context, context.scene.camera)
 
 
-class OfCamera:
-    """Base of the operators on the panel's camera."""
+class OfCamera(Action):
+    """Base of the operators on the panel's camera, which they change."""
 
     @classmethod
-    def poll(cls, context):
-        """Gray out the operator without a camera in the context, and for one that cannot be changed."""
-        return can_use(cls, objection(context, camera_object_of(context), is_changed=True))
+    def why_gray(cls, context) -> str:
+        return objection(context, camera_object_of(context), is_changed=True)
 
 
 class OfRays(OfCamera):
-    """Base of the operators that need the rays of the panel's camera."""
+    """Base of the operators that need the rays of the panel's camera, and so the model's objects, such as slits."""
 
     @classmethod
-    def poll(cls, context):
-        """Gray out the operator also without an object that the model needs, such as a slit."""
+    def why_gray(cls, context) -> str:
         lacking = missing(context, camera_object_of(context))
-        return super().poll(context) and can_use(cls, lacks(lacking[0]) if lacking else "")
+        return super().why_gray(context) or (lacks(lacking[0]) if lacking else "")
 
 
-class OfFile:
+class OfFile(Action):
     """Base of the operators that ask for a file."""
 
     def invoke(self, context, event):
@@ -103,24 +143,3 @@ class OfFile:
             sentences = [in_labels(str(error))]
         for line in sentences:
             draw_message(self.layout, context, line)
-
-
-def reporting(method):
-    """Decorate an operator's ``execute``, ``invoke`` or ``modal``: it returns FINISHED where it returns nothing; an
-    InputError is reported as a Blender error, and it returns CANCELLED.
-    """
-
-    def reported(self, *arguments):
-        try:
-            return method(self, *arguments) or {"FINISHED"}
-        except InputError as error:
-            self.report({"ERROR"}, in_labels(str(error)))
-            return {"CANCELLED"}
-
-    def with_event(self, context, event):
-        return reported(self, context, event)
-
-    def without(self, context):
-        return reported(self, context)
-
-    return wraps(method)(without if method.__name__ == "execute" else with_event)  # Blender counts the parameters

@@ -25,11 +25,9 @@ class ObjectPanel(bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        """Show the panel for objects that can be cast."""
         return context.object is not None and context.object.type in CASTABLE
 
     def draw(self, context):
-        """Draw the setting."""
         self.layout.use_property_split = True
         draw_cast_as(self.layout, context.object)
 

@@ -11,7 +11,7 @@ from ...core.records import InputError
 from ...core.web.page import lesson_page
 from ..read.scene_cache import cached_scene
 from ..view3d.clicked import clicked
-from .needs import OfScene, reporting
+from .needs import OfScene
 
 
 class OpenLesson(OfScene, bpy.types.Operator):
@@ -19,13 +19,10 @@ class OpenLesson(OfScene, bpy.types.Operator):
     or of the pixel in the middle. The page is written next to the .blend file, or into the home folder, and works
     offline"""
 
-    bl_idname = "camera_ray_caster.open_lesson"
     bl_label = "Open Lesson"
     bl_options = {"REGISTER"}
 
-    @reporting
     def execute(self, context):
-        """Write the page and open it."""
         scene = cached_scene(context)
         camera = scene.camera
         if camera is None:

@@ -19,7 +19,7 @@ from ..read.frames import frame_of
 from ..read.scene_reader import read_camera
 from ..verification.check import verified
 from .frame import SET_FRAME, framed
-from .needs import OfCamera, OfFile, OfScene, camera_object_of, can_use, reporting, select_alone
+from .needs import Action, OfCamera, OfFile, OfScene, camera_object_of, select_alone
 
 NO_REPORT = "Render with the Camera Ray Caster first (F12), or cast from the sidebar"
 
@@ -32,7 +32,6 @@ WITH_CYCLES = (
 class Verify(OfScene, bpy.types.Operator):
     """Compare the rays of the active camera with Blender's own view frame, camera matrix and projection"""
 
-    bl_idname = "camera_ray_caster.verify"
     bl_label = "Verify"
     bl_options = {"REGISTER"}
 
@@ -47,9 +46,7 @@ class Verify(OfScene, bpy.types.Operator):
         """Return the tooltip, which differs for the button with Cycles."""
         return WITH_CYCLES if properties.with_cycles else cls.__doc__
 
-    @reporting
     def execute(self, context):
-        """Verify, keep the report for the panel, and report the result in one line."""
         report = verified(context.scene, self.with_cycles)
         reports.keep_verified(report, context.scene)
         if report.passed:
@@ -63,13 +60,10 @@ class Verify(OfScene, bpy.types.Operator):
 class CopyFacts(OfScene, bpy.types.Operator):
     """Copy the active camera to the clipboard as JSON, with all digits. In Python camera_from_json reads it"""
 
-    bl_idname = "camera_ray_caster.copy_facts"
     bl_label = "Copy Camera"
     bl_options = {"INTERNAL"}
 
-    @reporting
     def execute(self, context):
-        """Copy the camera."""
         camera, frame = read_camera(context.scene), frame_of(context.scene)
         report = Report(camera=camera_facts(camera), frame=frame, record=recorded(camera))
         context.window_manager.clipboard = as_json(report)
@@ -78,10 +72,8 @@ class CopyFacts(OfScene, bpy.types.Operator):
 class LoadCalibration(OfFile, OfCamera, bpy.types.Operator):
     """Choose a calibration file, which sets the camera model"""
 
-    bl_idname = "camera_ray_caster.load_calibration"
     bl_label = "Load Calibration"
     bl_description = f"Choose a calibration file of {READ}. The file determines the camera model"
-    bl_options = {"REGISTER", "UNDO"}
 
     filepath: StringProperty(name="File", description="Path of the calibration file", subtype="FILE_PATH")
     filter_glob: StringProperty(
@@ -97,16 +89,13 @@ class LoadCalibration(OfFile, OfCamera, bpy.types.Operator):
     set_frame: BoolProperty(name=SET_FRAME.label, description=SET_FRAME.text, default=True, options={"SKIP_SAVE"})
 
     def draw(self, context):
-        """Draw the options in the file dialog, and the sizes of the file's pictures beside the frame's."""
         layout = self.layout
         layout.label(text="Camera in File")
         layout.prop(self, "camera", text="")
         layout.prop(self, "set_frame")
         self.draw_found(context, partial(sizes_in_words, context, camera_object_of(context)))
 
-    @reporting
     def execute(self, context):
-        """Read the file, set the model and report the values; in a window, ask for one of several cameras."""
         item, path = camera_object_of(context), bpy.path.abspath(self.filepath)
         if not (self.camera or bpy.app.background) and len(names := cameras_in(item.data, path)) > 1:
             entries = partial(draw_cameras, path, names, self.set_frame)
@@ -122,23 +111,18 @@ class LoadCalibration(OfFile, OfCamera, bpy.types.Operator):
 class LensOfClip(OfCamera, bpy.types.Operator):
     """Set the camera model and the resolution to those of the movie clip that the camera is tracked from"""
 
-    bl_idname = "camera_ray_caster.lens_of_clip"
     bl_label = "Lens of Movie Clip"
-    bl_options = {"REGISTER", "UNDO"}
 
     clip: StringProperty(name="Movie Clip", description="Name of the clip; default the camera's first one")
 
     @classmethod
-    def poll(cls, context):
-        """Gray out the operator without a clip."""
-        if not super().poll(context):
-            return False
-        has_clip = bool(movie_clips.clips_of(context.scene, camera_object_of(context)))
-        return can_use(cls, "" if has_clip else "The scene and the camera have no movie clip")
+    def why_gray(cls, context) -> str:
+        if reason := super().why_gray(context):
+            return reason
+        has_clip = movie_clips.clips_of(context.scene, camera_object_of(context))
+        return "" if has_clip else "The scene and the camera have no movie clip"
 
-    @reporting
     def execute(self, context):
-        """Set the model and report the values."""
         item = camera_object_of(context)
         clips = movie_clips.clips_of(context.scene, item)
         clip = next((named for named in clips if named.name == self.clip), None if self.clip else clips[0])
@@ -169,13 +153,12 @@ def draw_cameras(path: str, names: list[str], set_frame: bool, menu, context) ->
         entry.filepath, entry.camera, entry.set_frame = path, name, set_frame
 
 
-class OfReport:
+class OfReport(Action):
     """Base of the operators on the latest report."""
 
     @classmethod
-    def poll(cls, context):
-        """Gray out the operator before the first cast or render."""
-        return can_use(cls, "" if reports.latest(context.scene) else NO_REPORT)
+    def why_gray(cls, context) -> str:
+        return "" if reports.latest(context.scene) else NO_REPORT
 
 
 class SelectLeftOut(OfReport, bpy.types.Operator):
@@ -183,15 +166,12 @@ class SelectLeftOut(OfReport, bpy.types.Operator):
 
     bl_idname = "camera_ray_caster.select"
     bl_label = "Select"
-    bl_options = {"REGISTER", "UNDO"}
 
     reason: StringProperty(
         name="Reason", description="Reason for which the report lists the objects as left out", options={"SKIP_SAVE"}
     )
 
-    @reporting
     def execute(self, context):
-        """Select only these objects, as far as they are in the view layer."""
         names = reports.by_reason(reports.latest(context.scene)).get(self.reason, ())
         users = reports.users_of(context.view_layer, self.reason, names)
         if not users:
@@ -202,13 +182,9 @@ class SelectLeftOut(OfReport, bpy.types.Operator):
 class WriteReport(OfReport, bpy.types.Operator):
     """Write the report of the latest render into a text datablock"""
 
-    bl_idname = "camera_ray_caster.write_report"
     bl_label = "Report to Text"
-    bl_options = {"REGISTER", "UNDO"}
 
-    @reporting
     def execute(self, context):
-        """Write the report into the text datablock and report its name."""
         text = reports.write_text(reports.latest(context.scene))
         self.report({"INFO"}, f"The report is in the text {text.name!r}: open it in the Text Editor")
 

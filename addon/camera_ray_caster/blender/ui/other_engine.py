@@ -14,7 +14,7 @@ from ..read.view import views_3d
 from ..view3d.shown import ENGINES
 from .cycles_operators import UseInCycles
 from .model_settings import blender_type
-from .needs import OfScene, reporting
+from .needs import OfScene
 from .notes import Note
 from .through_model import RenderThroughModel
 
@@ -26,13 +26,9 @@ SHOWN = 10.0
 class UseThisEngine(OfScene, bpy.types.Operator):
     """Set the scene's render engine to Camera Ray Caster, which supports every camera model"""
 
-    bl_idname = "camera_ray_caster.use_this_engine"
     bl_label = "Use Camera Ray Caster"
-    bl_options = {"REGISTER", "UNDO"}
 
-    @reporting
     def execute(self, context):
-        """Set the engine."""
         context.scene.render.engine = ENGINE
 
 
@@ -121,5 +117,4 @@ CLASSES = (UseThisEngine,)
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     undo.add_handlers([("render_init", begin), ("render_complete", end), ("render_cancel", end)])

@@ -13,11 +13,9 @@ class SidebarOverlay(Sidebar, bpy.types.Panel):
     bl_label = "Overlay"
 
     def draw_header(self, context):
-        """Draw the check box of the whole overlay."""
         self.layout.prop(context.scene.camera_ray_caster_overlay, "show", text="")
 
     def draw(self, context):
-        """Draw the check boxes of its parts."""
         layout, settings = self.layout, context.scene.camera_ray_caster_overlay
         layout.active = settings.show
         grid = layout.grid_flow(columns=2, even_columns=True, align=True)

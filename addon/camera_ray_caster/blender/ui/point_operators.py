@@ -9,19 +9,16 @@ from ..read.scene_cache import cached_scene
 from ..view3d import pixel_lessons
 from ..view3d.clicked import clicked
 from .lesson_operators import OfLesson, redraw
-from .needs import OfScene, reporting, select_alone
+from .needs import OfScene, select_alone
 
 
 class PixelOfPoint(OfScene, bpy.types.Operator):
     """Step through the pixel of the 3D cursor or, in Edit Mode, the pixels of the selected vertices"""
 
-    bl_idname = "camera_ray_caster.pixel_of_point"
     bl_label = "Pixel of 3D Cursor or Vertices"
     bl_options = {"REGISTER"}
 
-    @reporting
     def execute(self, context):
-        """Step through the pixels; report the position of the last one, and what hides its point."""
         camera = cached_scene(context).camera
         if camera is None:
             raise InputError("the camera cannot be cast: see the reason in the sidebar")
@@ -63,13 +60,10 @@ def hidden_by(context, point) -> str:
 class EmptyAtHit(OfLesson, bpy.types.Operator):
     """Add an empty at the hit point of each pixel's ray, with its Z axis along the normal"""
 
-    bl_idname = "camera_ray_caster.empty_at_hit"
     bl_label = "Empty at Hit"
     bl_options = {"REGISTER", "UNDO"}
 
-    @reporting
     def execute(self, context):
-        """Add the empties."""
         hits = [hit for hit in pixel_lessons.lessons(context).values() if hit.point is not None]
         if not hits:
             self.report({"WARNING"}, "The rays of these pixels hit no surface")

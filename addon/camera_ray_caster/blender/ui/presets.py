@@ -12,7 +12,7 @@ from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
 from .frame import SET_FRAME, framed
 from .model_drawing import PRESETS
 from .model_settings import port_settings, settings_of
-from .needs import OfCamera, camera_object_of, reporting
+from .needs import OfCamera, camera_object_of
 
 TICK = f"{GROUP}_set_frame"
 """Name of the property of the window manager that the menu of presets shows as a tick box."""
@@ -29,15 +29,12 @@ class ExecutePreset(OfCamera, bpy.types.Operator):
 
     bl_idname = "camera_ray_caster.preset_execute"
     bl_label = "Use Camera Model Preset"
-    bl_options = {"REGISTER", "UNDO"}
 
     filepath: StringProperty(name="File", description="Path of the preset", subtype="FILE_PATH", options={"SKIP_SAVE"})
     menu_idname: StringProperty(name="Menu", description="Identifier of the menu of presets", options={"SKIP_SAVE"})
     set_frame: BoolProperty(name=SET_FRAME.label, description=SET_FRAME.text, default=True, options={"SKIP_SAVE"})
 
-    @reporting
     def execute(self, context):
-        """Run Blender's operator, then set the frame or refuse the preset."""
         item, window = camera_object_of(context), context.window_manager
         is_set = self.set_frame if self.properties.is_property_set("set_frame") else getattr(window, TICK)
         with framed(context, item, is_set) as remarks, context.temp_override(camera=item.data):
@@ -57,7 +54,6 @@ class ModelPresets(PresetPanel, bpy.types.Panel):
     preset_add_operator = "camera_ray_caster.preset_add"
 
     def draw(self, context):
-        """Draw the tick box Set Frame above the presets."""
         self.layout.prop(context.window_manager, TICK)
         super().draw(context)
 
@@ -73,7 +69,6 @@ class AddModelPreset(AddPresetBase, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """Gray out the operator outside a camera's tab."""
         cls.poll_message_set("Open the camera's tab in the Properties editor first")
         return getattr(context, "camera", None) is not None
 
@@ -93,7 +88,6 @@ CLASSES = (ExecutePreset, ModelPresets, AddModelPreset)
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     tick = BoolProperty(name=SET_FRAME.label, description=SET_FRAME.text, default=True, options={"SKIP_SAVE"})
     setattr(bpy.types.WindowManager, TICK, tick)
     undo.callback(delattr, bpy.types.WindowManager, TICK)

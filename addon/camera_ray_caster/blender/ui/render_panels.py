@@ -24,7 +24,6 @@ class EnginePanel:
 
     @classmethod
     def poll(cls, context):
-        """Show the panel with this engine only."""
         return context.engine == ENGINE
 
 
@@ -36,7 +35,6 @@ class RenderPanel(EnginePanel, bpy.types.Panel):
     bl_context = "render"
 
     def draw(self, context):
-        """Draw the settings, the time and the worst error of the latest render, and the report button."""
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
@@ -62,9 +60,6 @@ class PassesPanel(EnginePanel, bpy.types.Panel):
     bl_context = "view_layer"
 
     def draw(self, context):
-        """Draw the check boxes: Blender's passes of this view layer, then the add-on's passes of the scene; below them
-        the alpha from which on a point is hit.
-        """
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
@@ -99,7 +94,6 @@ def compatible() -> Iterator[set[str]]:
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     for engines in compatible():
         engines.add(ENGINE)
         undo.callback(engines.discard, ENGINE)

@@ -8,16 +8,14 @@ from bpy.props import BoolProperty, CollectionProperty, StringProperty
 
 from ...core.records import InputError
 from ..rig import add_rig, contents, frames_of
-from .needs import OfFile, reporting, select_alone
+from .needs import OfFile, select_alone
 
 
 class AddCameras(OfFile, bpy.types.Operator):
     """Add the cameras of a file, with lenses, poses and keyframes, as children of an empty. A trajectory animates the
     empty"""
 
-    bl_idname = "camera_ray_caster.add_cameras"
     bl_label = "Add Cameras from File"
-    bl_options = {"REGISTER", "UNDO"}
 
     filepath: StringProperty(name="File", description="Path of the file", subtype="FILE_PATH")
     directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"})
@@ -34,13 +32,10 @@ class AddCameras(OfFile, bpy.types.Operator):
     )
 
     def draw(self, context):
-        """Draw the options in the file dialog, and the cameras in the file."""
         self.layout.prop(self, "below_active")
         self.draw_found(context, partial(contents, context.scene))
 
-    @reporting
     def execute(self, context):
-        """Add the cameras, select them and report their number."""
         folder = Path(bpy.path.abspath(self.directory))
         paths = [str(folder / file.name) for file in self.files if file.name] or [bpy.path.abspath(self.filepath)]
         parent = context.active_object if self.below_active else None
@@ -57,7 +52,6 @@ def _draw_in_file_menu(menu, context) -> None:
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     bpy.types.TOPBAR_MT_file_import.append(_draw_in_file_menu)
     undo.callback(bpy.types.TOPBAR_MT_file_import.remove, _draw_in_file_menu)
 

@@ -18,7 +18,7 @@ from ..read.view import views_3d
 from ..view3d import live, notice, overlay, pixel_lessons
 from ..view3d.live_picture import why_not
 from ..view3d.shown import can_show, is_live
-from .needs import OfScene, reporting
+from .needs import OfScene
 
 SEEN = "CAMERA", "RENDERED"
 """Perspective and shading of a view that shows the picture of a cast."""
@@ -44,21 +44,15 @@ class SeeThrough(OfScene, bpy.types.Operator):
     such as Cross-Slit, and slit scans switch the view to Rendered and the engine to Camera Ray Caster. Press again to
     restore both"""
 
-    bl_idname = "camera_ray_caster.see_through"
     bl_label = "See Through Camera"
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context):
-        """Gray out the operator without a camera, and outside a 3D View."""
-        cls.poll_message_set("Available only in a 3D View")
+    def why_gray(cls, context) -> str:
         if context.area is None or context.area.type != "VIEW_3D":
-            return False
-        return is_seen_through(context) or super().poll(context)
+            return "Available only in a 3D View"
+        return "" if is_seen_through(context) else super().why_gray(context)
 
-    @reporting
     def execute(self, context):
-        """Look through the camera, or restore what was before; report a change of the scene's engine."""
         if is_seen_through(context):
             end(context)
             return
@@ -253,7 +247,6 @@ CLASSES = (SeeThrough,)
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     undo.callback(stop)
     undo.add_handlers([
         ("load_pre", forget), ("save_pre", give_back), ("save_post", show_again), ("load_post", restore_saved),

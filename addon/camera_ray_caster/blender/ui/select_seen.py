@@ -7,7 +7,7 @@ from ..read.scene_cache import cached_scene
 from ..read.unique import named
 from .hide_overlays import misleads
 from .lesson_operators import pixel_at
-from .needs import reporting
+from .needs import Action
 
 TOOLS = "builtin.select", "builtin.select_box", "builtin.select_circle", "builtin.select_lasso"
 """Tools with which a click selects: Tweak, and the three kinds of Select."""
@@ -18,10 +18,9 @@ KEYS = (("3D View", "LEFTMOUSE", "CLICK"), ("3D View", "RIGHTMOUSE", "PRESS"), (
 """Where Blender selects, by its keymaps: button and event, without modifier keys."""
 
 
-class SelectSeen(bpy.types.Operator):
+class SelectSeen(Action, bpy.types.Operator):
     """Select the object that the camera's picture shows under the mouse, whatever the camera's model"""
 
-    bl_idname = "camera_ray_caster.select_seen"
     bl_label = "Select in Camera's Picture"
     bl_options = {"REGISTER", "UNDO", "INTERNAL"}
 
@@ -58,7 +57,6 @@ class SelectSeen(bpy.types.Operator):
             bpy.ops.transform.translate("INVOKE_DEFAULT", release_confirm=True)
         return {"FINISHED"}
 
-    @reporting
     def execute(self, context):
         """Select this object and no others; none, if nothing is under the mouse."""
         for item in context.selected_objects:

@@ -6,21 +6,18 @@ from bpy.props import StringProperty
 from ...core.records import InputError
 from ..output import image_datablocks
 from ..properties.pass_properties import PASSES
-from .needs import reporting
+from .needs import Action
 
 
-class ShowResult(bpy.types.Operator):
+class ShowResult(Action, bpy.types.Operator):
     """Show this pass in an open Image Editor, or in a new one"""
 
-    bl_idname = "camera_ray_caster.show_result"
     bl_label = "Show Result"
     bl_options = {"REGISTER"}
 
     name: StringProperty(name="Image", description="Name of an image made by a cast", options={"SKIP_SAVE"})
 
-    @reporting
     def execute(self, context):
-        """Show the pass and report the meaning of the colors."""
         if self.name not in image_datablocks.results():
             raise InputError(f"no cast has made an image {self.name!r}: cast first")
         image, meaning = image_datablocks.show_in_colors(self.name)
@@ -44,7 +41,6 @@ class ResultsMenu(bpy.types.Menu):
     bl_label = "Show Result"
 
     def draw(self, context):
-        """Draw an entry for each image, those of the latest cast first."""
         results, labels = image_datablocks.results(), {entry.key: entry.label for entry in PASSES}
         before = [name for name in results if image_datablocks.latest and name not in image_datablocks.latest]
         for name in sorted(results, key=before.__contains__):

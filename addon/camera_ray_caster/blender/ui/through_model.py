@@ -9,32 +9,28 @@ from ..engine.engine import RenderCall
 from ..faces.engine_picture import EEVEE, NAMES, WORKBENCH, picture_of
 from ..properties.declared import ENGINE
 from .model_settings import model_of
-from .needs import OfScene, can_use, reporting
+from .needs import OfScene
 
 
 class RenderThroughModel(OfScene, bpy.types.Operator):
     """Render the frame through the camera's model with EEVEE, or with Workbench if the scene has it, and cast the other
     passes. Blender does not respond until the picture is done"""
 
-    bl_idname = "camera_ray_caster.render_through_model"
     bl_label = "Render Through Model"
     bl_options = {"REGISTER"}
 
     @classmethod
-    def poll(cls, context):
-        """Gray out the operator without a camera, during a render, and for pictures that are no warp."""
-        if not super().poll(context):
-            return False
+    def why_gray(cls, context) -> str:
+        if reason := super().why_gray(context):
+            return reason
         if bpy.app.is_job_running("RENDER"):
-            return can_use(cls, "Blender is rendering: wait until it has ended")
+            return "Blender is rendering: wait until it has ended"
         model = model_of(context.scene.camera.data)
         if model is None or model.central:
-            return True
-        return can_use(cls, f"{model.label} has no single viewpoint: cast it, or render with Cycles")
+            return ""
+        return f"{model.label} has no single viewpoint: cast it, or render with Cycles"
 
-    @reporting
     def execute(self, context):
-        """Render the faces, then the frame, and show it."""
         scene = context.scene
         engine = WORKBENCH if scene.render.engine in NAMES[WORKBENCH] else EEVEE
         picture = picture_of(scene, engine)

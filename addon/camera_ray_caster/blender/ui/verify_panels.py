@@ -24,7 +24,6 @@ class SidebarVerify(Sidebar, bpy.types.Panel):
     bl_label = "Verification"
 
     def draw(self, context):
-        """Draw the buttons and the verdict, which opens the errors."""
         layout = self.layout
         row = layout.row(align=True)
         row.operator("camera_ray_caster.verify", icon="CHECKMARK")
@@ -48,7 +47,6 @@ class VerifyErrors(Popover, bpy.types.Panel):
     bl_label = "Errors in Pixels"
 
     def draw(self, context):
-        """Draw the table."""
         widen(self.layout, context)
         report = reports.verified(context.scene)
         if not report.passed:

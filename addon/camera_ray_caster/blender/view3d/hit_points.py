@@ -98,7 +98,6 @@ def _batch(scene: CachedScene, by: str, seconds: float | None):
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     undo.callback(_drawn.clear)
     handle = bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW")
     undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")

@@ -34,5 +34,4 @@ def forget() -> None:
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     undo.callback(forget)

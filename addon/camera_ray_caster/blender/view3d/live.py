@@ -148,5 +148,4 @@ def sentences(context) -> Iterator[str]:
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     undo.callback(stop)

@@ -23,13 +23,11 @@ class RayUnderMouse(bpy.types.Gizmo):
     mouse: tuple[int, int] | None = None
 
     def test_select(self, context, location):
-        """Remember the mouse position; return -1, since the mouse is never over the gizmo."""
         self.mouse = tuple(location)
         context.region.tag_redraw()
         return -1
 
     def draw(self, context):
-        """Write what the ray hits next to the mouse, if the mouse is inside the camera's frame."""
         frame = picture_frame(context)
         scene = cached_scene(context)
         if self.mouse is None or frame is None or scene.camera is None:
@@ -54,13 +52,11 @@ class RayUnderMouseGroup(bpy.types.GizmoGroup):
 
     @classmethod
     def poll(cls, context):
-        """Show the gizmo in camera view with the overlay on."""
         settings = context.scene.camera_ray_caster_overlay
         wanted = settings.show and settings.show_ray and context.space_data.overlay.show_overlays
         return wanted and context.region_data.view_perspective == "CAMERA"
 
     def setup(self, context):
-        """Add the gizmo."""
         self.gizmos.new(RayUnderMouse.bl_idname)
 
 

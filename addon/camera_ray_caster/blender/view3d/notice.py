@@ -53,6 +53,5 @@ def _sentences(context) -> Iterator[str]:
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     handle = bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_PIXEL")
     undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")

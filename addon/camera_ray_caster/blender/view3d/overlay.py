@@ -217,7 +217,6 @@ CLASSES = (OverlayProperties,)
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     undo.callback(_drawn.clear)
     bpy.types.Scene.camera_ray_caster_overlay = PointerProperty(type=OverlayProperties)
     undo.callback(delattr, bpy.types.Scene, "camera_ray_caster_overlay")

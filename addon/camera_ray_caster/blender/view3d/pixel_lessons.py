@@ -171,7 +171,6 @@ def forget(*_):
 
 
 def register(undo) -> None:
-    """Register this module; see ``registration``."""
     undo.callback(forget)
     undo.add_handlers([("load_pre", forget)])
     for space, function, when in (

@@ -102,7 +102,7 @@ P1, P2 = (_coefficient(name, "Tangential distortion coefficient") for name in ("
 S1, S2, S3, S4 = (_coefficient(name, "Thin prism distortion coefficient") for name in ("s1", "s2", "s3", "s4"))
 RADIAL_TANGENTIAL = K1, K2, P1, P2, K3, K4, K5, K6, S1, S2, S3, S4
 TAU_X, TAU_Y = (
-    Number(f"tau_{axis}", f"Tau {axis.upper()}", text, 0.0, -STEEPEST, STEEPEST, "angle", digits=4)
+    Number(f"tau_{axis}", f"Sensor Tilt {axis.upper()}", text, 0.0, -STEEPEST, STEEPEST, "angle", digits=4)
     for axis, text in (("x", "Tilt of the sensor about its X axis"), ("y", "Tilt of the sensor about its Y axis"))
 )
 PINHOLE = (*RADIAL_TANGENTIAL, TAU_X, TAU_Y)
