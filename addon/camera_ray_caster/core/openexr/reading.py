@@ -22,6 +22,8 @@ COMPRESSIONS = {"none": 1, "RLE": 1, "ZIPS": 1, "ZIP": 16, "PIZ": 32}
 """The compressions by number, and how many lines each compresses together."""
 LOSSY = "PXR24", "B44", "B44A", "DWAA", "DWAB"
 """The compressions that follow them."""
+PER_NUMBER = 220
+"""Bytes for a number of a chunk of PIZ while it is unpacked: 215 of random numbers in 32 lines of 4096 x 6."""
 TYPES = "<u4", "<f2", "<f4"
 DAMAGED = struct.error, LookupError, ValueError, ArithmeticError, zlib.error
 
@@ -103,7 +105,8 @@ def _image(content: bytes, position: int, attributes: dict[str, bytes], tiled: b
     tile = struct.unpack_from("<II", attributes["tiles"]) if tiled else None
     across, down = tile or (width, COMPRESSIONS[compression])
     count = -(-width // across) * -(-height // down)  # smaller levels of tiles follow
-    memory.require(8 * width * height * len(channels), f"the channels of {path!r}", "give a smaller file")
+    needed = 8 * width * height + (PER_NUMBER if compression == "PIZ" else 0) * across * down
+    memory.require(needed * len(channels), f"the channels of {path!r}", "give a smaller file")
     offsets = struct.unpack_from(f"<{count}Q", content, position)
     image = {name: np.zeros((height, width), kind) for name, kind in channels.items()}
     for offset in offsets:
