@@ -9,6 +9,8 @@ from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "addon" / "camera_ray_caster"
 MODULES = sorted(PACKAGE.rglob("*.py"))
@@ -133,6 +135,13 @@ def trees():
     return {path: ast.parse(path.read_text()) for path in SOURCES}
 
 
+@pytest.fixture(scope="module", autouse=True)
+def _forgotten():
+    """The files' millions of nodes go with the last test here: Python's garbage collector would walk them for seconds."""
+    yield
+    trees.cache_clear()
+
+
 def statements(node):
     """The statements in a node, at any depth; walking through expressions, too, takes ten times as long."""
     for name in ("body", "orelse", "finalbody", "handlers", "cases"):
@@ -145,7 +154,7 @@ def imports(path):
     """(inside, outside): the package's modules that a file imports, and the top names of all others."""
     inside, outside = set(), set()
     folder = path.relative_to(PACKAGE).parts[:-1]
-    for node in statements(trees()[path]):
+    for node in statements(ast.parse(path.read_text())):
         if isinstance(node, ast.Import):
             outside |= {alias.name.split(".")[0] for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.level == 0:

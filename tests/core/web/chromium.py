@@ -13,10 +13,23 @@ ARGUMENTS = (
 
 def open_drawn(driver, address):
     """Open the page at an address and wait until its first drawing is done: before, the numbers are empty."""
+    driver.get(address)
+    settled(driver)
+
+
+def settled(driver, condition=lambda driver: True):
+    """Wait until a condition holds and the page is drawn: its state comes at once, all that it shows a frame later."""
     from selenium.webdriver.support.ui import WebDriverWait
 
-    driver.get(address)
-    WebDriverWait(driver, 180, 0.1).until(lambda page: page.execute_script("return window.lesson.isDrawn()"))
+    def holds(driver):
+        return is_drawn(driver) and condition(driver) and is_drawn(driver)
+
+    WebDriverWait(driver, 180, 0.1).until(holds)
+
+
+def is_drawn(driver):
+    """Whether the page's picture and numbers are those of its state."""
+    return driver.execute_script("return window.lesson.isDrawn()")
 
 
 @contextmanager

@@ -2,13 +2,12 @@
 
 import subprocess
 import sys
-import time
 
 import numpy as np
 import pytest
 
-from .chromium import browser, open_drawn
-from .test_page import by_id, fresh, numbers, ray, settled, shown, state
+from .chromium import browser, open_drawn, settled
+from .test_page import by_id, fresh, numbers, ray, shown, state
 
 pytestmark = pytest.mark.full
 
@@ -74,8 +73,7 @@ def test_a_camera_is_cast_mapped_and_written_for_python(page, tmp_path, text):
         assert "0 do not" in told
         by_id(driver, "own-python").click()
         file = tmp_path / "my_camera.py"
-        settled(driver, lambda _: file.exists())
-        time.sleep(0.5)
+        settled(driver, lambda _: [path.name for path in tmp_path.iterdir()] == [file.name] and file.stat().st_size)
     program = (
         "import sys, numpy as np; sys.path.insert(0, sys.argv[1]); import my_camera, camera_ray_caster as crc\n"
         "camera = crc.camera('MY_CAMERA', (640, 360))\n"

@@ -11,7 +11,7 @@ import camera_ray_caster as crc
 from camera_ray_caster.core.web.figures import FIGURES
 from camera_ray_caster.core.web.page import SIZE, lesson_page
 
-from .chromium import browser, open_drawn
+from .chromium import browser, open_drawn, settled
 
 pytestmark = pytest.mark.full
 
@@ -50,13 +50,6 @@ def numbers(text):
 def ray(driver):
     """The ray of the pixel, all its digits."""
     return driver.execute_script("return window.lesson.ray()")
-
-
-def settled(driver, condition):
-    """Wait until a condition holds."""
-    from selenium.webdriver.support.ui import WebDriverWait
-
-    return WebDriverWait(driver, 180, 0.1).until(condition)
 
 
 def state(driver):

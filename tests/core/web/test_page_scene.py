@@ -8,8 +8,8 @@ from camera_ray_caster.core.web.page import lesson_page
 from camera_ray_caster.core.web.page_scene import MOST_FACETS, PAGE, scene_data
 
 from ..shapes.meshes import ball
-from .chromium import browser, open_drawn
-from .test_page import settled, shown
+from .chromium import browser, open_drawn, settled
+from .test_page import shown
 
 POSE = np.array([[0.8, 0.0, 0.6, 3.0], [0.6, 0.0, -0.8, -4.0], [0.0, 1.0, 0.0, 1.5], [0, 0, 0, 1]])
 CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]) * 1.8 + (1.4, -0.2, 0.1)

@@ -5,8 +5,8 @@ import pytest
 from camera_ray_caster.core.web.page import SIZE
 from camera_ray_caster.core.web.room import EYE
 
-from .chromium import browser, open_drawn
-from .test_page import SCREENS, by_id, fresh, mouse, numbers, ray, settled, shown, state
+from .chromium import browser, open_drawn, settled
+from .test_page import SCREENS, by_id, fresh, mouse, numbers, ray, shown, state
 
 pytestmark = pytest.mark.full
 

@@ -1,7 +1,8 @@
 // The page: what is shown, and what it does when something is turned, dragged or typed.
 const $ = (id) => document.getElementById(id);
 const SOFTWARE_BUDGET = 33, LEAST_SHARE = 0.2, COARSE = 12; // samples of a lens
-let lensBudget = 1500; // milliseconds of its whole picture
+const LENS_BUDGET = 1500; // milliseconds of its whole picture
+let lensQuality = null; // samples and share of its whole picture, where they do not depend on the machine
 let model, state, camera, seen = null, own = null, share = 1, fine = 0, whole = 1, waiting = 0, settling = 0;
 const picture = new Picture($("picture")), space = new Space($("space")), glass = new Glass($("glass"), $("glass-text"), $("glass-sines"));
 
@@ -153,9 +154,9 @@ function paint(full) {
   picture.draw(camera, state, drawn * wide, false, lens, full ? fine : COARSE);
   if (lens) picture.gl.readPixels(0, 0, 1, 1, picture.gl.RGBA, picture.gl.UNSIGNED_BYTE, new Uint8Array(4)); // which waits; finish may not
   else picture.gl.finish();
-  const took = performance.now() - began, often = lensBudget * drawn ** 2 / took;
+  const took = performance.now() - began, often = LENS_BUDGET * drawn ** 2 / took;
   if (!lens) fine = 0;
-  else if (!full) [fine, whole] = [Math.min(Math.max(Math.round(COARSE * often), COARSE), 4 * COARSE), Math.min(1, Math.sqrt(often))];
+  else if (!full) [fine, whole] = lensQuality ?? [Math.min(Math.max(Math.round(COARSE * often), COARSE), 4 * COARSE), Math.min(1, Math.sqrt(often))];
   if (!full) share = Math.min(1, Math.max(LEAST_SHARE, share * Math.sqrt(Math.min(Math.max(SOFTWARE_BUDGET / Math.max(took, 1), 0.25), 1.5))));
   clearTimeout(settling);
   settling = full ? 0 : setTimeout(() => paint(true), 180);
@@ -338,7 +339,7 @@ openLink(location.hash);
 window.lesson = {
   models: MODELS.map((one) => one.key),
   isDrawn: () => !waiting && !settling,
-  patience: (milliseconds) => { lensBudget = milliseconds; },
+  fixLensQuality: (samples, share) => { lensQuality = [samples, share]; },
   state: () => JSON.parse(JSON.stringify(state)),
   labels: () => space.labels,
   glass: () => ({ ...glass.traced(state.x, state.y), fNumber: glass.fNumber, focus: glass.focus, film: glass.film, radius: glass.radius }),
