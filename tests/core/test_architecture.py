@@ -129,17 +129,10 @@ PRONOUNS = {*"one found own part place said told given rest it them what most mo
 DEFINITIONS = ast.FunctionDef | ast.ClassDef
 
 
-@cache
+@pytest.fixture(scope="module")
 def trees():
-    """The parsed files, by path."""
+    """The parsed files, by path. They go with the last test here: garbage collectors walk through millions of nodes."""
     return {path: ast.parse(path.read_text()) for path in SOURCES}
-
-
-@pytest.fixture(scope="module", autouse=True)
-def _forgotten():
-    """The files' millions of nodes go with the last test here: Python's garbage collector would walk them for seconds."""
-    yield
-    trees.cache_clear()
 
 
 def statements(node):
@@ -203,10 +196,10 @@ def test_arrows_point_down():
     assert offenders(findings) == {}
 
 
-def test_a_name_from_core_exists():
+def test_a_name_from_core_exists(trees):
     """Scripts import while they run, some of them rarely: a name that was changed would be found late."""
     findings = {}
-    for path, tree in trees().items():
+    for path, tree in trees.items():
         names = {
             (node.module, alias.name)
             for node in ast.walk(tree)
@@ -242,12 +235,12 @@ def test_a_file_is_one_room():
     assert offenders({path: max(0, len(path.read_text().splitlines()) - 300) for path in SOURCES}) == {}
 
 
-def test_a_module_says_what_it_is_for_and_so_does_what_is_public_in_it():
-    assert [path for path, tree in trees().items() if not ast.get_docstring(tree)] == []
+def test_a_module_says_what_it_is_for_and_so_does_what_is_public_in_it(trees):
+    assert [path for path, tree in trees.items() if not ast.get_docstring(tree)] == []
     findings = {}
     for path in MODULES:
         contract = PARTS_OF_A_PROGRAM if path.parent == PACKAGE / "core" / "programs" else PARTS_OF_A_WINDOW
-        public = [node for node in trees()[path].body
+        public = [node for node in trees[path].body
                   if isinstance(node, DEFINITIONS) and node.name[0] != "_" and node.name not in contract]  # fmt: skip
         findings[path] = [node.name for node in public if not (ast.get_docstring(node) or is_overload(node))]
     assert offenders(findings) == {}
@@ -257,29 +250,29 @@ def is_overload(node):
     return any(ast.unparse(decorator) == "overload" for decorator in node.decorator_list)
 
 
-def test_a_class_has_a_name_of_its_own():
+def test_a_class_has_a_name_of_its_own(trees):
     """One word, one meaning."""
     findings = {}
     for path in MODULES:
-        for node in trees()[path].body:
+        for node in trees[path].body:
             if isinstance(node, ast.ClassDef):
                 findings.setdefault(node.name, []).append(name_of(path))
     assert {name: where for name, where in findings.items() if len(where) > 1 and name not in SHARED_NAMES} == {}
 
 
-def test_a_variable_is_no_pronoun():
+def test_a_variable_is_no_pronoun(trees):
     """In the add-on and the scripts; tests may use them."""
     findings = {}
     for path in (path for path in SOURCES if not path.is_relative_to(ROOT / "tests")):
-        names = {getattr(node, "id", None) or getattr(node, "arg", None) for node in ast.walk(trees()[path])}
+        names = {getattr(node, "id", None) or getattr(node, "arg", None) for node in ast.walk(trees[path])}
         findings[path] = names & PRONOUNS
     assert offenders(findings) == {}
 
 
-def test_no_exception_is_swallowed():
+def test_no_exception_is_swallowed(trees):
     """By a bare except, nor by one that catches everything and goes on."""
     findings = {}
-    for path, tree in trees().items():
+    for path, tree in trees.items():
         handlers = [node for node in ast.walk(tree) if isinstance(node, ast.ExceptHandler)]
         findings[path] = [node.lineno for node in handlers if node.type is None or (is_wide(node) and not raises(node))]
     assert offenders(findings) == {}
