@@ -4,7 +4,6 @@ import pytest
 
 from camera_ray_caster.blender.cycles import to_cycles
 from camera_ray_caster.blender.ui import drawing
-from camera_ray_caster.blender.ui.camera_panels import SidebarSettings
 from camera_ray_caster.blender.ui.model_panels import LensPanel, ModelPanel, PortPanel, SensorPanel, TimePanel
 from camera_ray_caster.core.records import InputError
 
@@ -145,30 +144,6 @@ def test_glass_is_offered_to_models_with_an_eye_and_its_settings_appear_when_it_
     assert not PortPanel.poll(context)
     data.type, own.model = "PERSP", "BLENDER"
     assert PortPanel.poll(context)
-
-
-def test_settings_without_effect_are_not_shown(blender, data):
-    """A device, a file and the fit of the sensor take the place of others."""
-    own = data.camera_ray_caster
-    own.model = "SCANNER"
-    beside_device = ("calibration_file", "scanner_device", "scanner_rate", "scanner_start")
-    custom, _ = drawn(blender, ModelPanel, data)
-    assert set(custom) > {*beside_device, "scanner_elevations", "scanner_low", "scanner_columns"}
-    own.scanner_elevations, own.scanner_period = "-10 10", 50.0
-    assert set(custom) - set(drawn(blender, ModelPanel, data)[0]) == {"scanner_low", "scanner_high", "scanner_columns"}
-    own.scanner_device = "OS1_64"
-    assert drawn(blender, ModelPanel, data)[0] == beside_device
-    own.calibration_file = "beams.json"
-    assert drawn(blender, ModelPanel, data)[0] == (
-        "calibration_file", "calibration_camera", "scanner_rate", "scanner_start",
-    )  # fmt: skip
-    own.model = "OMNIMAX"
-    assert drawn(blender, ModelPanel, data)[0] == ("tilt",), "it reads no file"
-    blender.context.scene.camera = blender.data.objects.new("Camera", data)
-    own.model, data.sensor_fit = "CROSS_SLIT", "VERTICAL"
-    shown = drawn(blender, SidebarSettings, data)[0]
-    assert "sensor_height" in shown
-    assert "sensor_width" not in shown
 
 
 def test_in_a_narrow_editor_the_same_is_shown_with_labels_that_are_not_cut_off(blender, data):
