@@ -3,8 +3,6 @@
 Files that are written from plain records are those of ``core.programs``; formats that need whole cameras are here.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial

@@ -7,8 +7,6 @@ follow from a record are stored next to it: K, pose, the image plane, the formul
 stored once.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace

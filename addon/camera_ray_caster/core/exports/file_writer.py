@@ -1,7 +1,5 @@
 """Writing the files of an export: all of them, or none."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterable
 from pathlib import Path

@@ -4,8 +4,6 @@ A lens is fitted to each model of the format (see ``camera.fit``), with the term
 sees most is taken, and among those the one that errs least in the mean. Poses stay as they are.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from math import pi

@@ -5,8 +5,6 @@ A format is a subclass of ``Format`` and an entry in EXPORT_FORMATS. It defines 
 A format computes contents and writes nothing: the caller writes all files of an export or none.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass

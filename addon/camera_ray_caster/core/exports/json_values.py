@@ -4,8 +4,6 @@ Numbers that JSON cannot represent are {"float": "nan"}, "inf" or "-inf". Python
 read back as the same float64.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any

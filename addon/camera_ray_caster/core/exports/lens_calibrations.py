@@ -1,7 +1,5 @@
 """A camera's lens as calibrations: the plain record that the files of programs store."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from math import pi
 from typing import Any

@@ -7,8 +7,6 @@ Table, a camera that has these rays and may be moved. time, the frame of each pi
 have their own times. Row 0 is the bottom row.
 """
 
-from __future__ import annotations
-
 from io import BytesIO
 
 import numpy as np

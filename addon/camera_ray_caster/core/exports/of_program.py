@@ -1,7 +1,5 @@
 """An export that is written by a program's file, on plain records of cameras."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -4,8 +4,6 @@ Blender's matrices are float32: their normalized axes are a rotation only to abo
 points in the picture by about 1e-7 times the focal length in pixels; the module measures by how much.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -7,8 +7,6 @@ be at the same place: if they are not, a map is correct for distant objects only
 References: Nuke documentation, STMap; OpenImageIO documentation, st_warp.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

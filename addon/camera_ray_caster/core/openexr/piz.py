@@ -3,8 +3,6 @@
 Reference: openexr.com, "OpenEXR File Layout", and the library's ImfPizCompressor, ImfHuf and ImfWav.
 """
 
-from __future__ import annotations
-
 import struct
 from bisect import bisect_right
 from collections.abc import Sequence

@@ -4,8 +4,6 @@ Compressions with loss are refused: they change numbers that should be exact.
 Reference: openexr.com, "OpenEXR File Layout".
 """
 
-from __future__ import annotations
-
 import struct
 import zlib
 

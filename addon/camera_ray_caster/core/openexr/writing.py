@@ -3,8 +3,6 @@
 Reference: openexr.com, "OpenEXR File Layout".
 """
 
-from __future__ import annotations
-
 import struct
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The programs whose files are read and written, one file each. A new program needs its own file and a word here."""
 
-from __future__ import annotations
-
 from . import (
     anipose,
     aria,

@@ -5,8 +5,6 @@ lengths are those of the pattern that was calibrated with.
 Reference: aniposelib documentation, Calibration.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from .parts.document import Document

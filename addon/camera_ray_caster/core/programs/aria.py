@@ -5,8 +5,6 @@ T_Device_Camera leads from the camera to the device.
 Reference: Project Aria documentation, Camera Intrinsic Models for Project Aria devices.
 """
 
-from __future__ import annotations
-
 from ..units import METERS
 from .parts.document import Document
 from .parts.fields import Fields

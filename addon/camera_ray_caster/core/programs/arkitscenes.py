@@ -5,8 +5,6 @@ world to the camera.
 References: ARKitScenes documentation, Dataset files formats; its tenFpsDataLoader.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -6,8 +6,6 @@ References: V. Usenko, N. Demmel and D. Cremers, The Double Sphere Camera Model 
 Calibration.
 """
 
-from __future__ import annotations
-
 from ..units import METERS
 from .parts.document import Document
 from .parts.fields import Fields

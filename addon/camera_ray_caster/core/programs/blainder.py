@@ -6,8 +6,6 @@ Reference: S. Reitmann et al., BLAINDER: A Blender AI Add-On for Generation of S
 (2021), and its presets.
 """
 
-from __future__ import annotations
-
 from math import radians, tan
 
 import numpy as np

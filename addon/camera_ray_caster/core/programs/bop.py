@@ -5,8 +5,6 @@ first pixel is (0, 0). Each of several cameras has its own file, as in data sets
 Reference: BOP toolkit documentation, BOP dataset format.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 from ..text_forms.json_text import as_text

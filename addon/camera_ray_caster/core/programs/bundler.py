@@ -5,8 +5,6 @@ world to a camera like Blender's, y up and z back. Pictures with a focal length 
 Reference: Bundler User's Manual, Output format and scene representation.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from .parts.document import Document

@@ -6,8 +6,6 @@ The frame of a camera's lens has z along O. Lengths are meters, the file's frame
 Reference: JPL, the CAHV family of camera models.
 """
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

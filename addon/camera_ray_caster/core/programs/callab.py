@@ -5,8 +5,6 @@ first pixel is (0, 0).
 Reference: DLR CalDe and DLR CalLab, output file.
 """
 
-from __future__ import annotations
-
 import re
 
 from .parts.document import Document

@@ -5,8 +5,6 @@ middle of the picture. A fisheye is equidistant with the same focal length.
 Reference: the viewer's source, cameras/camera_paths.py: get_path_from_json.
 """
 
-from __future__ import annotations
-
 from math import radians, tan
 
 from .parts.document import Document

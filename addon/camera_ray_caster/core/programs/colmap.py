@@ -6,8 +6,6 @@ files a name ends at the first space.
 References: COLMAP documentation, Output Format; Camera Models; its source, reconstruction_io.
 """
 
-from __future__ import annotations
-
 import re
 import struct
 from collections.abc import Iterator, Sequence

@@ -6,8 +6,6 @@ are named as DepthAI does: CAM_A is 0. The center of the first pixel is (0, 0).
 Reference: DepthAI documentation, Calibration; Extrinsics.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..units import CENTIMETERS

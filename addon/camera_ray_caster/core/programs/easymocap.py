@@ -5,8 +5,6 @@ down, z ahead. H and W tell the size of pictures in newer files. The center of t
 Reference: EasyMocap documentation, Camera calibration.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

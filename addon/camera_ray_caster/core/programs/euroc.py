@@ -4,8 +4,6 @@ T_BS leads from the camera to the body. The center of the first pixel is (0, 0).
 References: The EuRoC MAV dataset, Data format. Kimera-VIO documentation.
 """
 
-from __future__ import annotations
-
 from ..units import METERS
 from .parts.camchain import is_camera, lens_of
 from .parts.document import Document

@@ -5,8 +5,6 @@ from the moving frame to the world; written, from the camera, x right, y down, z
 Reference: The EuRoC MAV dataset, Data format.
 """
 
-from __future__ import annotations
-
 from ..maths.rotations import quaternion
 from ..units import METERS
 from .parts.document import Document

@@ -8,8 +8,6 @@ pixel is (0.5, 0.5).
 Reference: fSpy, its export of camera parameters, its project file format, and its importer for Blender.
 """
 
-from __future__ import annotations
-
 from math import pi, tan
 
 import numpy as np

@@ -4,8 +4,6 @@ The center is the middle of the picture, unless cx and cy tell it from the corne
 Reference: 3D Gaussian Splatting for Real-Time Radiance Field Rendering, its code: camera_to_JSON.
 """
 
-from __future__ import annotations
-
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens, different, matrix, once_each

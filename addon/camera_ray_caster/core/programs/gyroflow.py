@@ -4,8 +4,6 @@ The center of the first pixel is (0, 0).
 Reference: Gyroflow documentation, Lens profiles; its lens_profiles.
 """
 
-from __future__ import annotations
-
 from .parts.document import Document
 from .parts.lens import Lens, matrix
 from .parts.program import ProgramFiles

@@ -6,8 +6,6 @@ and columns are those of 10 sweeps a second, 2000 of up to 32 channels and 1800 
 Reference: Hesai, Pandar128 and PandarXT User Manuals, Channel Distribution.
 """
 
-from __future__ import annotations
-
 from ..cameras.parts.devices import numbers_as_text
 from ..cameras.parts.scanners import AZIMUTHS, COLUMNS, ELEVATIONS
 from .parts.document import Document

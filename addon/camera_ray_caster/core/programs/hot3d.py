@@ -7,8 +7,6 @@ not tell the world.
 Reference: HOT3D documentation, and the hand tracking toolkit that reads its clips.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from ..units import METERS

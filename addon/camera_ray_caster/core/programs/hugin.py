@@ -6,8 +6,6 @@ of picture 0.
 Reference: Hugin documentation, Nona: the format of its scripts; Panorama Tools documentation.
 """
 
-from __future__ import annotations
-
 import re
 from math import pi, radians, tan
 

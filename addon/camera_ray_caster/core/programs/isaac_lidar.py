@@ -5,8 +5,6 @@ scanner. Emitters of a solid state are a list of rays; of several states each is
 Reference: NVIDIA, Isaac Sim documentation, RTX Lidar: Sensor Profiles.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

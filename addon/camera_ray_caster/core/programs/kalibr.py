@@ -6,8 +6,6 @@ are in meters. The center of the first pixel is (0, 0).
 References: Kalibr wiki, Supported models; YAML formats.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Iterator, Sequence

@@ -11,8 +11,6 @@ References: A. Geiger, P. Lenz, C. Stiller and R. Urtasun, Vision meets Robotics
 development kits of KITTI's raw data and odometry; KITTI-360 documentation.
 """
 
-from __future__ import annotations
-
 import re
 from functools import partial
 

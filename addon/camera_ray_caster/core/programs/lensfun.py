@@ -7,8 +7,6 @@ large as the sensor's diagonal, and its middle the center unless the lens has an
 Reference: lensfun documentation, The lens database; Lens distortion models.
 """
 
-from __future__ import annotations
-
 from math import hypot
 
 from ..text_forms.xml_subset import Element

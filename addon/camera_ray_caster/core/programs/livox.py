@@ -4,8 +4,6 @@ and its angle from the zenith, in degrees. The first line names the columns: Tim
 Reference: Livox, livox_laser_simulation, its scan_mode.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from .parts.document import Document

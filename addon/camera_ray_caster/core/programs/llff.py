@@ -5,8 +5,6 @@ length in pixels. The last two are the nearest and the farthest depth. The cente
 Reference: LLFF, its documentation, Using your own poses.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from .parts import ray_arrays

@@ -5,8 +5,6 @@ to the rig's body; in maplab's files of all sensors, T_B_S from the rig to the b
 References: maplab documentation, Sensor calibration; SVO's rpg_svo_pro, calibration files.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..units import METERS

@@ -9,8 +9,6 @@ The polynomial of a radialk3pt is over its value at radius 1.
 References: AliceVision, sfmDataIO: the changes of its file format; its camera models, Pose3 and SfMData::getPose.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from .parts.document import Document

@@ -15,8 +15,6 @@ manual 0.4, camera model; Agisoft Metashape Python API, Camera.master,
 Sensor.rotation, Sensor.location, Chunk.transform and CoordinateSystem.localframe.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 
 import numpy as np

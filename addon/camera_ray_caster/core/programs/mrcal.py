@@ -8,8 +8,6 @@ turned to the axis of its distortion: see ``parts.cahvor_lens``.
 Reference: mrcal documentation, Lens models; The .cameramodel file format.
 """
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Iterator, Sequence

@@ -5,8 +5,6 @@ models count from the picture's corner, so that half the width is the middle; th
 Reference: NVIDIA NCore documentation, Sensor Models.
 """
 
-from __future__ import annotations
-
 from ..units import METERS
 from . import nvidia
 from .parts.document import Document

@@ -5,8 +5,6 @@ eighth is of val and the tenth of test. Poses are from Blender's camera frame to
 Reference: B. Mildenhall et al., NeRF (2020), and its data sets.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from math import atan, isclose
 

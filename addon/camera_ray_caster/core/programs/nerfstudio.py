@@ -11,8 +11,6 @@ times in seconds from the frame's, and the order by gsplat's name.
 Reference: nerfstudio documentation, Data conventions; its reader, nerfstudio_dataparser.py.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from math import pi, tan
 from typing import Any

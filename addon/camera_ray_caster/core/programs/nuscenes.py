@@ -5,8 +5,6 @@ their token; other sensors are left out. The center of the first pixel is (0, 0)
 Reference: nuScenes documentation, Schema: calibrated_sensor.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..units import METERS

@@ -13,8 +13,6 @@ References: NVIDIA DriveWorks SDK documentation, Rig Configuration; NVIDIA NCore
 Omniverse Replicator documentation, Annotators: CameraParams.
 """
 
-from __future__ import annotations
-
 from math import radians
 
 import numpy as np

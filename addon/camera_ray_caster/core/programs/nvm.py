@@ -7,8 +7,6 @@ x right, y down, z ahead. The first model of a file is read.
 Reference: VisualSFM documentation, NVM file format.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from math import inf
@@ -88,7 +86,7 @@ def poses(document: Document) -> list[Placed]:
     for (name, (_, *pose_numbers, _radial, _end)), lens in zip(_pictures(document), _lenses(document), strict=True):
         *turn, x, y, z = pose_numbers
         if len(turn) == 4:
-            pose = of_quaternion(document, [turn[0], *(-part for part in turn[1:])], [x, y, z], name)
+            pose = of_quaternion(document, [turn[0], *(-number for number in turn[1:])], [x, y, z], name)
         else:
             pose = inverted(of_rotation(document, turn, [x, y, z], f"rotation of {name}"))
         placed.append(Placed(lens.name, name, None, pose))

@@ -8,8 +8,6 @@ The center of the first pixel is (0, 0).
 Reference: D. Scaramuzza, OCamCalib: Omnidirectional Camera Calibration Toolbox for Matlab.
 """
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

@@ -4,8 +4,6 @@ The center of the first pixel is (0, 0). T_SC leads from the camera to the senso
 Reference: OKVIS2 documentation, Configuration files and calibration.
 """
 
-from __future__ import annotations
-
 from ..units import METERS
 from .parts.camchain import DISTORTIONS, bend_of
 from .parts.document import Document

@@ -6,8 +6,6 @@ center of the first pixel is (0, 0).
 References: Open3D documentation, PinholeCameraParameters; Redwood, Trajectory file format (.log).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..units import METERS

@@ -8,8 +8,6 @@ References: OpenCV documentation, Camera Calibration and 3D Reconstruction; Fish
 Calibration.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 

@@ -5,8 +5,6 @@ center of the first pixel is (0, 0). Views without a pose are left out: they wer
 Reference: openMVG, sfm_data_io and its camera models.
 """
 
-from __future__ import annotations
-
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens, matrix, one_of_several

@@ -6,8 +6,6 @@ first pixel is (0, 0), and the middle of the picture is the center unless c_x an
 Reference: OpenSfM documentation, Geometric Models; Reconstruction file format.
 """
 
-from __future__ import annotations
-
 from ..units import METERS
 from .parts.document import Document
 from .parts.fields import Fields

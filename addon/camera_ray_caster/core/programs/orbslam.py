@@ -5,8 +5,6 @@ x right, y down, z ahead; IMU.T_b_c1, or Tbc, from the camera to the IMU.
 Reference: ORB-SLAM3, Calibration tutorial; stella_vslam documentation, Parameters.
 """
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

@@ -4,8 +4,6 @@ Five coefficients are of plumb_bob, eight of rational_polynomial. The center of 
 Reference: ROS documentation, camera_calibration; camera_calibration_parsers, INI format.
 """
 
-from __future__ import annotations
-
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens

@@ -7,8 +7,6 @@ the origin. Sensors without a turning head, of the DF series, are refused.
 Reference: Ouster, Firmware User Manual, Sensor Metadata, and Sensor Coordinate Frames.
 """
 
-from __future__ import annotations
-
 import re
 from math import hypot
 

@@ -5,8 +5,6 @@ R and t lead from the world, in centimeters, to the camera, x right, y down, z a
 Reference: CMU Panoptic Studio toolbox.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..units import CENTIMETERS

@@ -4,8 +4,6 @@ The matrix leads from the camera, y up and z back, to a world whose y is up. The
 Reference: polyform, Polycam's data format.
 """
 
-from __future__ import annotations
-
 from ..units import METERS
 from .parts.document import Document
 from .parts.placed import FROM_BLENDER, Placed, pose_of

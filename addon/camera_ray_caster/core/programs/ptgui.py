@@ -6,8 +6,6 @@ their units and directions are not documented, and readers do not agree on them.
 Reference: PTGui documentation, Project file format; Lens parameters a, b, c.
 """
 
-from __future__ import annotations
-
 from math import hypot
 
 from .parts.document import Document

@@ -3,8 +3,6 @@
 The formats are told in parts/: ray_arrays, ray_exr, ray_mesh.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from .parts import ray_arrays, ray_exr, ray_mesh

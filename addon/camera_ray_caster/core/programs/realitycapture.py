@@ -9,8 +9,6 @@ the angles of a .csv are taken as other readers do, who do not agree on the orde
 Reference: RealityCapture, XMP Camera Math.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

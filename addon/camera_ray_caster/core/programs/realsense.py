@@ -4,8 +4,6 @@ The center of the first pixel is (0, 0).
 Reference: librealsense documentation, Projection.
 """
 
-from __future__ import annotations
-
 from .parts.document import Document
 from .parts.plain import has_plain, plain_lenses
 from .parts.program import ProgramFiles

@@ -4,8 +4,6 @@ A camera that changes from frame to frame has one lens for each frame, named CAM
 that of the frame, whose shape the camera had.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -5,8 +5,6 @@ The center of the first pixel is (0, 0).
 Reference: ROS documentation, sensor_msgs/CameraInfo; camera_calibration_parsers.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator, Sequence
 

@@ -10,8 +10,6 @@ References: NIMA, The Compendium of Controlled Extensions for NITF: RPC00B; GDAL
 DigitalGlobe, Imagery Support Data Documentation; Airbus, Pleiades Imagery User Guide.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from typing import NamedTuple

@@ -6,8 +6,6 @@ References: T. Schöps et al., Why having 10,000 parameters in your camera model
 program camera_calibration.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from .parts.document import Document

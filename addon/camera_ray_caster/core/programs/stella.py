@@ -6,8 +6,6 @@ of the first pixel is (0, 0).
 Reference: stella_vslam documentation, Parameters.
 """
 
-from __future__ import annotations
-
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import MATRIX, Lens, matrix

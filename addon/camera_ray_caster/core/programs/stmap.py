@@ -1,7 +1,5 @@
 """STMaps: pairs of EXR images between two lenses; ``core.exports`` writes them, of whole cameras."""
 
-from __future__ import annotations
-
 from .parts.program import FileWriter, ProgramFiles
 
 PROGRAM = ProgramFiles(

@@ -6,8 +6,6 @@ d1 x^5 ... times focal, where x is the angle (FTHETA), or its tangent (RECTILINE
 Reference: Surround 360 Rig Geometry Format.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from .parts.document import Document

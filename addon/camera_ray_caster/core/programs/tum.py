@@ -6,8 +6,6 @@ ahead. Frame 0 is at 0 seconds.
 Reference: TUM RGB-D benchmark, File Formats.
 """
 
-from __future__ import annotations
-
 from ..maths.rotations import quaternion
 from ..units import METERS
 from .parts.document import Document

@@ -8,8 +8,6 @@ read.
 References: velodyne_pointcloud, gen_calibration; Velodyne, HDL-64E S3 User Manual, appendix F.
 """
 
-from __future__ import annotations
-
 from math import degrees
 from typing import Any
 

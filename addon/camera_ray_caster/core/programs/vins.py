@@ -7,8 +7,6 @@ not needed. Ours has 1 in place of ac, which scales (u', v') and the polynomial.
 References: L. Heng, B. Li and M. Pollefeys, CamOdoCal (2013), and its source, camera_models; KITTI-360 documentation.
 """
 
-from __future__ import annotations
-
 import re
 
 from ..units import METERS

@@ -6,8 +6,6 @@ ahead, to the vehicle, x ahead, y left, z up, in meters.
 Reference: S. Yogamani et al., WoodScape (2019), and its code, calibration.
 """
 
-from __future__ import annotations
-
 from ..units import METERS
 from .parts.document import Document
 from .parts.lens import Lens

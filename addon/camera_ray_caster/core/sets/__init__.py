@@ -4,8 +4,6 @@ A set is a folder that ``cast.py`` or ``dataset.py`` made, with passes as NPZ or
 that takes the views of a set and yields names and contents of files, which may lie in folders; it needs numpy only.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from pathlib import Path
 

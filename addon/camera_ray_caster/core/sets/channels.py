@@ -4,8 +4,6 @@ Blender names channels LAYER.LABEL.LETTER, and writes a depth of inf as 1e10. A 
 only the render border was cast.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any

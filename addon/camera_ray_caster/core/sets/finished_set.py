@@ -4,8 +4,6 @@ The report NAME.json of each picture names its files; from it the camera is made
 have row 0 at the bottom, as in NPZ files; files of pictures begin at the top.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import sys

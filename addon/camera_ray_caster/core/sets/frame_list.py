@@ -6,8 +6,6 @@ val_filenames and test_filenames, of which the last two are the same.
 Reference: nerfstudio documentation, Data conventions.
 """
 
-from __future__ import annotations
-
 import json
 from itertools import chain
 from typing import Any

@@ -3,8 +3,6 @@
 References: COCO documentation, Data format, Panoptic Segmentation; Ultralytics documentation, Detect datasets.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator
 from itertools import chain

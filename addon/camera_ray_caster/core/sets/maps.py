@@ -1,7 +1,5 @@
 """Maps of pictures as PNG: depth in 16 bits, normals in the camera's frame, and a preview of all."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator
 

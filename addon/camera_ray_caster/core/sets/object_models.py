@@ -7,8 +7,6 @@ or the mean of those of its triangles; a model whose color changes over a surfac
 References: see ``object_scenes``; G. Thürmer and C. Wüthrich, Computing Vertex Normals from Polygonal Facets (1998).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property

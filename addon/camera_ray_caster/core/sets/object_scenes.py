@@ -7,8 +7,6 @@ Lengths are in millimeters; depth in 16 bits is along the viewing direction, in 
 References: BOP toolkit documentation, BOP dataset format; T. Hodan et al., BOP Challenge 2020.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from itertools import chain

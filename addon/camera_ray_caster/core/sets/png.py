@@ -3,8 +3,6 @@
 Reference: Portable Network Graphics Specification, ISO/IEC 15948.
 """
 
-from __future__ import annotations
-
 import struct
 import zlib
 

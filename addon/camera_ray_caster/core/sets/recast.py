@@ -3,8 +3,6 @@
 So depths, masks, boxes and poses are of the surfaces that the models of ``object_scenes`` have.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import lru_cache

@@ -1,7 +1,5 @@
 """What the formats of finished data sets are."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import NamedTuple
 

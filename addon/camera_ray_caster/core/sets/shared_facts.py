@@ -5,8 +5,6 @@ report lacks the entries that are equal there. The annotations of a picture have
 place of ``objects``, if they are of the same objects.
 """
 
-from __future__ import annotations
-
 import json
 from functools import lru_cache
 from pathlib import Path

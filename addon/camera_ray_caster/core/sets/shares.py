@@ -3,8 +3,6 @@
 A share has a file, ``.share_K_of_N``, and holds a lock on it while it runs; the file stays until the set is complete.
 """
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Iterator

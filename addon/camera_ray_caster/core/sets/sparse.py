@@ -7,8 +7,6 @@ out the pictures in test.txt, those for validation.
 Reference: COLMAP documentation, Output Format.
 """
 
-from __future__ import annotations
-
 from itertools import chain
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What exports hold as they go from picture to picture: what is of all pictures waits on disk."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from functools import partial
 from itertools import pairwise

@@ -7,8 +7,6 @@ characteristic functions, the sums of exp(i k x), are equal at some vectors k.
 References: see ``object_scenes``.
 """
 
-from __future__ import annotations
-
 from itertools import permutations, product
 from typing import Any
 

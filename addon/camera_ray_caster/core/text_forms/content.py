@@ -7,8 +7,6 @@ lens or in one line.
 Reference: OpenCV documentation, File Input and Output using XML / YAML / JSON files.
 """
 
-from __future__ import annotations
-
 import json
 import re
 import tomllib

@@ -1,7 +1,5 @@
 """Writes values of JSON's types as strict JSON."""
 
-from __future__ import annotations
-
 import json
 import re
 

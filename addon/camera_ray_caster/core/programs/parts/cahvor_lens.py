@@ -10,8 +10,6 @@ References: D. Gennery, Generalized camera calibration including fish-eye lenses
 models.
 """
 
-from __future__ import annotations
-
 from math import asin, atan2
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The words of Kalibr's camera and distortion models, which several programs share."""
 
-from __future__ import annotations
-
 from .fields import Fields
 from .lens import Lens, matrix, numbers_of
 from .spelled import plain_name

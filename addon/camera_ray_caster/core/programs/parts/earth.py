@@ -3,8 +3,6 @@
 References: WGS 84; B. Bowring, Transformation from spatial to geographical coordinates (1976).
 """
 
-from __future__ import annotations
-
 from math import atan2, cos, hypot, sin
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Lenses in files, as plain records, and the numbers of which they are made."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple

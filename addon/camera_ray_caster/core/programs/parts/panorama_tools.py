@@ -7,8 +7,6 @@ to the right by the yaw, in degrees.
 References: Panorama Tools documentation, Lens correction model; Image positioning model.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -8,8 +8,6 @@ References: OpenCV documentation, Camera Calibration and 3D Reconstruction; Fish
 Calibration.
 """
 
-from __future__ import annotations
-
 from reprlib import repr as shortened
 from typing import cast
 

@@ -4,8 +4,6 @@ A program is a module of ``core.programs`` with a ``PROGRAM``, and a word in MOD
 work on plain records: lenses, poses, sizes, names and times.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property

@@ -6,8 +6,6 @@ are in the world; without it in the camera's frame. With area (4,), they fill a 
 NPY holds directions, or (rows, columns, 6): origins, then directions.
 """
 
-from __future__ import annotations
-
 import re
 import zipfile
 from collections.abc import Callable, Mapping, Sequence

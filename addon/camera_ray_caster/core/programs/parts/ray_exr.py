@@ -5,8 +5,6 @@ word direction or origin. The rays are in the camera's frame; a direction of NaN
 float32: half floats turn rays by up to 2.4e-4 radians.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -8,8 +8,6 @@ places are those of the Ray Table.
 Reference: Wavefront, Advanced Visualizer Manual, appendix B1 (Object Files); POV-Ray documentation, mesh_camera.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from .document import Document

@@ -1,7 +1,5 @@
 """Where numbers and words of a file come from: what is wrong with one is told with the file's path."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Sequence
 from math import hypot
 from typing import Any

@@ -6,8 +6,6 @@ x, y, z and the quaternion x, y, z, w; with commas nanoseconds, x, y, z, the qua
 read; both x, y, z and the quaternion x, y, z, w if they have no time. Semicolons count as commas.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from typing import NamedTuple

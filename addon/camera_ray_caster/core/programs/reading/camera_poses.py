@@ -1,7 +1,5 @@
 """The poses of the cameras of a file of any program; see ``placed``."""
 
-from __future__ import annotations
-
 import re
 from pathlib import PurePath
 

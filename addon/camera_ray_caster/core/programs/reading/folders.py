@@ -1,7 +1,5 @@
 """Files that belong together: of lenses and of poses, or a file for each picture in a folder."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import NamedTuple

@@ -3,8 +3,6 @@
 A file that no program recognizes may have calibrations inside: a mapping of cameras by name, or a list of them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

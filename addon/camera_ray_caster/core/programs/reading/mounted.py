@@ -1,7 +1,5 @@
 """The cameras of a file, with their lenses and poses: what "Add Cameras from File" makes of it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 

@@ -1,7 +1,5 @@
 """The refusal of a file that no program recognizes: what is read, and the program that is nearest to the file."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 
