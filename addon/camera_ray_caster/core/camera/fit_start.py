@@ -13,12 +13,12 @@ from ..cameras.parts.calibration import CENTER, FOCAL, SIZE, UNIT
 from ..cameras.parts.film import OFF_AXIS, Film
 from ..cameras.parts.parameters import defaults_of, with_values
 from ..cameras.parts.port_settings import PORT
-from ..records import BlenderCamera, InputError, Pose
+from ..records import BlenderCamera, InputError
 from .camera import Camera
+from .fit_search import STILL
 from .jacobian import of_projection
 
 AHEAD = np.array([(0.0, 0.0, -1.0)])
-STILL = Pose(np.zeros(3), np.eye(3))
 
 
 def guesses(camera: Camera, kind: type[Model], explicit: Mapping[str, Any]) -> list[BlenderCamera]:

@@ -21,6 +21,7 @@ Reference: H. Igehy, Tracing Ray Differentials, SIGGRAPH 1999.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -155,19 +156,12 @@ def of_projection(model: Model, pose: Pose, points: np.ndarray, pixels: np.ndarr
 
     NaN if the pixel is NaN or has no ray; not finite if all pixels of a line see the point.
     """
-    result = np.empty((len(points), 2, 3))
     camera_from_world = inverse(pose.basis)
 
-    def put(block: slice) -> None:
-        with np.errstate(all="ignore"):  # NaN means no pixel
-            local = components((points[block] - pose.eye) @ camera_from_world.T)
-            rays = RayDerivatives(model, pose, pixels[block, 0], pixels[block, 1])
-            for row, gradient in enumerate(rays.by_point(local)):
-                for axis, component in enumerate(matvec(camera_from_world.T, gradient)):
-                    result[block, row, axis] = component
+    def by_point(rays: RayDerivatives, local) -> Any:
+        return [matvec(camera_from_world.T, gradient) for gradient in rays.by_point(local)]
 
-    in_blocks(put, (len(points), 1), BLOCK_PIXELS)
-    return result
+    return _of_pixels(by_point, model, 0, pose, points, pixels, 3)
 
 
 def of_settings(varied: Model, count: int, pose: Pose, points: np.ndarray, pixels: np.ndarray) -> np.ndarray:
@@ -176,17 +170,24 @@ def of_settings(varied: Model, count: int, pose: Pose, points: np.ndarray, pixel
 
     NaN if the pixel is NaN or has no ray; not finite if all pixels of a line see the point.
     """
-    result = np.empty((len(points), 2, count))
+    return _of_pixels(RayDerivatives.by_parameters, varied, count, pose, points, pixels, count)
+
+
+def _of_pixels(derivatives: Callable, model: Model, parameters: int, pose: Pose, points, pixels, width: int):
+    """Return (n, 2, width) derivatives of pixels, which a function gives of the rays and the points in the camera's
+    frame, two rows of them; NaN for pixels that are NaN.
+    """
+    result = np.empty((len(points), 2, width))
     camera_from_world = inverse(pose.basis)
 
     def put(block: slice) -> None:
         with np.errstate(all="ignore"):  # NaN means no pixel
             local = components((points[block] - pose.eye) @ camera_from_world.T)
-            rays = RayDerivatives(varied, pose, pixels[block, 0], pixels[block, 1], count)
-            for row, moves in enumerate(rays.by_parameters(local)):
-                for parameter, move in enumerate(moves):
-                    result[block, row, parameter] = move
+            rays = RayDerivatives(model, pose, pixels[block, 0], pixels[block, 1], parameters)
+            for row, columns in enumerate(derivatives(rays, local)):
+                for column, values in enumerate(columns):
+                    result[block, row, column] = values
         result[block][np.isnan(pixels[block]).any(axis=1)] = np.nan
 
-    in_blocks(put, (len(points), 1), BLOCK_PIXELS // 4)
+    in_blocks(put, (len(points), 1), BLOCK_PIXELS // 4 if parameters else BLOCK_PIXELS)
     return result

@@ -9,24 +9,17 @@ Reference: Blender manual, Cameras > Panoramic; Snyder (1987), page 105; rays re
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi
 
 import numpy as np
 
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.film import SHIFT
-from .parts.meridians import RAY, Meridians, longitude
+from .parts.meridians import RAY, Meridians, longitude, longitudes
 from .parts.settings import ABOVE_ZERO, CAMERA, Number, span
 
 PREFIX = "central_cylindrical_"
-LONGITUDES = tuple(
-    Number(
-        PREFIX + f"range_u_{end}", label, f"Longitude of the frame's {side} edge; 0 is straight ahead", low,
-        unit="angle", owner=CAMERA,
-    )
-    for end, label, side, low in (("min", "Min Longitude", "left", -pi), ("max", "Max Longitude", "right", pi))
-)  # fmt: skip
+LONGITUDES = longitudes(PREFIX + "range_u_")
 HEIGHTS = tuple(
     Number(
         PREFIX + f"range_v_{end}", label, f"Height of the frame's {side} edge on the cylinder", low, unit="length",

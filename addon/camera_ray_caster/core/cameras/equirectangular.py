@@ -16,17 +16,11 @@ import numpy as np
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.film import SHIFT
-from .parts.meridians import RAY, Meridians, longitude
+from .parts.meridians import RAY, Meridians, longitude, longitudes
 from .parts.settings import CAMERA, Number, span
 from .parts.silhouette import PIXEL_MARGIN, everywhere, longitude_latitude
 
-LONGITUDES = tuple(
-    Number(
-        f"longitude_{end}", label, f"Longitude of the frame's {side} edge; 0 is straight ahead", default, unit="angle",
-        owner=CAMERA,
-    )
-    for end, label, side, default in (("min", "Min Longitude", "left", -pi), ("max", "Max Longitude", "right", pi))
-)  # fmt: skip
+LONGITUDES = longitudes("longitude_")
 LATITUDES = tuple(
     Number(
         f"latitude_{end}", label, f"Latitude of the frame's {side} edge", default, -pi / 2, pi / 2, "angle",

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebvander
 
 from ..records import InputError
-from .optics import BISECTIONS, Optics
+from .optics import BISECTIONS, Optics, bisected
 from .trace import trace
 
 DEGREE = 28
@@ -138,7 +138,8 @@ def _polynomials(optics: Optics, film: float, family, end: float, rim: float) ->
     """Return the polynomials on the radii from 0 to ``end``, with their errors up to ``rim``."""
     radius, front, rear, angle_end, _ = family
     nodes = np.cos((np.arange(DEGREE + 1) + 0.5) * pi / (DEGREE + 1))
-    functions = _functions(optics, film, _angles(radius, _radii(nodes, end), angle_end), front, rear)
+    t = (nodes + 1) / 2
+    functions = _functions(optics, film, _angles(radius, end * np.sqrt((1 - t) * (1 + t)), angle_end), front, rear)
     weights = 2 / (DEGREE + 1) * chebvander(nodes, DEGREE)
     weights[:, 0] /= 2
     height, front_z, tangent, pupil = (tuple((weights.T @ values).tolist()) for values in functions)
@@ -154,27 +155,23 @@ def _polynomials(optics: Optics, film: float, family, end: float, rim: float) ->
     return replace(chief, errors=errors, widest=widest, crossing_error=crossing)
 
 
-def _radii(nodes, end: float):
-    t = (nodes + 1) / 2
-    return end * np.sqrt((1 - t) * (1 + t))
-
-
 def _family(optics: Optics, film: float):
     """Return the functions of the stop's angle: r on the film, front and rear rays; the angle at which the family ends,
     and the one at which a rim is in the way.
     """
+    before, start = optics.surfaces[: optics.stop][::-1], optics.surfaces[optics.stop].z
+
+    def from_stop(surfaces, side, angle, clip):
+        zero = np.zeros_like(angle)
+        direction = zero, -side * np.sin(angle), side * np.cos(angle)
+        with np.errstate(all="ignore"):
+            return trace(surfaces, (zero, zero, start + zero), direction, side > 0, clip)
 
     def front(angle, clip=False):
-        start, zero = optics.surfaces[optics.stop].z, np.zeros_like(angle)
-        direction = zero, np.sin(angle), -np.cos(angle)
-        with np.errstate(all="ignore"):
-            return trace(optics.surfaces[: optics.stop][::-1], (zero, zero, start + zero), direction, False, clip)
+        return from_stop(before, -1, angle, clip)
 
     def rear(angle, clip=False):
-        start, zero = optics.surfaces[optics.stop].z, np.zeros_like(angle)
-        direction = zero, -np.sin(angle), np.cos(angle)
-        with np.errstate(all="ignore"):
-            return trace(optics.surfaces[optics.stop :], (zero, zero, start + zero), direction, True, clip)
+        return from_stop(optics.surfaces[optics.stop :], 1, angle, clip)
 
     def radius(angle):
         (_, y, z), (_, dy, dz) = rear(angle)
@@ -195,7 +192,7 @@ def _family(optics: Optics, film: float):
     end = _growing(radius, *_edge(exists, angles, last))
     passing = exists(angles, clip=True) & (angles <= end)
     first_lost = int(np.argmin(np.append(passing, False)))
-    rim = _bisected(lambda angle: exists(angle, clip=True) & (angle <= end), angles[first_lost - 1],
+    rim = bisected(lambda angle: exists(angle, clip=True) & (angle <= end), angles[first_lost - 1],
                     angles[first_lost] if first_lost < len(angles) else end)  # fmt: skip
     return radius, front, rear, end, min(rim, end)
 
@@ -204,17 +201,7 @@ def _edge(exists, angles, last: int) -> tuple[float, float]:
     """Return two angles around the end of the family: the last knot at which r grows, and where rays cease to exist."""
     low = float(angles[max(last - 1, 0)])
     high = float(angles[min(last + 1, len(angles) - 1)])
-    return low, _bisected(exists, low, high)
-
-
-def _bisected(holds, low: float, high: float) -> float:
-    """Return the largest angle from low to high up to which a condition holds, which holds at low."""
-    if holds(np.array([high]))[0]:
-        return float(high)
-    for _ in range(BISECTIONS):
-        middle = (low + high) / 2
-        low, high = (middle, high) if holds(np.array([middle]))[0] else (low, middle)
-    return float(low)
+    return low, bisected(exists, low, high)
 
 
 def _growing(radius, low: float, high: float) -> float:

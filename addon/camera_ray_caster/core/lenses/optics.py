@@ -9,7 +9,8 @@ Reference: W. Smith, Modern Optical Engineering, 4th ed. (2008), chapters 2 to 4
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -26,6 +27,16 @@ LEAST_F_NUMBER = 1e-5
 
 BISECTIONS = 60
 """Halvings of an interval: down to the rounding of its ends."""
+
+
+def bisected(holds: Callable, low: float, high: float) -> float:
+    """Return the largest number from low to high up to which a condition of arrays (1,) holds, which holds at low."""
+    if holds(np.array([high]))[0]:
+        return float(high)
+    for _ in range(BISECTIONS):
+        middle = (low + high) / 2
+        low, high = (middle, high) if holds(np.array([middle]))[0] else (low, middle)
+    return float(low)
 
 
 @dataclass(frozen=True)
@@ -131,12 +142,9 @@ class Optics:
 
         It is the paraxial film if no ray but that on the axis passes the lens.
         """
-        low, high = 0.0, 2.0 * abs(self.entrance_pupil[1]) * radius
-        for _ in range(BISECTIONS):
-            middle = (low + high) / 2
-            passes = np.isfinite(self._from_axis(distance, middle, radius)[1][1])
-            low, high = (middle, high) if passes else (low, middle)
-        heights = np.sqrt((np.arange(PUPIL_RAYS) + 0.5) / PUPIL_RAYS) * low
+        widest = bisected(lambda height: np.isfinite(self._from_axis(distance, height, radius)[1][1]),
+                          0.0, 2.0 * abs(self.entrance_pupil[1]) * radius)  # fmt: skip
+        heights = np.sqrt((np.arange(PUPIL_RAYS) + 0.5) / PUPIL_RAYS) * widest
         (_, y, z), (_, dy, dz) = self._from_axis(distance, heights, radius)
         slope, height = dy / dz, y - z * dy / dz
         total = float((slope * slope).sum())
@@ -153,9 +161,7 @@ class Optics:
         length = np.sqrt(height * height + distance * distance)
         stop = self.surfaces[self.stop]
         surfaces = [*self.surfaces]
-        surfaces[self.stop] = LensSurface(
-            stop.z, stop.curvature, stop.conic, stop.asphere, min(radius, stop.rim), stop.before, stop.behind
-        )
+        surfaces[self.stop] = replace(stop, rim=min(radius, stop.rim))
         with np.errstate(invalid="ignore", divide="ignore"):
             origin, (dx, dy, dz) = trace(
                 surfaces,

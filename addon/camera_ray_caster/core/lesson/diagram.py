@@ -84,11 +84,12 @@ def diagram(camera: Camera, shapes: Shapes, size: float, rays_across: int) -> Di
     hits, normals = flat["position"][hit], flat["normal"][hit]
     across, up = _image(camera, size)
     border = np.concatenate((across[[0, -1]], up[[0, -1]]))
+    u, v, z = camera.pose.basis.T
     edges = [_segments(border), *([_corners(camera, size)] if camera.model.planar else [])]
     return Diagram(
         border=_drawn(np.concatenate(edges)),
         grid=_drawn(_segments(np.concatenate((across[1:-1], up[1:-1])))),
-        basis=_drawn(np.stack([(camera.pose.eye, camera.pose.eye + size * axis) for axis in _uvw(camera)])),
+        basis=_drawn(np.stack([(camera.pose.eye, camera.pose.eye + size * axis) for axis in (u, v, -z)])),
         hit_rays=_drawn(np.stack((flat["ray_origin"][hit], hits), axis=1)),
         missed_rays=_drawn(np.stack((flat["ray_origin"], ends), axis=1)[missed]),
         hits=(hits + LIFT * longest * normals).astype(np.float32),
@@ -154,11 +155,6 @@ def _ahead(camera: Camera, t: float, x, y) -> np.ndarray:
     points = matvec(camera.pose.basis, tuple(a + t * b for a, b in zip(origin, direction, strict=True)))
     shape = np.broadcast_shapes(np.shape(x), np.shape(y))
     return np.stack([np.broadcast_to(component, shape) for component in points], axis=-1) + camera.pose.eye
-
-
-def _uvw(camera: Camera):
-    u, v, z = camera.pose.basis.T
-    return u, v, -z
 
 
 def _segments(lines: np.ndarray) -> np.ndarray:

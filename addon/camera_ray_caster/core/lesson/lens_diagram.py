@@ -62,9 +62,12 @@ def lens_drawing(model: RealLens) -> LensDrawing:
     glass = [line for turn in (0.0, np.pi / 2) for line in sections(model, turn)]
     glass += [_circle(model, surface.z + surface.sag(rim * rim)[0], rim) for surface, rim in _rims(model)]
     stop, radius = model.optics.surfaces[model.optics.stop], float(model.radius)
-    pupils = [_circle(model, z, abs(size) * radius) for z, size in _pupils(model)]
+    images = model.optics.entrance_pupil, model.optics.exit_pupil
+    pupils = [_circle(model, z, abs(size) * radius) for z, size in images]
     corners = model.window.corners(model.size)
-    frame = np.array([_film_point(model, a, b) for a, b in (*corners, corners[0])])
+    a, b = np.vstack((corners, corners[:1])).T
+    x, y, z = model.tilted.places(a, b, float(model.film))
+    frame = np.stack((-x, -y, np.broadcast_to(z, x.shape)), axis=-1)  # upside down
     return LensDrawing(
         glass=np.concatenate([_segments(line) for line in glass]),
         stop=np.concatenate([_segments(_circle(model, stop.z, size)) for size in (radius, _reach(model))]),
@@ -157,16 +160,6 @@ def film_line(model: RealLens, up: np.ndarray, radius: float) -> np.ndarray:
         x, y, z = model.tilted.places(*model.tilted.onto(model.chief, *(side * up)), float(model.film))
         line.append((0.0, -float(np.dot((x, y), up)), float(z)))
     return _placed(model, np.array(line))
-
-
-def _film_point(model: RealLens, a: float, b: float) -> tuple[float, float, float]:
-    """Return the point of the film, which is upside down there, of a point of the model's window."""
-    x, y, z = model.tilted.places(a, b, model.film)
-    return -float(x), -float(y), float(z)
-
-
-def _pupils(model: RealLens) -> tuple[tuple[float, float], tuple[float, float]]:
-    return model.optics.entrance_pupil, model.optics.exit_pupil
 
 
 def _reach(model: RealLens) -> float:

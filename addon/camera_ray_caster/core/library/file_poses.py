@@ -7,7 +7,7 @@ import warnings
 
 import numpy as np
 
-from ..maths.rotations import polar
+from ..maths.rotations import rigid
 from ..programs import program_of
 from ..programs.parts import ray_arrays
 from ..programs.parts.document import Document
@@ -58,6 +58,4 @@ def pose_in_file(path: str, lens: Lens, model: str, picture_size: tuple[int, int
         )
     if len(poses) != 1:
         return None
-    pose = poses[0].copy()
-    pose[:3, :3] = polar(pose[None, :3, :3])[0][0]
-    return pose
+    return rigid(poses[0])

@@ -14,7 +14,7 @@ from ..arguments import chosen, number, shown
 from ..camera.camera import Camera
 from ..camera.pixel_time import rolling_shutter
 from ..camera.times import LinearTime
-from ..maths.rotations import polar
+from ..maths.rotations import rigid
 from ..motion.evaluations import Motion
 from ..motion.interpolation import TimeInterval
 from ..programs.parts.placed import Rolling
@@ -120,10 +120,3 @@ def _rolling(camera: Camera, rolling: Rolling, rate: float) -> Camera:
     middle, pose = motion.camera_at(min(max(settings["frame"], times.first), times.last)).pose, np.eye(4)
     pose[:3, :3], pose[:3, 3] = middle.basis, middle.eye
     return replace(first.with_pose(pose), motion=motion)
-
-
-def rigid(pose: np.ndarray) -> np.ndarray:
-    """Return a pose, (4, 4), whose axes are the nearest rotation."""
-    turned = pose.copy()
-    turned[:3, :3] = polar(pose[None, :3, :3])[0][0]
-    return turned

@@ -160,7 +160,7 @@ def _end(pictures, wanted, corner, disc: Disc) -> None:
     size, parts = SIZES[0], _divided(pictures, SIZES[0])
     x, y = ((first + np.arange(count)) * side
             for first, count, side in zip(corner, wanted.shape[::-1], size[::-1], strict=True))  # fmt: skip
-    columns, rows = _centers(size)
+    columns, rows = np.arange(size[1])[None] + 0.5, np.arange(size[0])[:, None] + 0.5  # centers in a panel
     for band, panel in np.argwhere(wanted & ~disc.covers(x[None], y[:, None], size)):
         beyond = ~disc.holds(x[panel] + columns, y[band] + rows)
         for target in chain(*(values[:, band, panel] for _, values in parts)):  # all at once takes twice the time
@@ -177,11 +177,6 @@ def _divided(pictures: list[np.ndarray], size: tuple[int, int]) -> list[tuple[in
         parts.append((first, picture.reshape(len(picture), bands, size[0], panels, size[1]).swapaxes(2, 3)))
         first += len(picture)
     return parts
-
-
-def _centers(size: tuple[int, int]):
-    """Return x and y of a panel's pixel centers relative to its corner."""
-    return np.arange(size[1])[None] + 0.5, np.arange(size[0])[:, None] + 0.5
 
 
 def _panels(places, size: int):

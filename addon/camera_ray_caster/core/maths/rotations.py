@@ -20,6 +20,13 @@ def polar(matrices) -> tuple[np.ndarray, np.ndarray]:
     return left @ right * sign, np.swapaxes(right, 1, 2) @ (values[:, :, None] * right) * sign
 
 
+def rigid(pose: np.ndarray) -> np.ndarray:
+    """Return a pose, (4, 4), whose axes are the nearest rotation."""
+    turned = pose.copy()
+    turned[:3, :3] = polar(pose[None, :3, :3])[0][0]
+    return turned
+
+
 def rotation_vector(rotation) -> np.ndarray:
     """Return axis times angle, (n, 3), of rotations by less than a half turn."""
     skew, sine, angle = sine_and_angle(rotation)

@@ -11,6 +11,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
+from math import pi
 
 import numpy as np
 
@@ -18,10 +19,20 @@ from ...maths.vector import components
 from ...records import BlenderCamera, Raster
 from ..model import Step, WindowModel
 from .film import Window
-from .settings import FULL_TURN
+from .settings import CAMERA, FULL_TURN, Number
 from .silhouette import longitude_latitude, pixel_bounds, turned
 
 RAY = Step("Direction", "r = (cos(lat) sin(lon), sin(lat), -cos(lat) cos(lon))")
+
+
+def longitudes(prefix: str) -> tuple[Number, Number]:
+    """Return Blender's settings of the longitudes of the frame's edges, whose names begin with ``prefix``."""
+    low, high = (
+        Number(prefix + end, f"{end.title()} Longitude", f"Longitude of the frame's {side} edge; 0 is straight ahead",
+               default, unit="angle", owner=CAMERA)
+        for end, side, default in (("min", "left", -pi), ("max", "right", pi))
+    )  # fmt: skip
+    return low, high
 
 
 def longitude(low: str, high: str) -> Step:

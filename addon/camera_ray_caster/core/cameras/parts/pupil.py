@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 
 from ...lenses.chief import ChiefRays
-from ...lenses.optics import BISECTIONS, Optics
+from ...lenses.optics import Optics, bisected
 from ...lenses.trace import LensSurface, trace
 from ...maths.recording import is_recorded, look_up
 from .traced_aperture import TracedAperture, lines
@@ -184,13 +184,12 @@ def _lines(chief: ChiefRays, optics: Optics, origin, direction, upright, passes)
 
 def _marginal(optics: Optics, chief: ChiefRays, pupil: Pupil, film: float) -> float:
     """Return the largest radius in the exit pupil, over the disc's, of rays that pass from the film's center."""
-    low, high, zero = 0.0, TRIED, np.zeros(1)
-    middle_of = (zero, zero, film), (zero, zero)
-    for _ in range(BISECTIONS):
-        middle = (low + high) / 2
-        passes = np.isfinite(from_film(optics, chief, pupil, *middle_of, (zero + middle, zero))[1][0])[0]
-        low, high = (middle, high) if passes else (low, middle)
-    return low
+    zero = np.zeros(1)
+
+    def passes(radius):
+        return np.isfinite(from_film(optics, chief, pupil, (zero, zero, film), (zero, zero), (radius, zero))[1][0])
+
+    return bisected(passes, 0.0, TRIED)
 
 
 def _falloff(pupil: Pupil, film_point, target, normal):

@@ -242,14 +242,10 @@ class Coefficients(Text):
 
 
 @dataclass(frozen=True)
-class FilePath(Setting):
+class FilePath(Text):
     """The path of a file, or empty. A record has the absolute path."""
 
     kind = "FILE"
-
-    def read(self, raw: BlenderCamera) -> str:
-        """Return the path."""
-        return str(self.given(raw) or "")
 
 
 @dataclass(frozen=True)
