@@ -61,7 +61,6 @@ class PixelWork(PictureWork):
     def cast(
         self, tile: Tile, samples: range, is_last: bool, images: Images, scratch: Scratch, effort: Effort, sums
     ) -> np.ndarray:
-        """See ``PictureWork``."""
         seconds, then = np.zeros(len(TIMED_STEPS)), self._scene.at(tile.frame)
         with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
             for request, _ in self._requests:
@@ -87,7 +86,6 @@ class BeamWork(PictureWork):
     def cast(
         self, tile: Tile, samples: range, is_last: bool, images: Images, scratch: Scratch, effort: Effort, sums
     ) -> np.ndarray:
-        """See ``PictureWork``."""
         began, camera, shapes = perf_counter(), self._scene.camera, self._scene.shapes
         raster = replace(camera.raster, y0=camera.raster.y0 + tile.rows.start, y1=camera.raster.y0 + tile.rows.stop)
         rays = replace(camera, raster=raster).rays()

@@ -58,11 +58,9 @@ class Flow:
         self._known: tuple[np.ndarray, Moved] | None = None
 
     def at(self, shapes: Shapes, indices: np.ndarray) -> np.ndarray:
-        """See ``pictures.MovingPoints``."""
         return self._points[:, indices].T + self._moved(shapes, indices).by.T
 
     def error(self, shapes: Shapes, indices: np.ndarray) -> np.ndarray:
-        """See ``pictures.MovingPoints``."""
         moved, points = self._moved(shapes, indices), self._points[:, indices]
         return self._own_error[indices] * (1 + moved.spread) + moved.error + gamma(2) * (norm(points) + norm(moved.by))
 

@@ -53,7 +53,6 @@ class CameraPixelBounds:
         return replace(self, columns=columns, rows=rows)
 
     def of_balls(self, centers: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """See ``shapes.kind.PixelBounds``."""
         bounds = np.tile(self.whole, (len(radii), 1))
         if not self.cull:
             return bounds, np.ones(len(radii), bool)
@@ -69,7 +68,6 @@ class CameraPixelBounds:
         return bounds, seen & (bounds[:, 0] < bounds[:, 1]) & (bounds[:, 2] < bounds[:, 3])
 
     def within(self, bounds: np.ndarray) -> np.ndarray:
-        """See ``shapes.kind.PixelBounds``."""
         if self.columns is None or self.rows is None:
             return bounds
         in_plan = np.empty_like(bounds)
@@ -81,7 +79,6 @@ class CameraPixelBounds:
         return in_plan
 
     def least_t(self, centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
-        """See ``shapes.kind.PixelBounds``."""
         if self.is_planar:
             return -centers[:, 2] - radii
         if self.camera.from_eye(self.sampled) and not self.camera.is_rigid:  # t has another scale in each direction
@@ -102,16 +99,13 @@ class CameraPixelBounds:
 
     @property
     def is_planar(self) -> bool:
-        """See ``shapes.kind.PixelBounds``."""
         return self.camera.model.planar
 
     @property
     def has_straight_lines(self) -> bool:
-        """See ``shapes.kind.PixelBounds``."""
         return self.cull and self.camera.model.straight and not (self.sampled and self.camera.aperture)
 
     def of_points(self, points: np.ndarray, out: np.ndarray) -> np.ndarray:
-        """See ``shapes.kind.PixelBounds``."""
         with np.errstate(all="ignore"):
             x, y = self.camera.model.project(points).T
             counts = (np.abs(x) <= FARTHEST) & (np.abs(y) <= FARTHEST)

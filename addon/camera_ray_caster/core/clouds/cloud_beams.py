@@ -87,12 +87,10 @@ class CameraBeams(CloudBeams):
         return cls(camera.name, pose, images, rays.directions, frame, rays.time, rate, meters, camera)
 
     def places(self, hit: np.ndarray) -> Places:
-        """See CloudBeams."""
         column, row = np.nonzero(hit.T)
         return row, column
 
     def rays(self, at: Places) -> tuple[np.ndarray, np.ndarray]:
-        """See CloudBeams."""
         (row, column), raster = at, self.camera.raster
         x, y = raster.x0 + column + 0.5, raster.y0 + row + 0.5
         origin, direction = (
@@ -102,7 +100,6 @@ class CameraBeams(CloudBeams):
         return origin @ FROM_CAMERA.T, direction @ FROM_CAMERA.T
 
     def turned(self, at: Places, vectors: np.ndarray) -> np.ndarray:
-        """See CloudBeams."""
         camera, motion, basis = self.camera, self.camera.motion, self.camera.pose.basis
         bases = np.broadcast_to(basis, (len(vectors), 3, 3))
         if self.times is not None and motion is not None:
@@ -159,20 +156,16 @@ class RayBeams(CloudBeams):
         return cls(name, sensor, passes, directions, first, times, rate, 1.0, origins, rings)
 
     def places(self, hit: np.ndarray) -> Places:
-        """See CloudBeams."""
         row, column = np.nonzero(hit)
         return row, column
 
     def rays(self, at: Places) -> tuple[np.ndarray, np.ndarray]:
-        """See CloudBeams."""
         return (self.origins[at] - self.pose[:3, 3]) @ self.pose[:3, :3], self.directions[at] @ self.pose[:3, :3]
 
     def turned(self, at: Places, vectors: np.ndarray) -> np.ndarray:
-        """See CloudBeams."""
         return vectors @ self.pose[:3, :3]
 
     def rings(self, at: Places) -> np.ndarray:
-        """See CloudBeams."""
         return self.numbers[at].astype(np.uint16)
 
 

@@ -52,7 +52,6 @@ class Constant(Value):
     values: np.ndarray
 
     def at(self, places: Places) -> np.ndarray:
-        """See ``Value``."""
         return self.values
 
 
@@ -67,7 +66,6 @@ class Coordinates(Value):
     name: str
 
     def at(self, places: Places) -> np.ndarray:
-        """See ``Value``."""
         return places.coordinates(self.name)
 
 
@@ -79,7 +77,6 @@ class Layer(Value):
     channels: int
 
     def at(self, places: Places) -> np.ndarray:
-        """See ``Value``."""
         return places.layer(self.name, self.channels)
 
 
@@ -91,7 +88,6 @@ class Function(Value):
     inputs: tuple[Value, ...]
 
     def at(self, places: Places) -> np.ndarray:
-        """See ``Value``."""
         return self.function(*map(places.value, self.inputs))
 
 

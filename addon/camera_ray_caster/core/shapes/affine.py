@@ -69,7 +69,6 @@ class AffineKind(Kind):
         """Return the error bound of the unit normal: see ``ShapeErrors``."""
 
     def shape_set(self, shapes: InCamera, visible: Visible) -> AffineSet:
-        """See ``Kind``."""
         groups, cutouts = [], Cutouts.of(self, shapes, visible.at)
         for alike, is_simple, is_small, is_cut in divide(visible, None if cutouts is None else cutouts.may):
             constants = self.constants(shapes, alike.at, alike.parallel)
@@ -103,7 +102,6 @@ class AffineKind(Kind):
         return self.surface_coordinates(matvec(matrix_rows(shapes.shape_from_world[at]), offset))
 
     def errors(self, shapes: InCamera, pixels: HitPixels, rays: WorldRays, from_eye: bool, unit: bool) -> AffineErrors:
-        """See ``Kind``."""
         return AffineErrors(self, shapes, pixels, LocalRays(shapes, pixels.at, rays, from_eye), unit)
 
 
@@ -118,7 +116,6 @@ class AffineBodies(Bodies):
         self._cutouts = Cutouts.of(kind, shapes, at)
 
     def meet(self, body: Any, origin: Any, direction: Any, start: Any, scratch: Scratch) -> np.ndarray:
-        """See ``Bodies``."""
         constants = type(self._constants)(*(
             places_of(getattr(self._constants, name), body) for name in self._constants.__dataclass_fields__
         ))  # fmt: skip
@@ -126,7 +123,6 @@ class AffineBodies(Bodies):
         return np.array(t) if where is None else np.where(where, t, np.nan)
 
     def is_hit(self, body: np.ndarray, origin: Any, direction: Any, t: np.ndarray) -> Any:
-        """See ``Bodies``."""
         if self._cutouts is None:
             return True
         hit, at = np.ones(len(t), bool), self.at[body]
@@ -154,9 +150,7 @@ class AffineErrors(ShapeErrors):
 
     @property
     def t(self) -> np.ndarray:
-        """See ``ShapeErrors``."""
         return self.kind.root_error(self) * self.local.frame.scale
 
     def normal(self, point: np.ndarray) -> np.ndarray:
-        """See ``ShapeErrors``."""
         return self.kind.normal_error(self, point)

@@ -51,7 +51,6 @@ class SearchGroup:
         return here + (rows.start or 0), edges
 
     def large(self, rays: SearchRays) -> Iterator[Large]:
-        """See ``ShapeSet``."""
         here, bounds = self.within(rays.corner, rays.shape)
         count = max(1, tuning.PREPARED_PIXELS // sum(rays.shape))
         for end in range(len(here), 0, -count):
@@ -118,12 +117,10 @@ class AffineSet(ShapeSet):
     has_cutouts: bool = False
 
     def large(self, rays: SearchRays) -> Iterator[Large]:
-        """See ``ShapeSet``."""
         large = (group.large(rays) for group in self.groups if not group.is_small)
         return merge(*large, key=attrgetter("at"), reverse=True)
 
     def rest(self, rays: SearchRays, nearest: np.ndarray) -> Iterator[Candidates]:
-        """See ``ShapeSet``."""
         for group in self.groups:
             if group.is_small:
                 yield from group.batches(rays)

@@ -56,7 +56,6 @@ class Plane(AffineKind):
         return np.sqrt(gram[:, 0, 0] + gram[:, 1, 1] + 2 * gram[:, 0, 1]), ahead[:, 0] + ahead[:, 1]
 
     def half_sides(self, axes: np.ndarray) -> Any:
-        """See ``AffineKind``."""
         return np.abs(axes[..., :2]).sum(axis=2)
 
     def is_close(self, offset: np.ndarray, shape_from_world: np.ndarray, away: np.ndarray) -> np.ndarray:
@@ -64,7 +63,6 @@ class Plane(AffineKind):
         return np.abs(offset[:, 2]) < GRAZING * np.abs(shape_from_world[:, 2] * away).sum(axis=-1)
 
     def constants(self, shapes: InCamera, at: np.ndarray, parallel=None) -> PlaneConstants:
-        """See ``AffineKind``."""
         center, offset = shapes.center[at].T, shapes.offset[at].T
         matrix = shapes.shape_from_camera[at].transpose(1, 2, 0)
         sign = np.where(offset[2] < 0, -1.0, 1.0)  # q and -q are the same plane
@@ -95,7 +93,6 @@ class Plane(AffineKind):
         return t, hit
 
     def lattice(self, constants: PlaneConstants, direction) -> PlaneLattice:
-        """See ``AffineKind``."""
         return PlaneLattice(constants, self.has_edges, direction)
 
     def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:
@@ -123,7 +120,6 @@ class Plane(AffineKind):
         return np.where(steep > 0, residual / steep, np.inf)
 
     def normal_error(self, hits: AffineErrors, point: np.ndarray) -> np.ndarray:
-        """See ``AffineKind``."""
         return hits.local.frame.rounding
 
 
@@ -139,7 +135,6 @@ class InfinitePlane(Plane):
         return np.inf
 
     def extent(self, shapes: Shapes, at: np.ndarray, axes: np.ndarray):
-        """See ``Kind``."""
         return np.inf, np.inf
 
 

@@ -37,7 +37,6 @@ class Sphere(AffineKind):
         return np.sqrt(gram.sum(axis=2).max(axis=1)), np.sqrt(np.einsum("ni,ni->n", ahead, ahead))
 
     def half_sides(self, axes: np.ndarray) -> np.ndarray:
-        """See ``AffineKind``."""
         return np.sqrt((axes * axes).sum(axis=2))
 
     def is_close(self, offset: np.ndarray, shape_from_world: np.ndarray, away: np.ndarray) -> np.ndarray:
@@ -45,7 +44,6 @@ class Sphere(AffineKind):
         return np.sqrt((offset * offset).sum(axis=-1)) < sphere_rays.CLOSE
 
     def constants(self, shapes: InCamera, at: np.ndarray, parallel: Any) -> sphere_rays.SphereConstants:
-        """See ``AffineKind``."""
         return sphere_rays.constants(shapes, at, parallel)
 
     def intersect(self, constants: sphere_rays.SphereConstants, origin, direction, start: Any, scratch: Scratch):
@@ -53,7 +51,6 @@ class Sphere(AffineKind):
         return sphere_rays.intersect(constants, origin, direction, start, scratch)
 
     def lattice(self, constants: sphere_rays.SphereConstants, direction) -> sphere_rays.SphereLattice:
-        """See ``AffineKind``."""
         return sphere_rays.SphereLattice(constants, direction)
 
     def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:

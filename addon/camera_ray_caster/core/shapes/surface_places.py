@@ -57,7 +57,6 @@ class SurfacePlaces(Places):
         self._places, self._indices = places, indices
 
     def coordinates(self, name: str) -> np.ndarray:
-        """See ``Places``."""
         result = np.zeros((3, len(self._indices)))
         if name == UV:
             result[:2] = taken(self._places.uv, self._indices)
@@ -66,7 +65,6 @@ class SurfacePlaces(Places):
         return result
 
     def layer(self, name: str, channels: int) -> np.ndarray:
-        """See ``Places``."""
         return taken(self._places.layer(name, channels), self._indices)
 
 

@@ -95,7 +95,6 @@ class _Corners(Places):
         self._mesh, self._corner, self._triangle = mesh, corner, triangle
 
     def coordinates(self, name: str) -> np.ndarray:
-        """See ``Places``."""
         mesh, result = self._mesh, np.zeros((3, len(self._corner)))
         if name == UV and mesh.uv is not None and mesh.loops is not None:
             result[:2] = mesh.uv[mesh.loops[self._corner, self._triangle]].T
@@ -104,7 +103,6 @@ class _Corners(Places):
         return result
 
     def layer(self, name: str, channels: int) -> np.ndarray:
-        """See ``Places``."""
         values = dict(self._mesh.layers).get(name)
         if values is None:
             return np.zeros((channels, len(self._corner)))

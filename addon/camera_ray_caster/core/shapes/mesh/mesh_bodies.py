@@ -77,7 +77,6 @@ class TriangleBodies(Bodies):
         return _crossings(len(met), hit, corners[:, :, hit], direction, start)
 
     def prepared(self, origin: np.ndarray) -> Bodies:
-        """See ``Bodies``."""
         is_worth_it = PREPARED * len(self.at) < origin.shape[1] and len(self.at) <= MOST_PREPARED
         return PreparedTriangles(self, origin) if is_worth_it else self
 
@@ -86,7 +85,6 @@ class TriangleBodies(Bodies):
         return np.array([difference(places_of(self._places, k), origin) for k in places_of(self._corners, body)])
 
     def is_hit(self, body: np.ndarray, origin: Any, direction: Any, t: np.ndarray) -> Any:
-        """See ``Bodies``."""
         if self._cutouts is None:
             return True
         hit, at = np.ones(len(t), bool), self.at[body]
@@ -123,7 +121,6 @@ class PreparedTriangles(Bodies):
         self._longest = np.maximum.reduce([norm(corner) for corner in corners])
 
     def meet(self, body: Any, origin: Any, direction: Any, start: Any, scratch: Scratch) -> np.ndarray:
-        """See ``Bodies``."""
         longest = places_of(self._longest, body)
         if self._from_one:
             volumes = tuple(dot(direction, places_of(edge, body)) for edge in self._edges)
@@ -141,7 +138,6 @@ class PreparedTriangles(Bodies):
         return _crossings(len(met), hit, self._triangles.corners(body[hit], origin[:, hit]), direction, start)
 
     def is_hit(self, body: np.ndarray, origin: Any, direction: Any, t: np.ndarray) -> Any:
-        """See ``Bodies``."""
         return self._triangles.is_hit(body, origin, direction, t)
 
 

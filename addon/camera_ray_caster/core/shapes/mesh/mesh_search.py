@@ -79,7 +79,6 @@ class MeshSet(ShapeSet):
         return replace(self, pixels=pixels)
 
     def rest(self, rays: SearchRays, nearest: np.ndarray) -> Iterator[Candidates | None]:
-        """See ``ShapeSet``."""
         for _ in self.meshes.prepare():
             yield None
         blocks = self.meshes.blocks

@@ -35,7 +35,6 @@ class Meshes(Kind):
         return np.zeros(len(offset), bool)
 
     def shape_set(self, shapes: InCamera, visible: Visible) -> MeshSet:
-        """See ``Kind``."""
         if isinstance(visible.whole, MeshSet):
             return visible.whole.at(visible.pixels)
         cutouts = Cutouts.of(self, shapes, visible.at)
@@ -72,23 +71,18 @@ class Meshes(Kind):
         return HitTriangles.of(shapes, pixels).from_edge(point)
 
     def polygon(self, shapes: InCamera, pixels: HitPixels) -> np.ndarray:
-        """See ``Kind``."""
         return HitTriangles.of(shapes, pixels).polygon
 
     def in_object(self, shapes: InCamera, pixels: HitPixels, point) -> np.ndarray:
-        """See ``Kind``."""
         return HitTriangles.of(shapes, pixels).in_object(point)
 
     def layer(self, shapes: InCamera, pixels: HitPixels, point, name: str, channels: int) -> np.ndarray:
-        """See ``Kind``."""
         return HitTriangles.of(shapes, pixels).layer(point, name, channels)
 
     def slot(self, shapes: InCamera, pixels: HitPixels) -> np.ndarray:
-        """See ``Kind``."""
         return HitTriangles.of(shapes, pixels).slot
 
     def errors(self, shapes: InCamera, pixels: HitPixels, rays: WorldRays, from_eye: bool, unit: bool):
-        """See ``Kind``."""
         return TriangleErrors(HitTriangles.of(shapes, pixels), pixels.t, rays)
 
 
