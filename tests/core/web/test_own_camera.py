@@ -48,8 +48,7 @@ def written(driver, text):
 
 
 @pytest.mark.parametrize("text", REFUSED)
-def test_what_is_no_formula_is_refused_in_a_line(opened, page, text):
-    fresh(opened, page)
+def test_what_is_no_formula_is_refused_in_a_line(opened, text):
     written(opened, text)
     by_id(opened, "own-use").click()
     error = by_id(opened, "own-error").text
