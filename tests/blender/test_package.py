@@ -25,7 +25,7 @@ def python(*lines):
         env=clean | {"PYTHONPATH": os.pathsep.join((str(ADDON), os.environ.get("PYTHONPATH", "")))},
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=300,
     )
     assert done.returncode == 0, done.stderr
     return done.stdout.split()

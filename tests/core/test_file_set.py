@@ -133,7 +133,7 @@ def test_what_a_killed_run_left_is_completed_or_undone_by_the_next(tmp_path, old
         out = tmp_path / str(step)
         write(out, "old", old_names)
         code = KILLED.format(addon=str(ADDON), step=step, out=str(out), names=NAMES)
-        status = subprocess.run([sys.executable, "-c", code], stdout=subprocess.DEVNULL, timeout=60).returncode
+        status = subprocess.run([sys.executable, "-c", code], stdout=subprocess.DEVNULL, timeout=300).returncode
         write(out, "other", ["b.png"])
         after = content(out)
         assert after.pop("b.png") == "other"
@@ -172,7 +172,7 @@ def test_writers_into_one_folder_leave_the_set_of_one_of_them(tmp_path):
         "            (new / name).write_text(f'{sys.argv[1]} {k}')\n"
     )
     runs = [subprocess.Popen([sys.executable, "-c", code, str(writer)]) for writer in range(3)]
-    assert [run.wait(60) for run in runs] == [0, 0, 0]
+    assert [run.wait(300) for run in runs] == [0, 0, 0]
     after = content(tmp_path)
     assert sorted(after) == sorted(NAMES)
     assert len(set(after.values())) == 1

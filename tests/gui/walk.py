@@ -38,7 +38,7 @@ def install(folder):
     """Build the zip, have Blender validate it, and install it as a user does."""
     archive = str(make_zip.build(folder))
     validate = [bpy.app.binary_path, "--command", "extension", "validate", archive]
-    subprocess.run(validate, check=True, timeout=60, stdout=subprocess.DEVNULL)
+    subprocess.run(validate, check=True, timeout=300, stdout=subprocess.DEVNULL)
     bpy.ops.extensions.package_install_files(filepath=archive, repo="user_default", enable_on_install=True)
     assert MODULE in bpy.context.preferences.addons
 

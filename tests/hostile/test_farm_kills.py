@@ -73,7 +73,7 @@ def kill(reference, out, name, random):
         if victim is run:
             psutil.wait_procs(started, 30)  # they notice
         before = finished(out)
-    said = run.communicate(timeout=100)[1]
+    said = run.communicate(timeout=300)[1]
     assert "Traceback" not in said, said
     if name == "worker":
         assert (run.returncode, complaints(said)) == (0, [])

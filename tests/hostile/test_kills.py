@@ -28,7 +28,7 @@ FEW = 1
 
 def ended(run, name, was_killed):
     """How a run ended: it was killed, or stopped, or done, or ended before or after Python hears; never in words."""
-    said = run.communicate(timeout=60)[1]
+    said = run.communicate(timeout=300)[1]
     assert "Traceback" not in said, said
     allowed = {0, 130, -getattr(signal, name)} if was_killed else {0}
     assert run.returncode in allowed, (run.returncode, said)

@@ -33,7 +33,7 @@ def killed(random, longest, *words):
     run = start(DATASET, *words)
     time.sleep(random.uniform(0.3, longest))
     run.kill()
-    assert "Traceback" not in run.communicate(timeout=60)[1]
+    assert "Traceback" not in run.communicate(timeout=300)[1]
 
 
 def done(*words):
@@ -63,7 +63,7 @@ def kill(reference, out, what, random):
     elif what == "two runs":
         other = start(DATASET, scene, *WORDS, "--output", out)
         killed(random, 4, scene, *WORDS, "--output", out)
-        assert "Traceback" not in other.communicate(timeout=100)[1]
+        assert "Traceback" not in other.communicate(timeout=300)[1]
     for words in shares:
         done(*words)
     if what == "complete":

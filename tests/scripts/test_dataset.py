@@ -206,7 +206,7 @@ worker.join()
 
 @pytest.mark.full
 def test_a_worker_whose_thread_has_used_blender_ends_well():
-    done = subprocess.run([sys.executable, "-c", IN_A_THREAD], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run([sys.executable, "-c", IN_A_THREAD], capture_output=True, text=True, timeout=300, check=False)
     assert (done.returncode, complaints(done.stderr)) == (0, [])
 
 

@@ -67,7 +67,7 @@ def test_make_stops_in_one_line(tmp_path, target, says, message):
     (tmp_path / "pyproject.toml").touch()
     settings = {name: value for name, value in os.environ.items() if not name.startswith("MAKE")}
     run = subprocess.run(
-        ["make", target, f"PYTHON={python}"], cwd=tmp_path, env=settings, capture_output=True, text=True, timeout=60
+        ["make", target, f"PYTHON={python}"], cwd=tmp_path, env=settings, capture_output=True, text=True, timeout=300
     )
     assert run.returncode == 2
     assert run.stdout == ""

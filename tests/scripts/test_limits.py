@@ -21,7 +21,7 @@ def test_workers_that_may_not_open_enough_files_are_refused_in_one_line(scene, t
     limit = LIMIT.format("RLIMIT_NOFILE", files, files)
     words = [ROOT / "scripts" / "dataset.py", scene, "--frames", "1:2", "--workers", "2", "--output", tmp_path / "out"]
     run = start("-c", f"import os, resource, sys; {limit}", *words)
-    out, errors = run.communicate(timeout=110)
+    out, errors = run.communicate(timeout=300)
     assert (run.returncode, out) == (2, ""), errors
     (line,) = errors.splitlines()
     assert "oo many open files" in line

@@ -13,7 +13,7 @@ TEMPLATE, DATA_SET = (ROOT / "scripts" / f"{name}.openjd.yaml" for name in ("cas
 def openjd(*words):
     """Run Open Job Description's command to its end."""
     words = [sys.executable, "-m", "openjd", *map(str, words)]
-    return subprocess.run(words, capture_output=True, text=True, timeout=120)
+    return subprocess.run(words, capture_output=True, text=True, timeout=300)
 
 
 @pytest.mark.parametrize("template", [TEMPLATE, DATA_SET])

@@ -130,7 +130,7 @@ def test_pages_of_models_open_the_lesson_with_the_model(site):
         pytest.skip("needs Chromium: apt-get install chromium")
     address = (site / "docs" / "lesson" / "index.html").as_uri() + "#" + html.unescape(links["PUSHBROOM"][0])
     words = [chromium, "--headless=new", "--no-sandbox", f"--user-data-dir={site.parent / 'profile'}", "--dump-dom"]
-    shown = subprocess.run([*words, address], capture_output=True, text=True, timeout=120).stdout
+    shown = subprocess.run([*words, address], capture_output=True, text=True, timeout=300).stdout
     assert '<span id="label">Pushbroom</span>' in shown
 
 

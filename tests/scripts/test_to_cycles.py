@@ -33,7 +33,7 @@ def test_the_copy_renders_our_rays_without_the_add_on(blender, tmp_path):
     assert path.read_bytes() == before
     rays, found = tmp_path / "rays.npy", read_camera(blender.context.scene, blender.data.objects["Side"]).rays()
     words = [sys.executable, "-c", WITHOUT_ADD_ON, str(copy), str(ROOT), str(rays)]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(words, capture_output=True, text=True, timeout=300)
     assert rays.exists(), done.stderr
     seen = np.load(rays)
     assert np.array_equal(~np.isnan(seen[..., 0]), found.valid)

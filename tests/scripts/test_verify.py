@@ -40,7 +40,7 @@ def test_a_ray_half_a_pixel_off_is_status_1(scene, tmp_path, command):
     arguments = [str(scene), *(["--output", str(tmp_path / "out")] if command == "cast" else [])]
     places = {"scripts": str(ROOT / "scripts"), "addon": str(ROOT / "addon")}
     code = FAULT.format(command=command, arguments=arguments, **places)
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300)
     assert done.returncode == 1, done.stderr
     assert "FAILED" in done.stdout
     if command == "cast":

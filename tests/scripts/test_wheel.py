@@ -54,7 +54,7 @@ def test_it_holds_all_files_of_the_package_but_pages(site):
 
 def test_the_program_runs_with_it(site, tmp_path):
     words = [sys.executable, "-P", PROGRAM, tmp_path]
-    done = subprocess.run(words, env={"PYTHONPATH": str(site)}, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(words, env={"PYTHONPATH": str(site)}, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
     assert done.stdout.splitlines()[-1] == "['camera.json']"
 
@@ -70,9 +70,9 @@ def test_its_command_is_that_of_the_scripts(site, tmp_path):
     ]
     options = ["--resolution", "32x18", "--output", tmp_path / "out"]
     environment = {"PYTHONPATH": str(site), "BLENDER_USER_RESOURCES": str(tmp_path / "resources")}
-    done = subprocess.run([*words, *options], env=environment, capture_output=True, text=True, timeout=120)
+    done = subprocess.run([*words, *options], env=environment, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
     assert {path.suffix for path in (tmp_path / "out").iterdir()} >= {".png", ".exr", ".json"}
-    refused = subprocess.run([*words[:-2], "casts"], env=environment, capture_output=True, text=True, timeout=120)
+    refused = subprocess.run([*words[:-2], "casts"], env=environment, capture_output=True, text=True, timeout=300)
     assert refused.returncode == 2
     assert refused.stderr.splitlines()[-1].startswith("camera-ray-caster casts: ")

@@ -59,7 +59,7 @@ def drawn(view, away=6):
 
 def finished(view):
     """Wait for the picture that is being cast."""
-    assert view._worker.wait(60)
+    assert view._worker.wait(300)
 
 
 def test_a_quick_picture_is_shown_at_once_and_the_last_one_follows(view):

@@ -15,7 +15,7 @@ SCENE = ROOT / "blend_scenes" / "orthographic.blend"
 def cast(blender):
     """A function that runs scripts/cast.py with arguments on the scene to its end."""
     words = script_command("cast.py", SCENE)
-    return lambda *arguments: subprocess.run([*words, *arguments], capture_output=True, text=True, timeout=120)
+    return lambda *arguments: subprocess.run([*words, *arguments], capture_output=True, text=True, timeout=300)
 
 
 def test_cast_leaves_its_three_files(cast, tmp_path):

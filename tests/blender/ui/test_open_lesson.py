@@ -93,7 +93,7 @@ def test_a_browser_shows_the_same_ray(asked, fisheye, blender, tmp_path):
     blender.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
     blender.ops.camera_ray_caster.open_lesson()
     words = [chromium, "--headless=new", "--no-sandbox", f"--user-data-dir={tmp_path / 'profile'}", "--dump-dom"]
-    done = subprocess.run([*words, page_of(asked).as_uri()], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([*words, page_of(asked).as_uri()], capture_output=True, text=True, timeout=300)
     text = re.sub(r"</?span>", "", done.stdout)
     shown = dict(re.findall(r"<dt>(.*?)</dt><dd>(.*?)</dd>", text))
     assert shown["pixel"] == f"x = {PIXEL[0] + 0.5}, y = {PIXEL[1] + 0.5}"

@@ -45,7 +45,7 @@ def warp(picture, st_map, folder):
     paths = [folder / name for name in ("picture.npy", "map.npy", "warped.npy")]
     for path, image in zip(paths, (picture, st_map), strict=False):
         np.save(path, np.ascontiguousarray(np.atleast_3d(image), np.float32))
-    subprocess.run([sys.executable, Path(__file__).with_name("st_warp.py"), *paths], check=True, timeout=60)
+    subprocess.run([sys.executable, Path(__file__).with_name("st_warp.py"), *paths], check=True, timeout=300)
     return np.load(paths[-1])[..., 0]
 
 

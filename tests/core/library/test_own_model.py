@@ -30,7 +30,7 @@ except crc.InputError as error: print(error)
 
 
 def test_a_model_is_added_once_and_is_like_the_others():
-    done = subprocess.run([sys.executable, "-c", USE], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([sys.executable, "-c", USE], capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
     numbers, refusal = done.stdout.splitlines()
     count, spread, off = map(float, numbers.split())

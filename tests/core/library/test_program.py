@@ -28,7 +28,7 @@ sys.path.insert(0, {str(ADDON)!r})
 def run(code, *arguments):
     """Run Python's code in an environment without Blender; return what it prints."""
     words = [sys.executable, "-c", ONLY_NUMPY + code, *map(str, arguments)]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(words, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
     return done.stdout
 

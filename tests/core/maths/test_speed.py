@@ -67,7 +67,7 @@ def test_the_inverse_is_right_to_its_condition():
 
 def test_threads_share_parts_and_do_only_those_that_are_needed():
     """Each needs three of the four; the two that both need are done once, by both threads at a time."""
-    both, done = Barrier(2, timeout=20), []
+    both, done = Barrier(2, timeout=300), []
     parts = [lambda: done.append(0), lambda: (both.wait(), done.append(1)), lambda: (both.wait(), done.append(2))]
     shared = Shared([*parts, lambda: done.append(3)])
 
@@ -86,7 +86,7 @@ def test_threads_share_parts_and_do_only_those_that_are_needed():
 
 
 def test_an_error_in_a_shared_part_is_raised_wherever_parts_are_needed():
-    both = Barrier(2, timeout=20)
+    both = Barrier(2, timeout=300)
 
     def fail():
         both.wait()
@@ -100,7 +100,7 @@ def test_an_error_in_a_shared_part_is_raised_wherever_parts_are_needed():
 
 
 def test_threads_work_out_a_property_of_different_objects_at_once():
-    both = Barrier(2, timeout=20)
+    both = Barrier(2, timeout=300)
 
     class Room:
         @lazy

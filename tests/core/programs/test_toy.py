@@ -56,7 +56,7 @@ def test_a_toy_is_in_help_refusals_menu_and_table(tmp_path):
         env={"PYTHONPATH": str(copy.parent)},
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=300,
         check=False,
     )
     assert done.returncode == 0, done.stderr
