@@ -18,7 +18,7 @@ from ..shapes.bodies import Bodies
 from ..shapes.kinds import by_kind
 from .balls import may_meet, pairs_may_meet, unit_directions
 from .bundle import Limit, bundle_of
-from .packets import coherent_order, packets_of
+from .packets import coherent_order
 from .ray_bodies import RayBodies, RayHits
 from .traversal import Traversal
 from .tree import Tree, enlarged, tree_of
@@ -160,8 +160,8 @@ class BodySearch(RayBodies):
 
     def _descended(self, rays: SearchedRays, near: float, limit: Limit) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         if self._tree is not None:
-            packets, every = packets_of(rays.origin, rays.direction), np.arange(rays.origin.shape[1])
-            yield from Traversal(self._tree, packets, near, lambda: packets.farthest(limit(every))).pairs()
+            every = np.arange(rays.origin.shape[1])
+            yield from Traversal(self._tree, rays.origin, rays.direction, near, lambda: limit(every)).pairs()
 
     def _candidates(self, of_chunk: SearchedRays, in_boxes: Iterator, scratch: Scratch) -> Iterator[tuple[Any, Any]]:
         """Yield rays and bodies that may meet: (m,) each, or rays and one body."""

@@ -24,7 +24,7 @@ from ..shapes.kinds import by_kind
 from ..shapes.shape_frames import InCamera
 from .body_search import SearchedRays, keep_nearest, met
 from .forms import BOX_MARGIN, Form
-from .packets import coherent_order, packets_of
+from .packets import coherent_order
 from .ray_bodies import WORLD, RayBodies, RayHits, Span
 from .traversal import Traversal
 from .tree import Tree, tree_of
@@ -146,8 +146,7 @@ def _in_boxes(
     tree: Tree, rays: np.ndarray, start, ahead, near: float, limit: Callable[[], np.ndarray]
 ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     order = rays[coherent_order(start[:, rays], ahead[:, rays], tree.reach)]
-    packets = packets_of(start[:, order], ahead[:, order])
-    for ray, triangle in Traversal(tree, packets, near, lambda: packets.farthest(limit()[order])).pairs():
+    for ray, triangle in Traversal(tree, start[:, order], ahead[:, order], near, lambda: limit()[order]).pairs():
         yield order[ray], triangle.astype(np.int32)
 
 

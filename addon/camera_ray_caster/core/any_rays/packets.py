@@ -20,8 +20,6 @@ def coherent_order(origin: np.ndarray, direction: np.ndarray, reach: float) -> n
     If directions and origins count the same, rays whose origins differ by 15 mm take 1.5 times as long.
     """
     ahead = direction / norm(direction)
-    if (origin == origin[:, :1]).all():
-        return np.argsort(morton(ahead), kind="stable")
     return np.argsort(morton(np.concatenate((origin, reach * ahead)), even=True), kind="stable")
 
 
@@ -32,8 +30,6 @@ class Packets:
     Where a packet's directions have both signs along an axis, 1 / direction is unbounded, and the axis tells nothing.
     """
 
-    eye: np.ndarray | None
-    """(3, 1): the origin of all rays; None if there are several."""
     low: np.ndarray
     """The least components of the origins."""
     high: np.ndarray
@@ -64,10 +60,10 @@ class Packets:
 
 
 def packets_of(origin: np.ndarray, direction: np.ndarray) -> Packets:
-    """Return the packets of rays, (3, n) each, in the order in which they are given."""
-    inverse, unit = 1 / direction, direction / norm(direction)
+    """Return the packets of rays, (3, n) each, with unit directions, in the order in which they are given."""
+    inverse = 1 / direction
     ends: tuple[np.ufunc, ...] = (np.minimum, np.maximum) * 3
-    parts: list[tuple[np.ndarray, ...]] = [(origin, origin, inverse, inverse, unit, unit)]
+    parts: list[tuple[np.ndarray, ...]] = [(origin, origin, inverse, inverse, direction, direction)]
     starts, counts = [], [np.zeros(origin.shape[1], np.intp)]
     while parts[-1][0].shape[1] > FAN:
         size = parts[-1][0].shape[1]
@@ -82,7 +78,6 @@ def packets_of(origin: np.ndarray, direction: np.ndarray) -> Packets:
     mixed = np.signbit(least) & ~np.signbit(largest)
     least[mixed], largest[mixed] = -np.inf, np.inf
     return Packets(
-        eye=origin[:, :1] if (origin == origin[:, :1]).all() else None,
         low=low,
         high=high,
         least=least,

@@ -17,6 +17,17 @@ FAN = 4
 LEAF = 4
 """Maximum number of bodies in a leaf. With 2, they take 1.0 to 1.3 times as long."""
 
+FAR = 3.0
+"""Distance from the middle of a tree, in units of its reach, within which boxes are tested in float32."""
+
+MARGIN = 2.0**-19
+"""Length by which these boxes are enlarged: 32 u with u = 2^-24. The roundings of a face, of an origin and of their
+difference add up to 8 u, those of the inverse of a direction and of its product with the difference to 12 u.
+"""
+
+SMALLEST = 0.1
+"""Part of the leaves whose boxes may be smaller than 16 MARGIN."""
+
 BOX_MARGIN = 2.0**-30
 """Fraction by which boxes are enlarged. It exceeds the rounding of vertices, of box tests, and of t (see
 ``triangles.STEEP``), so that no hit lies outside of its box.
@@ -25,10 +36,12 @@ BOX_MARGIN = 2.0**-30
 
 @dataclass(frozen=True, eq=False)
 class Tree:
-    """Nodes from the roots to the leaves, in rows of FAN: the first row holds the roots; (n,) arrays."""
+    """Nodes from the roots to the leaves, in rows of FAN: the first row holds the roots. In arrays (n,) the first nodes
+    of all rows come first, then the second ones.
+    """
 
     faces: np.ndarray
-    """(3, 2 n): along each axis the lowest sides of the boxes, and then the highest."""
+    """(3, 2, n): along each axis the lowest sides of the boxes, and the highest."""
     there: np.ndarray
     """bool: whether a node is not empty."""
     row: np.ndarray
@@ -41,21 +54,32 @@ class Tree:
     def __len__(self) -> int:
         return len(self.row)
 
-    @property
-    def size(self) -> np.ndarray:
-        """The longest side of each box."""
-        return (self.faces[:, len(self) :] - self.faces[:, : len(self)]).max(axis=0)
+    @lazy
+    def middle(self) -> np.ndarray:
+        """(3,): the middle of the box of all bodies."""
+        return self._ends.mean(axis=0)
 
     @lazy
     def reach(self) -> float:
         """Half of the longest side of the box of all bodies."""
-        ends = self.faces.reshape(3, 2, -1)[..., :FAN]
-        return float((np.nanmax(ends[:, 1], axis=1) - np.nanmin(ends[:, 0], axis=1)).max() / 2)
+        return float((self._ends[1] - self._ends[0]).max() / 2) or 1.0
 
-    @property
-    def middle(self) -> np.ndarray:
-        """(3, n): the middles of the boxes."""
-        return self.faces[:, len(self) :] / 2 + self.faces[:, : len(self)] / 2
+    @lazy
+    def _ends(self) -> np.ndarray:
+        roots = self.faces[..., :: len(self) // FAN]
+        return np.array((np.nanmin(roots[:, 0], axis=1), np.nanmax(roots[:, 1], axis=1)))
+
+    @lazy
+    def near_faces(self) -> np.ndarray | None:
+        """The faces as float32, from the middle, in units of the reach, for rays that begin within FAR of the middle;
+        None if some boxes are so small that MARGIN would enlarge them by much.
+        """
+        faces = (self.faces - self.middle[:, None, None]) / self.reach
+        sizes = (faces[:, 1] - faces[:, 0]).max(axis=0)[(self.count > 0) & self.there]
+        if np.quantile(sizes, SMALLEST) < 16 * MARGIN:
+            return None
+        faces += np.array((-MARGIN, MARGIN))[:, None]
+        return faces.astype(np.float32)
 
 
 def enlarged(low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -82,8 +106,12 @@ def tree_of(low: np.ndarray, high: np.ndarray, body: np.ndarray) -> Tree:
     leaves = slice(-sizes[-1], None)
     row[leaves] = np.arange(sizes[-1]) * LEAF
     count[leaves] = np.clip(len(body) - row[leaves], 0, LEAF)
-    faces = np.concatenate([level[k] for k in (0, 1) for level in levels[:0:-1]], axis=1)
-    return Tree(faces, ~np.isnan(faces[0, : len(row)]), row, count, body[order])
+    faces = np.array([np.concatenate([level[k] for level in levels[:0:-1]], axis=1) for k in (0, 1)]).swapaxes(0, 1)
+    faces, row, count = (
+        np.ascontiguousarray(values.reshape(*values.shape[:-1], -1, FAN).swapaxes(-1, -2)).reshape(values.shape)
+        for values in (faces, row, count)
+    )
+    return Tree(faces, ~np.isnan(faces[0, 0]), row, count, body[order])
 
 
 def _padded(values: np.ndarray) -> np.ndarray:
