@@ -12,7 +12,7 @@ from ..camera.camera import Camera
 from ..conventions import gamma
 from ..errors.hit_errors import HitErrors
 from ..errors.ray_errors import world_rays
-from ..maths.speed import Scratch
+from ..maths.speed import Scratch, taken
 from ..maths.vector import components, difference, inverse, matvec, norm
 from ..records import Shapes
 from ..shapes.shape_frames import WorldRays
@@ -140,17 +140,23 @@ def _lattices(pixels: np.ndarray, size: tuple[int, int]) -> Iterator[tuple]:
     its own: the first of each pixel in lattices of pixels, the others as in ``_crowded``.
     """
     column, row = (np.minimum(np.floor(x).astype(int), side - 1) for x, side in zip(pixels.T, size, strict=True))
-    order = np.lexsort((column, row))
-    is_first = np.append(True, (np.diff(column[order]) != 0) | (np.diff(row[order]) != 0))
+    pixel = row * size[0] + column
+    order = np.argsort(pixel, kind="stable")
+    is_first = np.append(True, np.diff(pixel[order]) != 0)
     first, others = order[is_first], order[~is_first]
-    columns, at_column = np.unique(column[first], return_inverse=True)
-    rows, at_row = np.unique(row[first], return_inverse=True)
+    (columns, at_column), (rows, at_row) = (_ranked(taken(places, first)) for places in (column, row))
     step = max(1, CELLS // len(columns))
     for low in range(0, len(rows), step):
         band = slice(*np.searchsorted(at_row, (low, low + step)))
         yield first[band], columns, rows[low : low + step], (at_row[band] - low, at_column[band])
     for low in range(0, len(others), TOGETHER):
         yield _crowded(others[low : low + TOGETHER], column, row)
+
+
+def _ranked(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the distinct numbers >= 0 among some, ascending, and the rank of each."""
+    is_there = np.bincount(values) > 0
+    return np.flatnonzero(is_there), taken(np.cumsum(is_there) - 1, values)
 
 
 def _crowded(points: np.ndarray, column: np.ndarray, row: np.ndarray) -> tuple:
