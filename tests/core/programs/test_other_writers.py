@@ -180,6 +180,23 @@ def test_folders_name_cameras_with_lenses_of_their_own(tmp_path):
     ]  # fmt: skip
 
 
+@pytest.mark.parametrize(("names", "wanted"), [
+    (["image_00/data/0000000005.png", "image_01/data/0000000005.png"], {"image_00": [5], "image_01": [5]}),
+    (["a/0.jpg", "a/1.jpg", "b/0.jpg", "b/1.jpg"], {"a": [1, 2], "b": [1, 2]}),
+    (["x/a.jpg", "x/b.jpg"], {"Camera": [1, 2]}),
+    (["x_0001_left.png", "x_0001_right.png", "x_0002_left.png"], {"x_left": [1, 2], "x_right": [1]}),
+    (["000000_rgb.png", "000010_rgb.png"], {"rgb": [0, 10]}),
+    (["frame-000007.color.jpg", "frame-000009.color.jpg"], {"frame_color": [7, 9]}),
+    (["IMG_20230101_120000_HDR.jpg", "IMG_20230101_120005_HDR.jpg"], {"Camera": [1, 2]}),
+])  # fmt: skip
+def test_names_of_pictures_are_cameras_and_frames(names, wanted, tmp_path):
+    pose = [[1, 0, 0, 1], [0, 1, 0, 2], [0, 0, 1, 3]]
+    frames = [{"file_path": name, "transform_matrix": pose} for name in names]
+    content = {"fl_x": 300, "cx": 200, "cy": 150, "w": 400, "h": 300, "frames": frames}
+    cameras = rig(written(tmp_path, "transforms.json", content))
+    assert {camera.name: camera.frames for camera in cameras} == wanted
+
+
 def test_cameras_of_depthai_that_lead_nowhere_are_not_placed(tmp_path):
     camera = {"cameraType": 0, "intrinsicMatrix": np.reshape(K(300, 200, 150), (3, 3)).tolist(), "width": 400,
               "height": 300, "extrinsics": {"toCameraSocket": -1}}  # fmt: skip

@@ -17,8 +17,8 @@ DATE = re.compile(
     r"([-_T ]?([01]\d|2[0-3])([-_.:]?)[0-5]\d(\8[0-5]\d\d*)?)?"
 )
 """A name that ends in a date, with a time of the day or without."""
-ENDING = re.compile(r"(?:(.*?)_(?=.))?(-?\d{4,}(?:\.\d+)?)")
-"""The name of a picture of this add-on, CAMERA_FRAME, or of others, FRAME."""
+ENDING = re.compile(r"(?:(.*?)[_-](?=.))?(-?\d{4,}(?:\.\d+)?)(?:[_.-]([A-Za-z]\w*))?")
+"""The name of a picture of this add-on, CAMERA_FRAME, or of others, FRAME, FRAME_CAMERA or CAMERA-FRAME.CAMERA."""
 
 
 def placed_in(document: Document, meters: float) -> list[Placed]:
@@ -46,5 +46,7 @@ def object_and_frame(image: str) -> tuple[str, float | None]:
     """
     stem = PurePath(image.replace("\\", "/")).name
     stem = stem.rsplit(".", 1)[0] if re.search(r"\.[A-Za-z]+\d?$", stem) else stem
-    match = None if DATE.fullmatch(stem) else ENDING.fullmatch(stem)
-    return (match[1] or "", float(match[2])) if match and abs(float(match[2])) <= LAST_FRAME else (stem, None)
+    match = ENDING.fullmatch(stem)
+    if match is None or DATE.fullmatch(stem[: match.end(2)]) or abs(float(match[2])) > LAST_FRAME:
+        return stem, None
+    return "_".join(filter(None, (match[1], match[3]))), float(match[2])

@@ -1,5 +1,6 @@
 """The cameras of a file, with their lenses and poses: what "Add Cameras from File" makes of it."""
 
+from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 
@@ -188,12 +189,13 @@ def _named(placed: list[Placed], models: dict[str, str]) -> list[tuple[Placed, s
     by_names = [(pose, *object_and_frame(pose.image)) for pose in placed]
     if any(pose.frame is not None for pose in placed):
         return [(pose, pose.image or "Camera", pose.frame) for pose in placed]
-    if all(number is not None for _, _, number in by_names):
-        return _in_folders(by_names) or [
-            (pose, name or _camera_name(pose, models), number) for pose, name, number in by_names
-        ]
     if not any(pose.image for pose in placed):
         return [(pose, pose.camera or "Camera", None) for pose in placed]
+    in_folders = _in_folders(by_names)
+    if in_folders:
+        return in_folders
+    if all(number is not None for _, _, number in by_names):
+        return [(pose, name or _camera_name(pose, models), number) for pose, name, number in by_names]
     names = {name for _, name, _ in by_names}
     if len({pose.camera for pose in placed}) == len(names) == len(placed) > 1:
         several = len({models.get(pose.camera) for pose in placed}) > 1
@@ -217,8 +219,20 @@ def _camera_name(pose: Placed, models: dict[str, str]) -> str:
 
 
 def _in_folders(by_names: list[tuple[Placed, str, float | None]]) -> list[tuple[Placed, str, float | None]]:
-    """Return poses with the names of the pictures' folders, if several have pictures of one name; else []."""
-    folders = [PurePath(pose.image.replace("\\", "/")).parent.name for pose, _, _ in by_names]
-    named = [(pose, folder, number) for (pose, _, number), folder in zip(by_names, folders, strict=True)]
-    is_once = len({(folder, number) for _, folder, number in named}) == len(named)
-    return named if is_once and len({(name, number) for _, name, number in by_names}) < len(named) else []
+    """Return poses with the names of the pictures' folders, the innermost that tell them apart, if several have
+    pictures of one name; else []. Frames that are not told are in the order of the file.
+    """
+    if len({(name, number) for _, name, number in by_names}) == len(by_names):
+        return []
+    folders = [PurePath(pose.image.replace("\\", "/")).parts[-2::-1] for pose, _, _ in by_names]
+    for names in zip(*folders, strict=False):
+        pictures = {(folder, name if number is None else number)
+                    for folder, (_, name, number) in zip(names, by_names, strict=True)}  # fmt: skip
+        if len(pictures) == len(by_names):
+            counts = Counter[str]()
+            named: list[tuple[Placed, str, float | None]] = []
+            for folder, (pose, _, number) in zip(names, by_names, strict=True):
+                counts[folder] += 1
+                named.append((pose, folder, float(counts[folder]) if number is None else number))
+            return named
+    return []
