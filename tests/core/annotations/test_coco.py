@@ -198,8 +198,8 @@ def test_a_key_point_beside_the_border_is_outside_of_the_picture():
     seen = seen_key_points(border, WALLS, points)
     assert [one.visibility.name for one in seen] == ["OUTSIDE", "SEEN"]
     for sheet, right in ((SHEET, [40, 32, 2]), (Sheet(32, 24, (32, 0)), [8, 8, 2])):
-        found = annotated(border, sheet=sheet, points=seen)["annotations"][0]
-        assert found["keypoints"] == pytest.approx([0, 0, 0, *right])
+        annotation = annotated(border, sheet=sheet, points=seen)["annotations"][0]
+        assert annotation["keypoints"] == pytest.approx([0, 0, 0, *right])
 
 
 @pytest.mark.parametrize("key", ["PERSP", "EQUIRECTANGULAR", "CROSS_SLIT", "ORTHO"])

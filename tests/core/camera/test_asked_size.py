@@ -28,10 +28,10 @@ ANY = ("PERSP", "ORTHO", "FISHEYE_EQUISOLID", "FISHEYE_STEREOGRAPHIC", "DOME_MAS
 def test_in_its_own_frame_a_picture_is_not_stretched(case):
     """Beside the middle of an eye's picture a ray turns as much to the right as upwards."""
     key, settings, size = OWN[case]
-    found = asked_size(raw_of(key, WIDE | settings))
-    assert (found.width, found.height) == size
-    assert "1920 × 1080" in found.sentence
-    assert f"{size[0]} × {size[1]}" in found.sentence
+    asked = asked_size(raw_of(key, WIDE | settings))
+    assert (asked.width, asked.height) == size
+    assert "1920 × 1080" in asked.sentence
+    assert f"{size[0]} × {size[1]}" in asked.sentence
     raw = raw_of(key, WIDE | settings | dict(zip(("resolution_x", "resolution_y"), size, strict=True)))
     assert asked_size(raw) is None
     side, eyes = 1e-3, settings.get("eye")

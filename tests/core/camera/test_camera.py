@@ -137,9 +137,9 @@ def test_many_scattered_pixels_and_points_are_those_of_their_parts(key):
     points = rays.origins + 7 * rays.directions
     pixels = cam.project(points)
     for part in (np.s_[0, :100], np.s_[1, 39_950:40_050], np.s_[2, -100:]):
-        own = cam.rays_at(x[part], y[part])
+        alone = cam.rays_at(x[part], y[part])
         for name in ("origins", "directions", "valid"):
-            np.testing.assert_array_equal(getattr(own, name), getattr(rays, name)[part])
+            np.testing.assert_array_equal(getattr(alone, name), getattr(rays, name)[part])
         np.testing.assert_array_equal(cam.project(points[part]), pixels[part])
     assert not rays.valid[1, 40_000]
 
@@ -150,9 +150,9 @@ def test_windows_on_top_of_each_other_have_the_rays_of_each(key):
     x, y = np.arange(40.0).reshape(2, 1, 20), np.arange(300.0).reshape(2, 150, 1) / 6
     rays = cam.rays_at(x, y)
     for k in range(2):
-        one = cam.rays_at(x[k], y[k])
-        np.testing.assert_array_equal(rays.directions[k], one.directions)
-        np.testing.assert_array_equal(rays.origins[k], one.origins)
+        window_rays = cam.rays_at(x[k], y[k])
+        np.testing.assert_array_equal(rays.directions[k], window_rays.directions)
+        np.testing.assert_array_equal(rays.origins[k], window_rays.origins)
 
 
 def test_a_bend_between_columns_is_in_its_columns():

@@ -44,9 +44,9 @@ def test_a_number_equals_an_array_of_no_axis(second):
     assert same({"fx": [first]}, {"fx": np.array([3.0])})
     assert not any(same(first, other) for other in (np.array(4.0), 4, [3.0], "3", None))
     camera = fisheye()
-    given = replace(camera, record=replace(camera.record, settings=camera.record.settings | {"k1": np.array(0.1)}))
-    assert given == camera
-    assert given != fisheye(k1=0.2)
+    with_array = replace(camera, record=replace(camera.record, settings=camera.record.settings | {"k1": np.array(0.1)}))
+    assert with_array == camera
+    assert with_array != fisheye(k1=0.2)
 
 
 def test_what_was_the_timeline_is_named():
@@ -178,7 +178,7 @@ def test_a_type_checker_sees_what_is_there_and_nothing_else(tmp_path):
     options = "--strict", "--follow-imports=silent", f"--cache-dir={tmp_path}"
     command = [executable, "-m", "mypy", *options, good, "bad.py"]
     path = str(Path(crc.__file__).parents[1])
-    said = run(
+    checker = run(
         command, cwd=tmp_path, env={"MYPYPATH": path, "PATH": ""}, capture_output=True, text=True, check=False
     ).stdout
-    assert [line.split(":")[0] for line in said.splitlines()[:-1]] == ["bad.py", "bad.py"], said
+    assert [line.split(":")[0] for line in checker.splitlines()[:-1]] == ["bad.py", "bad.py"], checker

@@ -42,8 +42,8 @@ def test_an_inverse_that_is_almost_right_is_brought_to_the_point():
     cam = camera("PERSP", {"matrix_world": TURNED})
     x, y = np.random.default_rng(1).uniform(0, 50, (2, 300))
     rays = cam.rays_at(x, y)
-    found = replaced(cam, AlmostRight).project(rays.origins + 7 * rays.directions)
-    assert np.abs(found - np.stack((x, y), axis=-1)).max() <= 1e-10
+    pixels = replaced(cam, AlmostRight).project(rays.origins + 7 * rays.directions)
+    assert np.abs(pixels - np.stack((x, y), axis=-1)).max() <= 1e-10
 
 
 def test_an_inverse_that_is_wrong_gives_no_pixel():

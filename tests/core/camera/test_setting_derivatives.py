@@ -71,9 +71,9 @@ def test_they_are_opencv_s_where_no_distortion_is_left_out_for_being_0():
         names = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4", "tau_x", "tau_y")
         cam = camera("OPENCV_PINHOLE", lens | dict(zip(names, distortion.tolist(), strict=True)))
         theirs = cv2.projectPoints(points, np.zeros(3), np.zeros(3), cam.K, distortion)[1]
-        found = cam.project(points * (1, -1, -1), jacobian="settings")[1]
+        derivatives = cam.project(points * (1, -1, -1), jacobian="settings")[1]
         columns = [list(cam.parameters).index(name) for name in ("fx", "fy", "cx", "cy", *names)]
-        ours = found[..., columns] * np.array((1, -1))[:, None]  # y down
+        ours = derivatives[..., columns] * np.array((1, -1))[:, None]  # y down
         np.testing.assert_allclose(ours, theirs[:, 6:].reshape(-1, 2, 18), atol=1e-12 * 80)
 
 

@@ -54,9 +54,9 @@ def test_rays_of_a_view_lie_on_the_pixels_that_its_matrices_give_their_points(wi
         points = rays.origins + t * rays.directions
         clip = np.append(points, np.ones((3, 3, 1)), axis=-1) @ (window @ VIEW).T
         view = clip[..., :2] / clip[..., 3:]
-        found = (view + 1) / 2 * (WIDTH, HEIGHT)
-        assert found[..., 0] == pytest.approx(np.broadcast_to(x, (3, 3)), abs=1e-9)
-        assert found[..., 1] == pytest.approx(np.broadcast_to(y[:, None], (3, 3)), abs=1e-9)
+        expected_pixels = (view + 1) / 2 * (WIDTH, HEIGHT)
+        assert expected_pixels[..., 0] == pytest.approx(np.broadcast_to(x, (3, 3)), abs=1e-9)
+        assert expected_pixels[..., 1] == pytest.approx(np.broadcast_to(y[:, None], (3, 3)), abs=1e-9)
 
 
 @pytest.mark.parametrize("window", MATRICES.values(), ids=MATRICES)

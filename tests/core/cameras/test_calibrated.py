@@ -162,8 +162,8 @@ def test_f_theta_is_the_polynomial_that_is_declared(forward):
     c, d, e = 1.02, 0.01, -0.02
     text = " ".join(map(repr, coefficients))
     names = ("ftheta_angle_to_radius", "ftheta_radius_to_angle")[:: 1 if forward else -1]
-    own = {"ftheta_reference": names[0][7:].upper(), names[0]: text, names[1]: "no numbers"}
-    cam = camera("FTHETA", FRAME | own | {"ftheta_c": c, "ftheta_d": d, "ftheta_e": e, "ftheta_max_angle": 2.0})
+    polynomials = {"ftheta_reference": names[0][7:].upper(), names[0]: text, names[1]: "no numbers"}
+    cam = camera("FTHETA", FRAME | polynomials | {"ftheta_c": c, "ftheta_d": d, "ftheta_e": e, "ftheta_max_angle": 2.0})
     points, places = seen(cam)
     assert len(points) > COUNT / 2
     assert np.abs(cam.project(points) - places).max() <= SAME
@@ -181,8 +181,8 @@ def test_f_theta_is_the_polynomial_that_is_declared(forward):
 def test_ocam_is_the_toolbox_s_cam2world():
     """Whose x counts rows, whose y columns, and whose z is towards the back."""
     polynomial, (c, d, e) = (-180.4, 0, 1.7e-3, -2e-7, 6e-9), (0.999, 0.003, -0.004)
-    own = {"ocam_polynomial": ", ".join(map(repr, polynomial)), "ocam_c": c, "ocam_d": d, "ocam_e": e}
-    cam = camera("OCAM", FRAME | own)
+    ocam_settings = {"ocam_polynomial": ", ".join(map(repr, polynomial)), "ocam_c": c, "ocam_d": d, "ocam_e": e}
+    cam = camera("OCAM", FRAME | ocam_settings)
     points, places = seen(cam)
     assert len(points) > COUNT / 2
     assert np.abs(cam.project(points) - places).max() <= SAME

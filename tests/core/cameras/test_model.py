@@ -42,8 +42,8 @@ def test_the_numerical_inverse_finds_what_the_closed_form_does(key, settings):
     assert np.median(off) < 1e-12
     elsewhere = off > 1e-9  # another pixel that sees the point
     assert not (cam.model.smooth and elsewhere.any())
-    found = cam.rays_at(*pixels[elsewhere].T)
-    beside = np.cross(points[elsewhere] - found.origins, found.directions)
+    other_rays = cam.rays_at(*pixels[elsewhere].T)
+    beside = np.cross(points[elsewhere] - other_rays.origins, other_rays.directions)
     assert (np.abs(beside) <= 1e-12 * np.linalg.norm(points[elsewhere], axis=1, keepdims=True)).all()
 
 

@@ -165,8 +165,8 @@ def test_opencv_s_own_undistortion_agrees_as_far_as_it_goes():
     plane = undistort(pixels[:, None], K, lens, R=None, P=None, criteria=criteria)[:, 0]
     at = bottom_up(pixels)
     directions = pinhole(*lens).rays_at(at[:, 0], at[:, 1]).directions
-    found = directions[:, :2] / -directions[:, 2:] * (1, -1)
-    np.testing.assert_allclose(found, plane, rtol=0, atol=1e-12)
+    slopes = directions[:, :2] / -directions[:, 2:] * (1, -1)
+    np.testing.assert_allclose(slopes, plane, rtol=0, atol=1e-12)
 
 
 def test_beyond_the_fold_there_is_neither_ray_nor_pixel():
@@ -252,8 +252,8 @@ def test_a_picture_without_an_end_is_undistorted_by_whole_newton_steps(farthest,
     lens = RadialTangential(k1=-0.3, k2=0.1, p1=1e-3)
     r, azimuth = np.linspace(0, farthest, 20_001)[1:], 0.1
     x, y = r * math.cos(azimuth), r * math.sin(azimuth)
-    found = np.hypot(*np.subtract(lens.undistort(*lens.distort(x, y)), (x, y)))
-    assert (found <= 16 * EPS * r * lens.cancelled(r * r)).all()
+    off = np.hypot(*np.subtract(lens.undistort(*lens.distort(x, y)), (x, y)))
+    assert (off <= 16 * EPS * r * lens.cancelled(r * r)).all()
 
 
 def test_skew_is_that_of_the_matrix():

@@ -149,11 +149,11 @@ def test_origins_that_jump_along_their_rays_may_be_slid():
     jumps = rays.origins + np.random.default_rng(3).uniform(-0.1, 0.1, (27, 48, 1)) * rays.directions
     table = {"ray_directions": rays.directions, "ray_origins": jumps}
     x, y = everywhere(cam)
-    own = cam.rays_at(x, y)
+    expected = cam.rays_at(x, y)
     off = []
     for slide in (False, True):
         found = crc.camera("RAY_TABLE", FRAME, **table, ray_slide=slide).rays_at(x, y)
-        off.append(np.linalg.norm(np.cross(found.origins - own.origins, own.directions), axis=1).max())
+        off.append(np.linalg.norm(np.cross(found.origins - expected.origins, expected.directions), axis=1).max())
     assert off[1] < 1e-4 < 1e-3 < off[0]
 
 

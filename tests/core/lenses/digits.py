@@ -52,8 +52,8 @@ def on_sphere(point, ahead, middle, radius):
     half = sum(o * d for o, d in zip(off, ahead, strict=True))
     root = sqrt(half * half - sum(o * o for o in off) + radius * radius)
     vertex = middle - radius
-    found = [[p + t * d for p, d in zip(point, ahead, strict=True)] for t in (-half - root, -half + root)]
-    return min(found, key=lambda place: abs(place[2] - vertex))
+    crossings = [[p + t * d for p, d in zip(point, ahead, strict=True)] for t in (-half - root, -half + root)]
+    return min(crossings, key=lambda place: abs(place[2] - vertex))
 
 
 def refracted(ahead, normal, ratio):

@@ -105,15 +105,15 @@ def test_a_probe_says_what_the_picture_says(name):
     raster = eye.raster
     for column, row in ((raster.x0, raster.y0), (25, 15), (raster.x1 - 1, 3), (30, 9)):
         at = row - raster.y0, column - raster.x0
-        found = probe(eye, BALLS, column, row)
-        assert found.pixel == (column, row)
-        assert found.view == pytest.approx(((column + 0.5) / 24 - 1, (row + 0.5) / 16 - 1))
-        assert found.distance == images["distance"][at]
-        assert found.shape_index == images["shape_index"][at]
-        assert found.name == (f"Ball {found.shape_index}" if found.shape_index >= 0 else "")
-        assert np.isnan(found.direction).all() == (not images["valid"][at])
+        probed = probe(eye, BALLS, column, row)
+        assert probed.pixel == (column, row)
+        assert probed.view == pytest.approx(((column + 0.5) / 24 - 1, (row + 0.5) / 16 - 1))
+        assert probed.distance == images["distance"][at]
+        assert probed.shape_index == images["shape_index"][at]
+        assert probed.name == (f"Ball {probed.shape_index}" if probed.shape_index >= 0 else "")
+        assert np.isnan(probed.direction).all() == (not images["valid"][at])
         if images["valid"][at]:
-            assert np.array_equal(found.direction, images["ray_direction"][at])
+            assert np.array_equal(probed.direction, images["ray_direction"][at])
 
 
 def test_a_clock_is_left_out():

@@ -40,8 +40,8 @@ KNOWN = {"x": 2.5, "W": 40, "fov": 3.0, "k1": -0.5, "r": 2.0, "u": np.array([1.0
     ],
 )
 def test_an_expression_is_worked_out_or_has_names_that_are_not_known(expression, expected):
-    found = value(expression, KNOWN)
-    assert found is None if expected is None else found == pytest.approx(expected, rel=1e-15)
+    result = value(expression, KNOWN)
+    assert result is None if expected is None else result == pytest.approx(expected, rel=1e-15)
 
 
 def test_assignments_stand_between_commas_outside_of_parentheses():
@@ -84,9 +84,9 @@ def test_what_is_zero_to_the_digits_of_a_vector_is_shown_as_zero():
 def test_the_normalized_form_of_a_parallel_view_is_the_ray_s_origin_in_every_frame(size):
     cam = camera("ORTHO", dict(zip(("resolution_x", "resolution_y"), size, strict=True)) | {"shift_x": 0.1})
     lines = dict(lesson(cam, no_shapes(), 30, 170).steps)["Model"]
-    told = [line.rpartition(" = (")[2].rstrip(")") for line in lines if line.startswith("  o = ")]
-    assert len(told) == 2
-    for one in told:
+    origins = [line.rpartition(" = (")[2].rstrip(")") for line in lines if line.startswith("  o = ")]
+    assert len(origins) == 2
+    for one in origins:
         wanted = [float(part) for part in cam.camera_rays(30.5, 170.5)[0]]
         assert [float(part) for part in one.split(",")] == pytest.approx(wanted, abs=1e-5)
 
@@ -115,10 +115,10 @@ def test_the_formula_of_a_model_gives_its_rays_with_numbers_in_every_step(model)
                 at = lines.index(f"{step.words}: {step.symbols}") + 1
                 worked = [line for line, _ in assignments(step.symbols)]
                 assert [line.split()[0] for line in lines[at : at + len(worked)]] == worked, step
-            told = [one for one in map(VECTOR.fullmatch, lines) if one]
-            told = told[-2:] if "port" in settings else told  # before: the ray in air
-            assert "r" in {one[1] for one in told}
-            for name, numbers in (one.groups() for one in told):
+            vectors = [one for one in map(VECTOR.fullmatch, lines) if one]
+            vectors = vectors[-2:] if "port" in settings else vectors  # before: the ray in air
+            assert "r" in {one[1] for one in vectors}
+            for name, numbers in (one.groups() for one in vectors):
                 shown = np.array([float(part) for part in numbers.split(",")])
                 ray = rays[name == "r"]
                 if name == "r":

@@ -30,8 +30,8 @@ def test_each_lamps_share_by_hand():
     """A wall of color (0.5, 0.25, 1) at depth 2; the sun stands at cosine 0.8, the lamp 3 before it and 4 beside it."""
     lights = Lights(np.array([[0, 0.6, 0.8], [4, 0, 1]]), np.array([True, False]), np.array([[np.pi, 0, 2 * np.pi],
                     [100 * np.pi**2, 50 * np.pi**2, 0]]))  # fmt: skip
-    said = color_of(replace(WALL, lights=lights, world_color=(0.1, 0.2, 0.3, 1.0)))
-    assert said == (
+    color_lines = color_of(replace(WALL, lights=lights, world_color=(0.1, 0.2, 0.3, 1.0)))
+    assert color_lines == (
         "material (0.5, 0.25, 1, 1)",
         "sun 1 towards (0, 0.6, 0.8), cosine 0.8, E = (3.14159, 0, 6.28319)",
         "  E cosine / pi = (0.8, 0, 1.6)",
@@ -63,15 +63,15 @@ def test_the_terms_make_the_color_of_the_picture(shading, count):
     images = cast(camera_at(**MIDDLE), shapes, passes=("combined", "shape_index"), dtype=np.float64, shading=shading)
     factors = set()
     for row, column in np.argwhere(images["shape_index"] >= 0)[::17]:
-        said = color_of(shapes, column, row, shading=shading)
+        color_lines = color_of(shapes, column, row, shading=shading)
         material, world, light, color = (
-            numbers(next(line for line in said if line.startswith(begin)))
+            numbers(next(line for line in color_lines if line.startswith(begin)))
             for begin in ("material", "world", "light", "linear")
         )
-        shares = [numbers(line) for line in said if line.startswith("  ") or "more lamps" in line]
+        shares = [numbers(line) for line in color_lines if line.startswith("  ") or "more lamps" in line]
         assert len(shares) == min(count, MOST_LAMPS + 1)
         assert light == pytest.approx(world + sum(shares), rel=1e-4)
-        grid = [float(line.split()[1].rstrip(",")) for line in said if line.startswith("grid")]
+        grid = [float(line.split()[1].rstrip(",")) for line in color_lines if line.startswith("grid")]
         assert color[:3] == pytest.approx(material[:3] * light * np.prod(grid), rel=1e-4)
         assert color == pytest.approx(images["combined"][row, column], rel=1e-5)
         factors.update(grid)

@@ -36,7 +36,7 @@ def test_meetings_are_those_without_boxes(model, monkeypatch):
         pixels = [(column, row) for column in range(3, 96, 11) for row in range(2, 54, 7)]
         rays = [[np.array([float(p) for p in v]) for v in cam.camera_rays(a + 0.5, b + 0.5)] for a, b in pixels]
     rays = [(o, d / np.linalg.norm(d)) for o, d in rays if np.isfinite(d).all()]
-    found = [meetings.meetings(cam, shapes, *ray) for ray in rays]
-    assert sum(map(len, found)) > 10
+    with_boxes = [meetings.meetings(cam, shapes, *ray) for ray in rays]
+    assert sum(map(len, with_boxes)) > 10
     monkeypatch.setattr(meetings, "SLACK", 1e9)
-    assert [meetings.meetings(cam, shapes, *ray) for ray in rays] == found
+    assert [meetings.meetings(cam, shapes, *ray) for ray in rays] == with_boxes

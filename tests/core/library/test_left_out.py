@@ -69,18 +69,18 @@ def given_with(model, setting):
 
 @pytest.mark.parametrize(("model", "setting"), RULED, ids=[f"{model.key}-{one.name}" for model, one in RULED])
 def test_what_is_left_out_follows_or_is_refused(model, setting):
-    given = given_with(model, setting)
+    explicit = given_with(model, setting)
     if setting.left_out == SAME:
-        cam = crc.camera(model.key, SIZE, **given)
-        assert cam.settings[setting.name] == given[setting.partner]
+        cam = crc.camera(model.key, SIZE, **explicit)
+        assert cam.settings[setting.name] == explicit[setting.partner]
     elif setting.left_out == MIDDLE:
-        cam = crc.camera(model.key, SIZE, **given)
-        side = given["calibration_width" if setting.name == "cx" else "calibration_height"]
+        cam = crc.camera(model.key, SIZE, **explicit)
+        side = explicit["calibration_width" if setting.name == "cx" else "calibration_height"]
         assert cam.settings[setting.name] == (side - 1) / 2
     else:
         assert setting.left_out in (DECLARED, NEEDED, OF_FRAME)
         with pytest.raises(crc.InputError, match=setting.name):
-            crc.camera(model.key, SIZE, **given)
+            crc.camera(model.key, SIZE, **explicit)
 
 
 def test_nothing_belongs_to_a_picture_of_another_size():

@@ -46,9 +46,9 @@ CALLS = {
 def test_an_old_form_does_the_same_with_a_warning(words):
     old, new = CALLS[words]
     with pytest.warns(DeprecationWarning, match=f"keywords here: {words.split(', ')[0]}") as caught:
-        found = old()
+        result = old()
     assert caught[0].filename == __file__
-    np.testing.assert_array_equal(found, new())
+    np.testing.assert_array_equal(result, new())
 
 
 def test_the_format_of_files_came_first(tmp_path):

@@ -35,13 +35,13 @@ def run(code, *arguments):
 
 def test_the_program_of_forty_lines(tmp_path):
     assert len(PROGRAM.read_text().splitlines()) <= 45
-    said = run(f"exec(compile(open({str(PROGRAM)!r}).read(), 'program', 'exec'))", tmp_path).splitlines()
-    for name, line in zip(("fisheye", "scanner"), said, strict=False):
+    printed = run(f"exec(compile(open({str(PROGRAM)!r}).read(), 'program', 'exec'))", tmp_path).splitlines()
+    for name, line in zip(("fisheye", "scanner"), printed, strict=False):
         share, off = re.fullmatch(rf"{name}: (\d+)% hits, back within (\S+) pixels, \[2 [01]\]", line).groups()
         assert int(share) > 50
         assert float(off) < 1e-2  # the distance is float32, and the ground reaches far
-    assert "OpenCV Fisheye" in "\n".join(said)
-    assert said[-1] == "['camera.json']"
+    assert "OpenCV Fisheye" in "\n".join(printed)
+    assert printed[-1] == "['camera.json']"
     assert {f"{crc.camera_from_json(tmp_path / 'camera.json', camera=name).name}" for name in ("fisheye", "scanner")}
 
 
@@ -66,9 +66,9 @@ def test_the_import_is_quick_and_brings_neither_numpy_nor_blender():
         "import time; start = time.process_time()\nimport camera_ray_caster\n"
         "print(time.process_time() - start, 'numpy' in sys.modules, 'bpy' in sys.modules)"
     )
-    found = [run(code).split() for _ in range(5)]
-    assert {tuple(words[1:]) for words in found} == {("False", "False")}
-    assert min(float(words[0]) for words in found) < 0.2
+    runs = [run(code).split() for _ in range(5)]
+    assert {tuple(words[1:]) for words in runs} == {("False", "False")}
+    assert min(float(words[0]) for words in runs) < 0.2
 
 
 def test_every_name_is_there_with_its_help():

@@ -70,9 +70,9 @@ def test_vertices_keep_their_type_and_their_digits(camera):
 
 def test_a_mesh_does_not_change_with_the_arrays_it_was_made_of():
     vertices = np.asfortranarray(CUBE, float)
-    made = crc.mesh(vertices, QUADS)
+    shapes = crc.mesh(vertices, QUADS)
     vertices += 1
-    np.testing.assert_array_equal(made.meshes[0].vertices.T, CUBE)
+    np.testing.assert_array_equal(shapes.meshes[0].vertices.T, CUBE)
 
 
 @pytest.mark.parametrize("by_corner", [False, True])
@@ -204,7 +204,7 @@ def test_a_mesh_without_faces_is_no_shape():
 
 def test_a_scene_is_camera_and_shapes(camera):
     shapes = crc.spheres((0, 0, 1))
-    found = crc.cast(crc.Scene(camera, shapes), passes=("depth",))["depth"]
-    np.testing.assert_array_equal(found, crc.cast(camera, shapes, passes=("depth",))["depth"])
+    depth = crc.cast(crc.Scene(camera, shapes), passes=("depth",))["depth"]
+    np.testing.assert_array_equal(depth, crc.cast(camera, shapes, passes=("depth",))["depth"])
     with pytest.raises(TypeError, match="a scene and all else by name"):
         crc.cast(camera, passes=("depth",))

@@ -50,11 +50,11 @@ class Counted:
 def test_polynomials_are_as_right_as_the_function_and_ask_it_little(size, corner):
     x, y = centers(*size, *corner)
     function = Counted(smooth)
-    found = on_raster(function, x, y)
+    values = on_raster(function, x, y)
     assert function.asked < x.size * y.size / (20 if size[0] == 1920 else 10)
-    assert found.shape == (2, *size[::-1])
+    assert values.shape == (2, *size[::-1])
     exact = np.stack(smooth(x, y))
-    assert np.abs(found - exact).max() < 16 * EPS * np.abs(exact).max()
+    assert np.abs(values - exact).max() < 16 * EPS * np.abs(exact).max()
 
 
 def test_a_pixel_has_the_same_value_in_whatever_part_of_the_picture():

@@ -59,10 +59,10 @@ def test_every_model_is_recorded_and_its_record_gives_its_rays(key):
 def test_an_operation_gives_what_numpy_gives(name):
     ufunc = getattr(np, name)
     inputs = [part.ravel() for part in np.meshgrid(*[NUMBERS] * ufunc.nin)]
-    given = [part > 0 for part in inputs] if name in LOGICAL else inputs
+    operands = [part > 0 for part in inputs] if name in LOGICAL else inputs
     with np.errstate(all="ignore"):
-        expected = ufunc(*given)
-    np.testing.assert_array_equal(evaluate(ufunc, *given), expected)
+        expected = ufunc(*operands)
+    np.testing.assert_array_equal(evaluate(ufunc, *operands), expected)
     assert operations(ufunc, ufunc.nin)[-1] == name
 
 

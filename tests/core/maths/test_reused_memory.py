@@ -50,8 +50,8 @@ def test_memory_is_given_once_though_other_memory_comes_back_meanwhile():
     del first
     (blocks,) = reused_memory._unused.values()
     del second
-    given = {address(blocks.pop()) for _ in range(2)}
-    assert given == {*at}
+    addresses = {address(blocks.pop()) for _ in range(2)}
+    assert addresses == {*at}
     assert not any(reused_memory._unused.values())
 
 
@@ -71,13 +71,13 @@ def test_memory_that_the_system_does_not_have_is_said_once(monkeypatch):
     def none(*_):
         raise MemoryError
 
-    said = []
-    monkeypatch.setattr(sys, "unraisablehook", said.append)
+    warned = []
+    monkeypatch.setattr(sys, "unraisablehook", warned.append)
     monkeypatch.setattr(np, "empty", none)
     with pytest.raises(MemoryError):
         reused_memory.empty(SHAPE, np.float32)
     gc.collect()
-    assert said == []
+    assert warned == []
 
 
 def test_what_is_kept_is_released():

@@ -18,11 +18,11 @@ def shader(key, settings=(), **changes):
 
 @pytest.mark.parametrize(("key", "settings"), CASES)
 def test_every_example_has_a_shader_that_knows_itself(key, settings):
-    made = shader(key, settings)
-    mark = read_mark(made.source)
+    written = shader(key, settings)
+    mark = read_mark(written.source)
     assert mark is not None
-    assert (mark.blender_type, mark.places) == ("PERSP", made.places)
-    assert (made.values["frame_width"], made.values["frame_height"]) == camera(key, settings).raster.size
+    assert (mark.blender_type, mark.places) == ("PERSP", written.places)
+    assert (written.values["frame_width"], written.values["frame_height"]) == camera(key, settings).raster.size
 
 
 def test_settings_change_the_values_and_not_the_text():

@@ -26,14 +26,14 @@ FLOAT32 = NUMPY | {
 
 @pytest.mark.parametrize(("key", "settings"), CASES)
 def test_float32_stays_within_the_bound(key, settings):
-    made = replace(camera(key, settings), aperture=None)
-    frame = np.float32(made.model.size)
+    cam = replace(camera(key, settings), aperture=None)
+    frame = np.float32(cam.model.size)
     x, y = (np.float32(np.random.default_rng(0).uniform(0, side, 200)) for side in frame)
-    bounds = ray_bounds(made, x.astype(float), y.astype(float), (0.0, 0.0))
+    bounds = ray_bounds(cam, x.astype(float), y.astype(float), (0.0, 0.0))
     with np.errstate(all="ignore"):
-        found = ray_record(made).evaluate(FLOAT32, (x, y, np.float32(0), np.float32(0)))
-    direction = np.stack(np.broadcast_arrays(*found[3:], x)[:3], axis=-1) @ made.pose.basis.T
-    rays = made.rays_at(x.astype(float), y.astype(float))
+        in_float32 = ray_record(cam).evaluate(FLOAT32, (x, y, np.float32(0), np.float32(0)))
+    direction = np.stack(np.broadcast_arrays(*in_float32[3:], x)[:3], axis=-1) @ cam.pose.basis.T
+    rays = cam.rays_at(x.astype(float), y.astype(float))
     unit = direction / np.linalg.norm(direction, axis=-1, keepdims=True)
     decided = ~np.isinf(bounds.direction)
     assert np.array_equal(np.isnan(unit[decided, 0]), ~rays.valid[decided])

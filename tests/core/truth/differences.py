@@ -15,14 +15,14 @@ def derivatives(function, x, y):
 
     None where the function gives none somewhere around.
     """
-    found = {
+    values = {
         (i, j): function(mpf(float(x)) + i * STEP, mpf(float(y)) + j * STEP) for i, j in product((-1, 0, 1), repeat=2)
     }
-    if any(vector is None for vector in found.values()):
+    if any(vector is None for vector in values.values()):
         return None
 
     def total(weights, divisor):
-        return [sum(w * found[at][c] for at, w in weights.items()) / divisor for c in range(len(found[0, 0]))]
+        return [sum(w * values[at][c] for at, w in weights.items()) / divisor for c in range(len(values[0, 0]))]
 
     first = [total({(1, 0): 1, (-1, 0): -1}, 2 * STEP), total({(0, 1): 1, (0, -1): -1}, 2 * STEP)]
     along = [total({axis: 1, (0, 0): -2, tuple(-a for a in axis): 1}, STEP**2) for axis in ((1, 0), (0, 1))]

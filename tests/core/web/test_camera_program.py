@@ -52,11 +52,11 @@ def test_rays_of_any_settings_are_the_cameras(key):
     count = 0
     for values, camera in settings(key):
         parts, (x, y) = variant_of(key, values).parts, pixels(camera)
-        given = NUMPY | {"parameter": lambda value, name, values=values: values[name]}
+        arithmetic = NUMPY | {"parameter": lambda value, name, values=values: values[name]}
         with np.errstate(all="ignore"):
-            kept = parts.first.evaluate(given, ())[parts.conditions :]
-            found = parts.second.evaluate(given, (x, y, *kept))
-        check(camera, x, y, np.array([np.broadcast_to(part, x.shape) for part in found[:RAY]], float))
+            kept = parts.first.evaluate(arithmetic, ())[parts.conditions :]
+            rays = parts.second.evaluate(arithmetic, (x, y, *kept))
+        check(camera, x, y, np.array([np.broadcast_to(part, x.shape) for part in rays[:RAY]], float))
         count += 1
     assert count
 
@@ -73,16 +73,16 @@ def test_javascript_gives_the_same_rays(key):
     )
     run = "function run(prepare, rays, values, s, places) { const k = prepare(s); "
     run += "return places.map(([x, y]) => rays(k, x, y)); }"
-    found = node(f"{RUNTIME}\n{run}\nconsole.log(JSON.stringify([{calls}], {NUMBERS}));")
-    for (_, camera), rays in zip(cases, found, strict=True):
+    results = node(f"{RUNTIME}\n{run}\nconsole.log(JSON.stringify([{calls}], {NUMBERS}));")
+    for (_, camera), rays in zip(cases, results, strict=True):
         check(camera, *pixels(camera), np.array([[float(str(value)) for value in ray] for ray in rays]).T)
 
 
 def test_the_matrix_in_a_formula_is_of_the_frame_s_pixels_not_of_the_calibrated_picture_s():
     size = {"calibration_width": 1920, "calibration_height": 1080}
     camera = crc.camera("OPENCV_FISHEYE", (640, 360), fx=1500.0, fy=1200.0, cx=929.5, cy=539.5, **size)
-    found = values_of(camera.model, camera.record, camera.raster, 100.0, 300.0)
-    assert [found[name][0] for name in ("fx", "fy", "cx", "cy")] == pytest.approx([500, 400, 309.5, 179.5])
+    values = values_of(camera.model, camera.record, camera.raster, 100.0, 300.0)
+    assert [values[name][0] for name in ("fx", "fy", "cx", "cy")] == pytest.approx([500, 400, 309.5, 179.5])
 
 
 @pytest.mark.parametrize(("key", "size"), [

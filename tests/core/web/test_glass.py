@@ -29,9 +29,9 @@ def test_the_section_has_the_ray_of_the_pixel_and_its_stop_and_film_are_dragged(
     path = chief_path(model, 500, 300)
     height = np.hypot(*path.points[:, :2].T) / model.unit
     place = path.points[:, 2] / model.unit + model.pupil
-    found = np.array(first["chief"]["points"])
-    np.testing.assert_allclose(found[:, 0], place, rtol=0, atol=1e-10)
-    np.testing.assert_allclose(np.abs(found[:, 1]), height, rtol=0, atol=1e-10)
+    points = np.array(first["chief"]["points"])
+    np.testing.assert_allclose(points[:, 0], place, rtol=0, atol=1e-10)
+    np.testing.assert_allclose(np.abs(points[:, 1]), height, rtol=0, atol=1e-10)
     sines = [(np.sin(one.in_front), np.sin(one.at_back)) for one in path.refractions]
     np.testing.assert_allclose([one[1:] for one in first["chief"]["sines"]], sines, rtol=0, atol=1e-12)
     stop = len(model.optics.surfaces) - model.optics.stop

@@ -68,8 +68,8 @@ def test_a_camera_is_cast_mapped_and_written_for_python(page, tmp_path, text):
         at, cast = state(driver), ray(driver)
         assert numbers(shown(driver, "back to the pixel"))[2] < 1e-6
         by_id(driver, "own-map").click()
-        told = by_id(driver, "map-text").text
-        assert "0 do not" in told
+        map_text = by_id(driver, "map-text").text
+        assert "0 do not" in map_text
         by_id(driver, "own-python").click()
         file = tmp_path / "my_camera.py"
         settled(driver, lambda _: [path.name for path in tmp_path.iterdir()] == [file.name] and file.stat().st_size)

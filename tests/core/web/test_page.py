@@ -180,14 +180,14 @@ def test_every_model_can_be_chosen_and_its_steps_have_numbers(opened, page):
         opened.execute_script("location.hash = arguments[0]", f"v=1&model={key}")
         settled(opened, lambda one, key=key: state(one)["model"] == key and shown(one, "pixel"))
         assert by_id(opened, "message").text == ""
-        found = [line.text for line in opened.find_elements("css selector", "#steps .numbers")]
-        if not found:
+        shown_numbers = [line.text for line in opened.find_elements("css selector", "#steps .numbers")]
+        if not shown_numbers:
             without.append(key)
         direction = np.array(ray(opened)[3:])
-        told = by_id(opened, "numbers").text + by_id(opened, "steps").text
-        assert not re.search(r"[1-9]\d*\.\d{8}|\b0\.0*[1-9]\d{7}|\de-1\d", told), "no digits of rounding"
+        page_text = by_id(opened, "numbers").text + by_id(opened, "steps").text
+        assert not re.search(r"[1-9]\d*\.\d{8}|\b0\.0*[1-9]\d{7}|\de-1\d", page_text), "no digits of rounding"
         assert opened.find_elements("css selector", "#steps math"), key
-        for line in found:  # the formula with its numbers ends at the ray that the picture has
+        for line in shown_numbers:  # the formula with its numbers ends at the ray that the picture has
             r = numbers(line.rpartition("= (")[2]) if line.startswith("r = ") else []
             if len(r) == 3:
                 assert np.cross(r, direction) / np.linalg.norm(r) == pytest.approx([0, 0, 0], abs=2e-5), (key, line)

@@ -41,12 +41,12 @@ def test_the_shader_sees_what_our_cast_sees(opened, key):
     images = crc.cast(camera, room_from((0.0, EYE, 3.0)), passes=("shape_index", "distance", "valid"))
     expected = np.where(images["valid"], np.where(images["shape_index"] < 0, NOTHING, images["shape_index"]), NO_RAY)
     read = opened.execute_script("return window.lesson.indices(arguments[0])", key)
-    found = np.array(read).reshape(*expected.shape, 2)
+    seen = np.array(read).reshape(*expected.shape, 2)
     sure = even(expected)
     assert sure.mean() > 0.5
-    assert np.array_equal(found[..., 0][sure], expected[sure])
+    assert np.array_equal(seen[..., 0][sure], expected[sure])
     hit = sure & (expected < NOTHING)
-    assert (np.abs(found[..., 1] - images["distance"])[hit] <= NEAR * images["distance"][hit] + ROUNDING).all()
+    assert (np.abs(seen[..., 1] - images["distance"])[hit] <= NEAR * images["distance"][hit] + ROUNDING).all()
 
 
 @pytest.mark.parametrize("key", KEYS)

@@ -43,7 +43,6 @@ class CubemapFace(WindowModel):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> CubemapFace:
-        """Build the camera from the shift alone."""
         return cls(raster.size, Window.over_frame(raw, raster, (-pi / 4, pi / 4), (-pi / 4, pi / 4)))
 
     @cached_property

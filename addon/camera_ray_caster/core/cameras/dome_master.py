@@ -38,6 +38,5 @@ class DomeMaster(Pitched, FisheyeEquidistant):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> DomeMaster:
-        """Build the camera from ``fov``, ``tilt`` and shift. Raises InputError for an invalid angle."""
         window = Window.inscribed_circle(raw, raster, 1.0)
         return cls(raster.size, window, 1.0, half_fov=FOV.read(raw) / 2, elevation=pi / 2 - TILT.read(raw))

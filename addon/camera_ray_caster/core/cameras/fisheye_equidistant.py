@@ -36,7 +36,6 @@ class FisheyeEquidistant(Radial):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeEquidistant:
-        """Build the camera from fisheye_fov and shift. Raises InputError for an invalid field of view."""
         fov = FISHEYE_FOV.read(raw)
         return cls(raster.size, Window.over_frame(raw, raster, (-1.0, 1.0), (-1.0, 1.0)), 1.0, fov / 2)
 

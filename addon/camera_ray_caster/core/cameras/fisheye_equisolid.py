@@ -42,7 +42,6 @@ class FisheyeEquisolid(Radial):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeEquisolid:
-        """Build the camera from fisheye_lens, fisheye_fov, sensor and shift. Raises InputError for invalid settings."""
         film = Film.from_blender(raw, raster)
         diameter = 2 * FISHEYE_LENS.read(raw)
         fov = FISHEYE_FOV.read(raw)

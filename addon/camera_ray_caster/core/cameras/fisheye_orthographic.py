@@ -33,7 +33,6 @@ class FisheyeOrthographic(Radial):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeOrthographic:
-        """Build the camera from ``fov`` and shift. Raises InputError for an invalid field of view."""
         rim = sin(min(FOV.read(raw, high=pi), pi) / 2)
         return cls(raster.size, Window.inscribed_circle(raw, raster, rim), rim)
 

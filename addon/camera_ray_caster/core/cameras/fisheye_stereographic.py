@@ -43,7 +43,6 @@ class FisheyeStereographic(Radial):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeStereographic:
-        """Build the camera from ``fov`` and shift. Raises InputError for an invalid field of view."""
         rim = tan(FOV.read(raw, high=WIDEST) / 4)
         return cls(raster.size, Window.inscribed_circle(raw, raster, rim), rim)
 

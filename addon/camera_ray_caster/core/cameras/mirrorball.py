@@ -31,7 +31,6 @@ class Mirrorball(FisheyeEquisolid):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Mirrorball:
-        """Build the camera from the shift alone."""
         return cls(raster.size, Window.over_frame(raw, raster, (-1.0, 1.0), (-1.0, 1.0)), 1.0)
 
     def aperture(self, raw: BlenderCamera, pose: Pose) -> Aperture | None:

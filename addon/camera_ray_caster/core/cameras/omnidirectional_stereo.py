@@ -79,7 +79,6 @@ class OmnidirectionalStereo(WindowModel):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OmnidirectionalStereo:
-        """Build the camera from the interocular distance and the eye."""
         window = Window(raster.width / 2, raster.height / 2, FULL_TURN / raster.width, pi / raster.height)
         return cls(raster.size, window, DISTANCE.read(raw) / 2, EYE.read(raw))
 

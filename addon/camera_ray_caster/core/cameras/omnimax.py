@@ -101,7 +101,6 @@ class Omnimax(Pitched, OmnimaxLens):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Omnimax:
-        """Build the camera from ``tilt`` and shift. Raises InputError for an invalid tilt."""
         aspect = raster.width / (raster.height * raster.pixel_aspect)
         across = max(aspect / ASPECT, 1.0)
         bottom, top = (1 - 2 / min(aspect, ASPECT), 1.0) if aspect > 1 else (-1 / aspect, 1 / aspect)

@@ -51,7 +51,6 @@ class Orthographic(WindowModel):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Orthographic:
-        """Build the camera from the orthographic scale and shift."""
         return cls(raster.size, Window.from_blender(raw, raster, ORTHO_SCALE.read(raw)))
 
     @classmethod

@@ -66,7 +66,6 @@ class Pencil(WindowModel):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Pencil:
-        """Build the camera from lens, sensor, shift, slit_1 and pencil_slide. InputError for invalid settings."""
         point, direction = slit_from(raw)
         _, across = image_axes(raw, direction)
         axes = np.stack((direction, across, np.cross(across, direction)))

@@ -52,7 +52,6 @@ class Perspective(WindowModel):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Perspective:
-        """Build the camera from lens, sensor and shift."""
         film = Film.from_blender(raw, raster)
         return cls(raster.size, Window.before_eye(raw, raster, film.size / LENS.read(raw), (LENS, film.sensor)))
 

@@ -64,7 +64,6 @@ class Pushbroom(WindowModel):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Pushbroom:
-        """Build the camera from lens, sensor, shift, ortho_scale and slit_1. Raises InputError for invalid settings."""
         window = Perspective.from_blender(raw, raster).window
         stretch = Orthographic.from_blender(raw, raster).window.pitch_x / window.pitch_x
         point, direction = slit_from(raw)

@@ -49,6 +49,5 @@ class StereographicPanorama(Pitched, FisheyeStereographic):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> StereographicPanorama:
-        """Build the camera from ``fov``, ``elevation`` and shift. Raises InputError for an invalid angle."""
         window = Window.inscribed_circle(raw, raster, tan(FOV.read(raw, high=WIDEST) / 4))
         return cls(raster.size, window, rim=inf, elevation=ELEVATION.read(raw))

@@ -56,7 +56,6 @@ class TwistedOrthographic(GeneralLinear):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> TwistedOrthographic:
-        """Build the camera from ortho_scale, shift, slit_1 and twist. Raises InputError for invalid settings."""
         window = Orthographic.from_blender(raw, raster).window
         point, direction = slit_from(raw)
         along, across = image_axes(raw, direction)

@@ -64,16 +64,16 @@ def test_a_tilted_sensor_tilts_the_plane_of_focus():
                     "tau_x": 0.2, "tau_y": -0.1, "focus_distance": 3.0}  # fmt: skip
         size = {"resolution_x": 65, "resolution_y": 65, "sensor_width": 29.25}
         cam = example("OPENCV_PINHOLE", LENS | settings | size)
-        found = []
+        depths = []
         for x, y in ((32.5, 32.5), (32.5, 20.5), (50.5, 14.5), (20.5, 60.5)):
             across, down = 0.45 * (x - 32.5), 0.45 * (32.5 - y)
             distance = far + np.sin(0.2) * down - np.sin(-0.1) * np.cos(0.2) * across
             origins, directions = edges_of_opening(cam, x, y)
             meet = origins + directions / (1 / 50 - 1 / distance) / 1000
             assert np.ptp(meet, axis=0).max() < 1e-9
-            found.append(meet[0])
-        assert found[0] == pytest.approx((0, 0, -3), abs=1e-12)
-    corners = np.array(found) - found[0]
+            depths.append(meet[0])
+        assert depths[0] == pytest.approx((0, 0, -3), abs=1e-12)
+    corners = np.array(depths) - depths[0]
     assert abs(np.linalg.det(corners[1:])) < 1e-9
 
 

@@ -39,9 +39,9 @@ def written(path, names=("camera_matrix", "distortion_coefficients"), matrix=K, 
      ("mtx", "dist"), ("intrinsic", "dist_coeff"), ("K1", "D1")],
 )
 def test_a_file_of_opencv_gives_the_camera_of_its_numbers(tmp_path, kind, names):
-    found = camera("OPENCV_PINHOLE", FRAME | written(tmp_path / f"lens.{kind}", names)).model
+    model = camera("OPENCV_PINHOLE", FRAME | written(tmp_path / f"lens.{kind}", names)).model
     coefficients = dict(zip(("k1", "k2", "p1", "p2", "k3"), D[0], strict=True))
-    assert found == camera("OPENCV_PINHOLE", FRAME | VALUES | coefficients).model
+    assert model == camera("OPENCV_PINHOLE", FRAME | VALUES | coefficients).model
 
 
 def test_a_file_with_a_pinhole_s_number_of_coefficients_is_no_fisheye_s(tmp_path):
@@ -60,8 +60,8 @@ def test_a_fisheye_s_file(tmp_path, kind, flag):
 def test_matrices_as_nested_lists_in_json(tmp_path):
     matrices = '"K": [[9, 0, 4], [0, 8, 3], [0, 0, 1]], "D": [[0.1, 0, 0, 0]]'
     (tmp_path / "lens.json").write_text(f'{{{matrices}, "width": 96, "height": 54}}')
-    found = camera("OPENCV_PINHOLE", {"calibration_file": str(tmp_path / "lens.json")}).model
-    assert found == camera("OPENCV_PINHOLE", {"fx": 9.0, "fy": 8.0, "cx": 4.0, "cy": 3.0, "k1": 0.1}).model
+    model = camera("OPENCV_PINHOLE", {"calibration_file": str(tmp_path / "lens.json")}).model
+    assert model == camera("OPENCV_PINHOLE", {"fx": 9.0, "fy": 8.0, "cx": 4.0, "cy": 3.0, "k1": 0.1}).model
 
 
 GOOD = """%YAML:1.0

@@ -12,9 +12,9 @@ from camera_ray_caster.core.conventions import gamma
 @pytest.mark.parametrize("width", [1e-8, 1e-3, 1.0])
 def test_sine_and_cosine_of_angles_are_those_of_50_digits_within_their_bound(around, width):
     theta = np.maximum(np.abs(around + np.linspace(-width, width, 301)), 1e-300)
-    found = factors_of(theta, theta)
+    factors = factors_of(theta, theta)
     with mp.workdps(50):
-        for own, over_theta, along in zip(*(values.tolist() for values in (theta, *found)), strict=True):
+        for own, over_theta, along in zip(*(values.tolist() for values in (theta, *factors)), strict=True):
             sine = mp.sin(own) / own
             assert abs(over_theta - sine) <= gamma(10) * abs(sine)
             assert abs(along - mp.cos(own)) <= gamma(8)

@@ -36,9 +36,9 @@ def test_a_backward_polynomial_is_blender_s_own(sensor):
     """Of shifts none: panoramas of Blender count them in the frame's width and height."""
     sensor = {name: value for name, value in sensor.items() if "shift" not in name}
     blender = {"fisheye_polynomial_k1": -0.06, "fisheye_polynomial_k2": -1e-4, "fisheye_polynomial_k3": 2e-6}
-    own = {"ftheta_reference": "RADIUS_TO_ANGLE", "ftheta_radius_to_angle": "0 0.06 1e-4 -2e-6"}
+    ftheta = {"ftheta_reference": "RADIUS_TO_ANGLE", "ftheta_radius_to_angle": "0 0.06 1e-4 -2e-6"}
     blender |= {"fisheye_polynomial_k0": 0.0, "fisheye_polynomial_k4": 0.0, "fisheye_fov": 2 * np.pi}
-    same_rays(camera("FTHETA", MILLIMETERS | own | sensor), camera("FISHEYE_LENS_POLYNOMIAL", blender | sensor))
+    same_rays(camera("FTHETA", MILLIMETERS | ftheta | sensor), camera("FISHEYE_LENS_POLYNOMIAL", blender | sensor))
 
 
 @pytest.mark.parametrize("sensor", SENSORS[:2])
@@ -47,14 +47,14 @@ def test_it_is_the_lens_in_pixels_of_the_sensor_s_frame(key, sensor):
     """Of a frame of 96 x 54 pixels, whatever the percentage."""
     pixels = 96 / sensor.get("sensor_width", 36.0)
     shift = 96 * sensor.get("shift_x", 0.0), 96 * sensor.get("shift_y", 0.0)
-    own = {
+    in_pixels = {
         "calibration_width": 96, "calibration_height": 54 if not sensor else 54 * 0.37 // 1 / (96 * 0.37 // 1) * 96,
         "cx": 47.5 - shift[0], "fx": 50 * pixels, "fy": 50 * pixels,
         "ftheta_angle_to_radius": f"0 {20 * pixels!r}", "ocam_polynomial": f"{-20 * pixels!r} 0 {0.01 / pixels!r}",
     }  # fmt: skip
-    own["cy"] = own["calibration_height"] / 2 - 0.5 + shift[1]
+    in_pixels["cy"] = in_pixels["calibration_height"] / 2 - 0.5 + shift[1]
     in_mm = {"ftheta_angle_to_radius": "0 20", "ocam_polynomial": "-20 0 0.01"}
-    same_rays(camera(key, MILLIMETERS | BENT | in_mm | sensor), camera(key, BENT | sensor | own), 1e-12)
+    same_rays(camera(key, MILLIMETERS | BENT | in_mm | sensor), camera(key, BENT | sensor | in_pixels), 1e-12)
 
 
 def test_the_camera_matrix_is_in_pixels_of_the_frame():
