@@ -1,7 +1,5 @@
 """Cast the rays of a camera at shapes: make the plan, then find the nearest hits and write the passes, tile by tile."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable, Iterable
 from time import perf_counter

@@ -1,7 +1,5 @@
 """Checks, before anything is allocated, of whether the system has enough memory for it; and what it has run out of."""
 
-from __future__ import annotations
-
 import ctypes
 import errno
 import os

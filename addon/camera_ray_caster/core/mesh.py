@@ -1,7 +1,5 @@
 """The record of a triangle mesh, which all its instances share, and what is derived from it once."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -3,8 +3,6 @@
 Records with arrays compare by identity: one is equal to itself only.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any

@@ -1,7 +1,5 @@
 """Key points: named places in the world, and their pixels in a picture."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The pose of each object: a box around it in its own axes, at the time of the picture."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

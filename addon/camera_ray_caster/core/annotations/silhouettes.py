@@ -1,7 +1,5 @@
 """Pixels of each shape in a picture: its visible pixels, and the pixels that it would have alone."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 

@@ -1,7 +1,5 @@
 """A quick test whether rays may meet bounding balls: a quarter of the time of the exact test of a sphere."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The hits of rays that are given one by one: the nearest, or all."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial

@@ -5,8 +5,6 @@ within a rectangle of (u, v). Rays are sorted by rows of v, and within a row by 
 rectangle are a run in each of its rows. Near boxes come first; pairs whose box is behind the ray's hit are left out.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import ceil, inf, sqrt

@@ -1,7 +1,5 @@
 """Which search finds the nearest hits of a picture: that of tiles, or the tree of bodies, ray by ray."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 

@@ -1,7 +1,5 @@
 """``cast_rays`` and ``occluded``: rays that are given as arrays, cast at shapes."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from typing import Any, NamedTuple

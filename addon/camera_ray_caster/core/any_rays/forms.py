@@ -6,8 +6,6 @@ points of its corners.
 Reference: G. Farin, Curves and Surfaces for CAGD (convex hull property).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import pairwise
 from math import comb

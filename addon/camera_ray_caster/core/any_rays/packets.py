@@ -1,7 +1,5 @@
 """Packets of rays: single rays, and groups of FAN of them, level by level, with boxes of origins and directions."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What is cast of a picture: tiles of pixels, or the beams of a scanner that sweeps."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from time import perf_counter

@@ -3,8 +3,6 @@
 The boxes are divided at medians. Reference: J. Bentley, Multidimensional Binary Search Trees, CACM 18 (1975).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Rays aimed at points, anywhere between the pixel centers: whether something is in front of the points."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any

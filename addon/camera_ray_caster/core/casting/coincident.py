@@ -1,7 +1,5 @@
 """Surfaces in the same place: pixels in which it is arbitrary which surface is the nearest."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..conventions import EPS32

@@ -3,8 +3,6 @@
 Each value is computed when a pass first needs it, once for all passes of a block, in working arrays of the thread.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, TypeVar
 

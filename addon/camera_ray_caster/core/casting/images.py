@@ -1,7 +1,5 @@
 """The pictures that a cast returns, in arrays of its own or in those of an earlier cast."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from itertools import combinations
 

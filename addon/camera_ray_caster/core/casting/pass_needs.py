@@ -1,7 +1,5 @@
 """What passes need: memory, and the pictures of other frames."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable
 
 import numpy as np

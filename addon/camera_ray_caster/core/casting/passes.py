@@ -10,8 +10,6 @@ Of surfaces that coincide, a ray meets the one that is nearer in float64, and of
 first row. Cycles shows any of them, by rounding and the order of its own search, which differ from version to version.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

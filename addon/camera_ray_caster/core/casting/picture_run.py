@@ -1,7 +1,5 @@
 """The cast of a picture's tiles in threads (numpy releases the interpreter), and what is told and shown meanwhile."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait

@@ -1,7 +1,5 @@
 """Casting at given pixels: the lattice of some columns and rows, at one moment."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 

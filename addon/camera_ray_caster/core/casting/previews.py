@@ -3,8 +3,6 @@
 Pixels with times of their own are cast time by time: every 64th time first, whose pixels fill the picture, then finer.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from time import process_time, thread_time

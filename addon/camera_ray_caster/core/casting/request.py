@@ -1,7 +1,5 @@
 """The request for a cast: its passes and options."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any

@@ -1,7 +1,5 @@
 """The nearest hit of every ray of a tile: shape by shape, or many shapes at once."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from heapq import merge

@@ -1,7 +1,5 @@
 """The pixels at which points that may move are seen in a picture, and whether something hides the points there."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any, Protocol

@@ -1,7 +1,5 @@
 """The color of the combined pass: the material's color lit by the scene's lights, or a grid on the surfaces."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import repeat

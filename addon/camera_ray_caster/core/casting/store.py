@@ -1,7 +1,5 @@
 """The passes of a tile of hits, written into parts of images: block by block, or shape by shape."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..maths.speed import whole_rows, write_where

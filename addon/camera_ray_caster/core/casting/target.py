@@ -1,7 +1,5 @@
 """What rays are cast at: shapes in the frame of the rays, and the tables in which passes look up values by shape."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property

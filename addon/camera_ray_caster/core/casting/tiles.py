@@ -1,7 +1,5 @@
 """Division of a picture into tiles, and the cast of one: rays, search, hits, passes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Pictures in the conventions of other programs, with row 0 at the top: rows, flow, pixels and the camera matrix."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

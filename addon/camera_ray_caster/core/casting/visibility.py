@@ -1,7 +1,5 @@
 """Visibility of points: whether they are in the picture, and not hidden by a shape."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any

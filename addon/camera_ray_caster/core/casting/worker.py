@@ -4,8 +4,6 @@ A cast may still use every processor. While two threads on two processors cast 1
 thread wakes 4 to 9 ms late, and in 95 of 100 cases at most 29 ms late; with one casting thread 4 to 5 and 19 ms.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, wait
 from threading import Event

@@ -10,8 +10,6 @@ Reference: W. Wagner et al., Gaussian decomposition and calibration of a full-wa
 radar equation.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Colors of points, by their rings, ranges or labels: linear RGBA."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .cloud import PointCloud

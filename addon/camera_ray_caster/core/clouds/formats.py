@@ -7,8 +7,6 @@ References: G. Turk, The PLY Polygon File Format; Point Cloud Library, The PCD F
 development kits.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from io import BytesIO

@@ -5,8 +5,6 @@ points in seconds; intensity is the reflectance times 65,535.
 Reference: ASPRS, LAS Specification 1.4 - R15.
 """
 
-from __future__ import annotations
-
 import struct
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The rays of scanners without rows and columns, from files of other programs."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..any_rays.door import RayPattern

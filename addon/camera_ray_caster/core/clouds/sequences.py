@@ -6,8 +6,6 @@ calib.txt has Tr, the transformation from the scanner to that camera, and no len
 Reference: see ``programs.kitti``.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 import numpy as np

@@ -7,8 +7,6 @@ ray, whose axes are s1 >= s2. A texel is at most as wide as the smallest s2 of t
 very flat, as at the poles of a panorama, as half of s1: finer texels would hold no more of the picture's detail.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import atan, degrees, tan

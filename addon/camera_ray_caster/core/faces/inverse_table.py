@@ -6,8 +6,6 @@ middles of texels a place is interpolated linearly; the error is measured halfwa
 largest.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

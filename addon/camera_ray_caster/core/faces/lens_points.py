@@ -5,8 +5,6 @@ that no disc would do: its points fill a ball with the density 1 / sqrt(radius^2
 disc of uniform density. The ray of every point passes through the point of focus of the chief ray, as in a cast.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

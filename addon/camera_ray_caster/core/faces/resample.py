@@ -5,8 +5,6 @@ interpolated linearly between the four nearest texels of its face. Faces have FI
 without a ray are transparent; a pixel whose middle has no ray is, too.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

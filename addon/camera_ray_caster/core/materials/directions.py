@@ -1,7 +1,5 @@
 """Directions into the background, at which the color of the world is evaluated."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -3,8 +3,6 @@
 Colors and vectors have three channels, values one.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

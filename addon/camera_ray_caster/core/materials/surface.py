@@ -1,7 +1,5 @@
 """The surface of a material as the passes show it, and which of its points are hit."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

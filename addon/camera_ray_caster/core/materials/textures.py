@@ -4,8 +4,6 @@ Reference: Blender's manual, Image Texture Node; the order of the steps is that 
 multiplied by their alpha and interpolated as they are stored, then converted to linear.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The shapes of a motion that move, apart from those that stand still."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 

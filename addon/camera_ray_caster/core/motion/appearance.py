@@ -1,7 +1,5 @@
 """The appearance of shapes between a few evaluations: colors, lights and maps are interpolated, indices are not."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

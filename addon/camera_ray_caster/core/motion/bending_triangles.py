@@ -1,7 +1,5 @@
 """Triangles of a mesh that bends, each at a time of its own, to the bits of ``deformation``."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..mesh import LooseTriangles

@@ -1,7 +1,5 @@
 """Meshes that deform between a few evaluations: each vertex moves on the polynomial through its evaluated positions."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

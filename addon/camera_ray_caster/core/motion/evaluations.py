@@ -12,8 +12,6 @@ shapes appear or disappear, and places jump: such a moment is found to SHORTEST.
 the evaluations can be missed; whole frames and those with keys are evaluated first.
 """
 
-from __future__ import annotations
-
 from bisect import bisect_right
 from collections.abc import Callable, Generator, Iterable, Iterator
 from dataclasses import dataclass, replace

@@ -1,8 +1,6 @@
 """The distance in pixels between the images of the same points in two states of a scene, such as an interpolated and an
 evaluated one: the error of the first."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import product
 

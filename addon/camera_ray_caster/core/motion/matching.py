@@ -1,7 +1,5 @@
 """Corresponding shapes in two readings of a scene."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..records import MESH, Shapes

@@ -1,7 +1,5 @@
 """Weighted means of the evaluations of an interval; the weights have the sum 1."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import fields, is_dataclass, replace
 

@@ -2,8 +2,6 @@
 can say of them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection
 
 from ..records import InputError, Shapes

@@ -1,7 +1,5 @@
 """The motion of a scene that is not resolved yet, and by cameras of another size: for pictures to look at."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise

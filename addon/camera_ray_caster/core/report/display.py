@@ -1,7 +1,5 @@
 """Passes as pictures: numbers of any range, mapped to colors that a screen can show."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..casting.passes import AS_IS, COUNTED, PASSES, RANGE, SIGNED

@@ -1,7 +1,5 @@
 """Meanings of the numbers in the index passes, so that files can be used without the .blend."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

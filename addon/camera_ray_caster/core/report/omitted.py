@@ -1,7 +1,5 @@
 """The work that a cast did not need to do, in words."""
 
-from __future__ import annotations
-
 from ..casting.passes import PASSES
 from ..casting.plan import Plan
 from ..shapes import kinds

@@ -1,7 +1,5 @@
 """Notes on passes that show something else than their readers may expect."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from ..camera.camera import Camera

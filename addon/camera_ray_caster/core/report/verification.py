@@ -9,8 +9,6 @@ needs no reference. Its bound is our own float64 rounding, so it is added to eve
 * the rounding of the pixel itself.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The search among shapes that are rows of constants: large shapes one by one, small shapes in batches."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property, partial

@@ -1,7 +1,5 @@
 """Convex hulls of points, such as triangles and boxes: the pixels in which they may be seen, and their least t."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..maths.speed import taken

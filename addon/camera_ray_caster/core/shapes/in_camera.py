@@ -1,7 +1,5 @@
 """Shapes in the frame of a camera: centers, inverse axes and bounding spheres."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..conventions import EPS, gamma

@@ -1,7 +1,5 @@
 """Shapes in object space, stored once per mesh or point cloud, and their instances in the world."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """The kinds of shapes. A new kind needs a file of its own and an entry in SHAPE_KINDS; ``kind`` has its interface."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

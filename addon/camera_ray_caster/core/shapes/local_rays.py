@@ -3,8 +3,6 @@
 Values that depend on the shape alone, which are most of the work, are computed once and looked up for each ray.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

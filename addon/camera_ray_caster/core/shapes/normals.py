@@ -3,8 +3,6 @@
 The last column is 0, for pixels that hit nothing (index -1).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

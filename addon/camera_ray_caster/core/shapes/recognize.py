@@ -4,8 +4,6 @@ A renderer draws the faces, the caster the shape that they represent. So the fac
 must go round the sphere once, or fill the parallelogram. All is computed in float64 from the stored float32.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -5,8 +5,6 @@ ellipsoid. The latter is computed in these two steps: the product A^-T A^-1 woul
 an error of q along a short axis is an error along the normal, which does not change its direction.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

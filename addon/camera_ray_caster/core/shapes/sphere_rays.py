@@ -16,8 +16,6 @@ References: E. Haines et al., Precision Improvements for Ray/Sphere Intersection
 D. Goldberg, What Every Computer Scientist Should Know About Floating-Point Arithmetic (1991), section 1.4.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

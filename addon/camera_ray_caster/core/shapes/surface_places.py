@@ -1,7 +1,5 @@
 """Points of shapes at which the expressions of materials are evaluated."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Points of surfaces that move with their shapes from one reading of a scene to another."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, NamedTuple
 

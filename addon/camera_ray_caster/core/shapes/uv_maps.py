@@ -1,7 +1,5 @@
 """The UV maps of meshes that are cast as exact shapes, in the coordinates of the surfaces: see ``Shapes.uv``."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -7,8 +7,6 @@ triangles around a vertex, unless all materials keep them. In Blender before 5.2
 do not count in that mean; here they do in every version.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

@@ -1,7 +1,5 @@
 """Error bounds of hits on triangles; ``errors.hit_errors`` explains what they bound and how."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

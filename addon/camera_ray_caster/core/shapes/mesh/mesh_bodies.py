@@ -1,7 +1,5 @@
 """The triangles of meshes as bodies, decided as those of a picture are: see ``triangles``."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Points of meshes that move with their triangles, for meshes that change their form or are flat."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

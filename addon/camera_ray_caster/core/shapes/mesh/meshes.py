@@ -1,7 +1,5 @@
 """Triangle meshes: world = center + axes @ (vertex - the mesh's middle), any affine image of any mesh."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...records import MESH, Shapes

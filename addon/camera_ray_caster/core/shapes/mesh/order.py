@@ -1,7 +1,5 @@
 """The order in which triangles are tested: the nearest first, in parts, so that these hide many of the others."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 

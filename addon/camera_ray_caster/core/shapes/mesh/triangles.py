@@ -10,8 +10,6 @@ C. Benthin and I. Wald, Watertight Ray/Triangle Intersection, JCGT 2 (2013); M. 
 Conversion using 2D Homogeneous Coordinates, 1997 (no clipping).
 """
 
-from __future__ import annotations
-
 from functools import reduce
 from typing import Any
 
