@@ -6,8 +6,8 @@ import bpy
 import numpy as np
 from parts import BUTTON, addon, load
 
-PAUSE = 2.0
-"""Seconds that the window may stand still beside a cast that takes many times as long, on busy cores."""
+PAUSE = 10.0
+"""Seconds after which the window stands still: casts here take minutes, and others may take the cores meanwhile."""
 
 
 def begin(user, scenes, size, name="depth"):
