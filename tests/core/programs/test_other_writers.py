@@ -157,6 +157,15 @@ def test_of_echoed_messages_the_first_is_read(tmp_path):
         lenses_of(written(tmp_path, "two.yaml", f"{message}---\nK: 1\n"))
 
 
+@pytest.mark.parametrize("size", [
+    {"image_resolution": [400, 300]}, {"image_size_hw": [300, 400]}, {"resolution_x": 400, "resolution_y": 300},
+    {"image_dims": [400, 300]}, {"width_px": 400, "height_px": 300}, {"calib_size": [400, 300]},
+], ids=lambda size: next(iter(size)))  # fmt: skip
+def test_sizes_by_other_names(size, tmp_path):
+    (lens,) = lenses_of(written(tmp_path, "camera.json", {"K": K(300, 200, 150)} | size))
+    assert lens.size == (400, 300)
+
+
 BENT = "Kd", "ks", "extra_params", "fisheye_params", "poly", "lens_correction", "distortion_w"
 
 

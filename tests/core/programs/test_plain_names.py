@@ -54,7 +54,7 @@ def test_photon_vision_called_its_distortion_extrinsics(tmp_path):
     "entries",
     [
         {"kappa": [-0.3, 0.05]}, {"dc": [-0.3, 0.05, 0, 0]}, {"lens": {"k1": -0.3, "k2": 0.05}}, {"kappa1": -0.3},
-        {"lens_coeffs": [-0.3, 0.05, 0, 0]}, {"params": [-0.3, 0.05, 0, 0]}, {"poly": {"a": 1, "k1": -0.3}},
+        {"lens_coeffs": [-0.3, 0.05, 0, 0]}, {"params": [-0.3, 0.05, 0, 0]}, {"curve": {"a": 1, "k1": -0.3}},
         {"radial_distortion_map": {"a": [-0.3]}}, {"k7": 0.5}, {"lens": {"distortion": [-0.3, 0.05]}},
         {"lens_model": {"coefficients": [-0.3, 0.05]}}, {"type_params": [-0.3, 0.05]}, {"values": [-0.3, 0.05]},
         {"fov_distortion": 0.5}, {"radial_distortion_1": -0.3}, {"alpha": 0.5, "beta": 0.05}, {"polynomial": [0.5]},

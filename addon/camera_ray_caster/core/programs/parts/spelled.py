@@ -34,10 +34,13 @@ FX, FY = ("fx", "flx", "focalx", "focallengthx", "fu"), ("fy", "fly", "focaly", 
 CX = "cx", "ppx", "principalpointx", "centerx", "cu"
 CY = "cy", "ppy", "principalpointy", "centery", "cv"
 FOCAL, CENTER = ("focallength", "f", "focal", "fc"), ("principalpoint", "center", "imagecenter", "cc")
-WIDTH = "imagewidth", "width", "w", "cols", "imgwidth", "imwidth"
-HEIGHT = "imageheight", "height", "h", "rows", "imgheight", "imheight"
-SIZE = "imagesize", "resolution", "imagedimension", "size", "imsize", "imgsize", "framesize", "cameraresolution", "dim"
-SHAPE = "imageshape", "imgshape", "shape"
+WIDTH = "imagewidth", "width", "w", "cols", "imgwidth", "imwidth", "widthpx", "resolutionx"
+HEIGHT = "imageheight", "height", "h", "rows", "imgheight", "imheight", "heightpx", "resolutiony"
+SIZE = (
+    "imagesize", "resolution", "imagedimension", "size", "imsize", "imgsize", "framesize", "cameraresolution", "dim",
+    "imageresolution", "imagedimensions", "imagedims", "calibsize", "calibrationsize", "imagesizewh", "sizewh", "wh",
+)  # fmt: skip
+SHAPE = "imageshape", "imgshape", "shape", "imagesizehw", "sizehw", "hw"
 """Names of a size that begins with the rows, as arrays of numpy have it."""
 CONTAINERS = {
     *MATRIX, *DISTORTION, "radial", "tangential", "camera", "cameraparameters", "calibration", "projectionparameters",
