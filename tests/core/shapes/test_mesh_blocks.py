@@ -13,12 +13,13 @@ from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.pixels import passes_at
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.shapes.mesh.mesh_in_camera import MeshesInView
+from camera_ray_caster.core.shapes.windows import pixels_in
 
 from ..cameras.model_examples import EXAMPLES, IDENTITY, camera
 from ..cameras.table_examples import pinhole
 from ..casting.test_cast import camera_at
-from .meshes import ball, shapes_of, soup
-from .test_mesh import SMALL, each_model
+from .meshes import ball, mesh_of, shapes_of, soup
+from .test_mesh import SMALL, assert_nearest, each_model, examples
 
 
 @pytest.mark.parametrize("key", ["PERSP", "RAY_TABLE"])
@@ -81,6 +82,29 @@ def test_blocks_leave_out_nothing_that_is_seen(key, far):
         )
         for name, image in seen.items():
             np.testing.assert_array_equal(image, everywhere[name])
+
+
+@pytest.mark.parametrize("key", ["OPENCV_PINHOLE", "OPENCV_FISHEYE", "EQUIRECTANGULAR", "PUSHBROOM", "CROSS_SLIT"])
+def test_bounds_of_wide_triangles_are_those_of_their_quarters(key, monkeypatch):
+    """They have fewer pixels, and leave out nothing that brute force sees. The triangles are large, long and thin."""
+    random = np.random.default_rng(8)
+    corners = random.normal(size=(12, 1, 3)) * 2 + random.normal(size=(12, 3, 3)) * random.uniform(0, 4, (12, 1, 3))
+    shapes = shapes_of((mesh_of(corners.reshape(-1, 3), np.arange(36).reshape(-1, 3)), (0.0, 0.0, -2.0), 1.0))
+    pixels = []
+
+    def triangles(self, blocks):
+        bounded = original(self, blocks)
+        pixels[-1] += pixels_in(bounded.bounds.astype(int)).sum()
+        return bounded
+
+    original = MeshesInView.triangles
+    monkeypatch.setattr(MeshesInView, "triangles", triangles)
+    for wide in (1 << 20, 4):
+        monkeypatch.setattr(tuning, "HALVED_PIXELS", wide)
+        pixels.append(0)
+        for cam in examples(key):
+            assert_nearest(cam, shapes)
+    assert 0 < pixels[1] < 0.9 * pixels[0], pixels
 
 
 @each_model

@@ -2,9 +2,15 @@
 
 import numpy as np
 
+from .. import tuning
+from ..conventions import EPS
 from ..maths.speed import taken
 from .kind import PixelBounds
 from .shape_frames import BOUNDS_FACTOR
+from .windows import pixels_in
+
+MIDPOINT_ROUNDING = 4 * EPS
+"""Error bound of the corners of quarters of quarters of triangles, over the largest coordinate of the triangle."""
 
 
 class HullPoints:
@@ -63,12 +69,36 @@ class HullPoints:
     def _in_balls(self, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return the same as ``hulls``, from balls around the corners."""
         places = self.at(corners)
+        bounds, near, seen = self._around(places, MIDPOINT_ROUNDING * np.abs(places).max(axis=(0, 1)), tuning.HALVINGS)
+        at = np.flatnonzero(seen)
+        return bounds[at].astype(self._type), near[at], at
+
+    def _around(
+        self, places: np.ndarray, rounding: np.ndarray, halvings: int
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return bounds, (k, 4), lower bounds of t, (k,), and whether some pixel may see them, (k,), of hulls of places
+        (c, 3, k), which are uncertain by ``rounding``, (k,). Triangles in many pixels are bounded by the balls of their
+        quarters, and these by those of theirs, at most ``halvings`` times.
+        """
         low, high = np.minimum.reduce(places), np.maximum.reduce(places)
         middle = low / 2 + high / 2
         radius = BOUNDS_FACTOR * np.sqrt(np.maximum.reduce([((corner - middle) ** 2).sum(axis=0) for corner in places]))
+        radius += rounding
         bounds, seen = self._pixels.of_balls(middle.T, radius)
-        at = np.flatnonzero(seen)
-        return bounds[at].astype(self._type), self._pixels.least_t(middle.T, radius)[at], at
+        near = self._pixels.least_t(middle.T, radius)
+        wide = np.flatnonzero(seen & (pixels_in(bounds) > tuning.HALVED_PIXELS))
+        if len(places) != 3 or not halvings or not wide.size:
+            return bounds, near, seen
+        a, b, c = places[..., wide]
+        ab, bc, ca = a / 2 + b / 2, b / 2 + c / 2, c / 2 + a / 2
+        quarters = np.concatenate(np.array(((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))), axis=-1)
+        parts, least, inside = self._around(quarters, np.tile(rounding[wide], 4), halvings - 1)
+        parts[~inside] = bounds.max(), 0, bounds.max(), 0  # of no pixel
+        for side, within, over in (0, np.maximum, np.minimum), (1, np.minimum, np.maximum):
+            bounds[wide, side::2] = within(bounds[wide, side::2], over.reduce(parts[:, side::2].reshape(4, -1, 2)))
+        near[wide] = np.maximum(near[wide], least.reshape(4, -1).min(axis=0))
+        seen[wide] = inside.reshape(4, -1).any(axis=0)
+        return bounds, near, seen
 
 
 def _turn_ends(bounds: np.ndarray) -> None:
