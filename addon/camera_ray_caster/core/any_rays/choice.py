@@ -18,10 +18,10 @@ counts. With 160 x 90 to 1280 x 720 pixels 14,400 triangles take 0.2 to 0.7 of t
 1,000 spheres 0.1 to 0.2, 100 spheres 0.8 to 1.2.
 """
 
-TRIANGLES_OF_TABLE, NEARBY = 40_000, 1 / 64
+TRIANGLES_OF_TABLE, NEARBY = 40_000, 1 / 128
 """The same for a model with wide bounds whose origins are within this part of the median distance of shapes: ray tables
-take 0.6 to 0.8 of the time in a street of 49,000 triangles, 0.8 to 1.0 in a room of 79,000, and 1.0 to 1.1 where 25,000
-triangles are on a table; with origins farther apart 0.7 to 1.3.
+take 0.8 to 0.85 of the time in a street of 49,000 triangles, 0.77 in a room of 79,000, and 1.5 to 1.6 where 25,000
+triangles are on a table; with origins twice as far apart 1.3 in the room; with those within 40 cm 1.3, 0.7 and 2.3.
 """
 
 PROBES = 8
