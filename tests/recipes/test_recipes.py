@@ -72,8 +72,6 @@ def test_a_kind_of_shape(copy):
         ('"""A toy kind of shape, in one file: the', '"""The'),
         ("from camera_ray_caster.core.shapes.affine", "from ..records import DISC\nfrom .affine"),
         ("camera_ray_caster.core.", ".."),
-        ("class Disc(", "class DiscKind("),
-        ("DISCS = Disc()", "DISCS = DiscKind()"),
         ("number = 7", "number = DISC"),
         ('"disc"', '"round disc"'),
     )

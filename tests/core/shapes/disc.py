@@ -20,7 +20,7 @@ class Constants:
     offset: np.ndarray
 
 
-class Disc(AffineKind):
+class DiscKind(AffineKind):
     """Discs and, by an affine matrix, ellipses."""
 
     number = 7
@@ -70,4 +70,4 @@ class Disc(AffineKind):
         return hits.local.frame.rounding
 
 
-DISCS = Disc()
+DISCS = DiscKind()

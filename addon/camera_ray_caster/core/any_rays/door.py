@@ -156,8 +156,8 @@ def occluded(origins, targets, shapes: Shapes, *, times=None, threads: int | Non
 
 def _threads(threads, shapes: Shapes, each: np.ndarray | None, passes: tuple[str, ...], count: int) -> int:
     """Return how many threads share some rays, for which the shapes are prepared."""
-    most = processors() if threads is None else arguments.count(threads, "threads")
-    return sharing(most, count / SHARED_RAYS) if prepare(shapes, each, passes) else 1
+    limit = processors() if threads is None else arguments.count(threads, "threads")
+    return sharing(limit, count / SHARED_RAYS) if prepare(shapes, each, passes) else 1
 
 
 def _share(
