@@ -130,6 +130,8 @@ def intersect(sphere: SphereConstants, origin, direction, start, scratch):
         return np.divide(sphere.scale * c, np.add(b, root, out=root), out=root), None
     stable = b + np.copysign(root, b)
     first, second = sphere.scale * c / stable, sphere.scale * stable / dot(d, d)
+    noise = np.abs(first) > 2 * np.abs(second)  # the second is the larger root, but c may be 0 by rounding
+    first = np.where(noise, np.copysign(second, first), first)
     near, far = np.minimum(first, second), np.maximum(first, second)
     t = np.where(near >= start, near, far)
     return np.where(t >= start, t, np.nan), None

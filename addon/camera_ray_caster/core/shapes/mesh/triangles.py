@@ -32,6 +32,9 @@ STEEP = 2.0**-16
 seen edge-on, t is clamped to the range of the t of the corners.
 """
 
+IN_BOX = 2.0**-32
+"""Relative distance by which t may then lie outside of the triangle's box: t that are right keep their bits."""
+
 EDGES = (1, 2), (2, 0), (0, 1)
 """The corners of the edge opposite to each corner."""
 
@@ -101,7 +104,8 @@ def side(corners: np.ndarray) -> np.ndarray:
 
 def crossing(corners: Any, origin: Any, d: Any) -> np.ndarray:
     """Return t, (m,), at which rays meet the planes of their triangles; ``origin`` is None for rays from the eye. Where
-    rounding could make t far wrong (see STEEP), it is clamped to the t of the corners.
+    rounding could make t far wrong (see STEEP), it is clamped to the t of the corners, and to the t between which the
+    ray is in the triangle's box: then no hit depends on which boxes are searched first.
     """
     normal, product = plane(corners)
     slope = dot(normal, d)
@@ -109,8 +113,12 @@ def crossing(corners: Any, origin: Any, d: Any) -> np.ndarray:
     poor = np.flatnonzero(~(np.abs(slope) > STEEP * product * norm(d)))
     if poor.size:
         ahead, start = (None if vector is None else tuple(c[poor] for c in vector) for vector in (d, origin))
-        ends = [dot(from_origin([c[poor] for c in corner], start), ahead) / dot(ahead, ahead) for corner in corners]
-        t[poor] = np.fmax(np.fmin(t[poor], np.maximum.reduce(ends)), np.minimum.reduce(ends))
+        places = np.array([from_origin([c[poor] for c in corner], start) for corner in corners])
+        ends = [dot(place, ahead) / dot(ahead, ahead) for place in places]
+        sides = [places.min(axis=0) / ahead, places.max(axis=0) / ahead]  # NaN, of sides along the ray, tells nothing
+        enter = np.fmax(np.minimum.reduce(ends), np.fmax.reduce(np.minimum(*sides)))
+        leave = np.fmin(np.maximum.reduce(ends), np.fmin.reduce(np.maximum(*sides)))
+        t[poor] = np.fmin(np.fmax(t[poor], enter - IN_BOX * np.abs(enter)), leave + IN_BOX * np.abs(leave))
     return t
 
 
