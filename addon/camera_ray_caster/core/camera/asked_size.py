@@ -3,8 +3,6 @@
 Reference: Blender manual, Cameras > Panoramic, where an equirectangular picture is twice as wide as high.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from ..cameras import find_model

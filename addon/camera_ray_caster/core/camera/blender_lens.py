@@ -9,8 +9,6 @@ The settings are rounded to float32, as Blender stores them, before errors are m
 Reference: Blender manual, Cameras.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any

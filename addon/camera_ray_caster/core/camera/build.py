@@ -1,7 +1,5 @@
 """Construction of a camera from a record: its model, pose, raster, aperture and pixel times."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..cameras import find_model

@@ -1,7 +1,5 @@
 """The calibration file of a camera: its numbers replace the settings, with all their digits."""
 
-from __future__ import annotations
-
 from ..cameras import MODELS
 from ..cameras.model import Model
 from ..cameras.parts.calibration import CENTER, FILE, FILE_CAMERA, SIZE

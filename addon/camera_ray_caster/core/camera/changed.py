@@ -1,7 +1,5 @@
 """A camera moved to another pose, and the record of one with other settings."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any

@@ -3,8 +3,6 @@
 The rules stand beside the settings that they are about: ``partner``, ``left_out`` and ``used_with`` of ``Setting``.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

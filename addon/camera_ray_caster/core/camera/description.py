@@ -1,7 +1,5 @@
 """What a camera says of itself: its size, matrices, settings, its line of text, and which other camera equals it."""
 
-from __future__ import annotations
-
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 

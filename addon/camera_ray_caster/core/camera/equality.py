@@ -1,7 +1,5 @@
 """Equality of records whose fields are arrays, and records in one line."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 from numbers import Real

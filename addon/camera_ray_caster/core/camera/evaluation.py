@@ -4,8 +4,6 @@ Working arrays are reused from block to block only while they are small: C's mal
 which clears their memory anew, and that takes longer than the arithmetic. ``camera``: a ``Camera`` without pixel times.
 """
 
-from __future__ import annotations
-
 from contextlib import nullcontext
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """The properties of a camera, in the terms of ray tracing and computer vision: for the report and the panels."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..cameras.model import WindowModel

@@ -9,8 +9,6 @@ Singular: parameters that move all pixels alike, such as focal length and sensor
 HELD keep their values unless they are asked for.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from math import degrees, floor

@@ -1,7 +1,5 @@
 """Where the fit of a model begins: a lens with the same scale about the viewing direction."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any

@@ -5,8 +5,6 @@ where a pixel's own rounding turns the ray, as at the rim of a mirror ball; othe
 the exact derivatives of the rays, starts at the pixel, and brings the ray to the point or finds none.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..cameras.model import Model

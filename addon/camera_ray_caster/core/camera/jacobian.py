@@ -19,8 +19,6 @@ kink, as between two stretches of a strip camera's path, the derivatives are one
 Reference: H. Igehy, Tracing Ray Differentials, SIGGRAPH 1999.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -5,8 +5,6 @@ piece; if its last coefficients have not decreased to rounding, the piece is hal
 Reference: L. Trefethen, Approximation Theory and Approximation Practice (2013), chapters 3, 8 and 18.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Pixel coordinates given by a caller: checked, divided into blocks for threads, and divided by time."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise

@@ -9,8 +9,6 @@ the same picture turned. Scanner: beam by beam, as the model says; see ``cameras
 Source: G. Levin, An Informal Catalogue of Slit-Scan Video Artworks (2005).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

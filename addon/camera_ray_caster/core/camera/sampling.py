@@ -5,8 +5,6 @@ steps are powers of the plastic number. In the opening they are shifted by a has
 1976), so that the remaining error looks like fine noise and not like ghost images.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

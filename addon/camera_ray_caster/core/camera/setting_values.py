@@ -1,7 +1,5 @@
 """Values of settings from Python and numpy, turned into those of a record."""
 
-from __future__ import annotations
-
 import os
 import warnings
 from collections.abc import Callable, Mapping

@@ -16,8 +16,6 @@ the altitude, which is found by bisection.
 References: Blender manual, Stereoscopy; source of Cycles, kernel/camera; rays read out of Cycles.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from math import inf, pi, sin, sqrt, tan
 

@@ -15,8 +15,6 @@ A model with eyes of its own (omnidirectional stereo) is not moved either; the v
 Source: Blender manual, Stereoscopy; measured against RenderEngine.camera_model_matrix and camera_shift_x.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import atan, cos, sin
 

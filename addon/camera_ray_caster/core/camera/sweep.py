@@ -1,7 +1,5 @@
 """The rays of a scanner that moves while it sweeps: each beam leaves from where the scanner is when it fires."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

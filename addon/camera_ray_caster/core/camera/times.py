@@ -1,7 +1,5 @@
 """Pixel times: the frame of each pixel as a function of its coordinates; see ``pixel_time``."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Protocol, TypeVar
 

@@ -1,7 +1,5 @@
 """Camera records for a window: of a free view, from its matrices, and of a camera's frame at its size on screen."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

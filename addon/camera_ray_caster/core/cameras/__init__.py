@@ -1,7 +1,5 @@
 """The camera models, one file each. A new model needs its own file and one word in MODELS."""
 
-from __future__ import annotations
-
 from ..records import BlenderCamera, InputError
 from .behind_port import behind
 from .camera_obscura import CameraObscura

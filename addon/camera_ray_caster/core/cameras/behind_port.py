@@ -9,8 +9,6 @@ at one face after the other.
 See ``parts.port`` for the inverse and references.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cache
 from operator import attrgetter

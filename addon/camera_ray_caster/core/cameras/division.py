@@ -8,8 +8,6 @@ References: A. Fitzgibbon, Simultaneous Linear Estimation of Multiple View Geome
 documentation, Camera Models, where lambda is k.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import inf
 

@@ -7,8 +7,6 @@ Singular: the edge of the picture, at r = 1 / sqrt(2 alpha - 1) if alpha > 1/2.
 Reference: V. Usenko, N. Demmel and D. Cremers, The Double Sphere Camera Model (2018).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from .model import Step

@@ -7,8 +7,6 @@ Singular: the edge of the picture, at r = 1 / sqrt(beta (2 alpha - 1)) if alpha 
 Reference: B. Khomutenko, G. Garcia and P. Martinet, An Enhanced Unified Camera Model (2016).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from .model import Step

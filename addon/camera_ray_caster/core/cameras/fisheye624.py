@@ -10,8 +10,6 @@ Singular: that angle, and the point straight behind the eye.
 References: Project Aria documentation, Camera Intrinsic Models; COLMAP documentation, Camera Models.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from .model import Step

@@ -7,8 +7,6 @@ Singular: that angle. With omega 0 it is a pinhole, r = tan(theta), without an e
 References: F. Devernay and O. Faugeras, Straight Lines Have to Be Straight (2001); COLMAP documentation, Camera Models.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import atan, inf, pi, radians
 

@@ -9,8 +9,6 @@ Reference: J. Kannala and S. Brandt, A Generic Camera Model and Calibration Meth
 camera model.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from .model import Step

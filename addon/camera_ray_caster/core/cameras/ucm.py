@@ -8,8 +8,6 @@ References: C. Mei and P. Rives, Single View Point Omnidirectional Camera Calibr
 documentation, Omnidirectional Camera Calibration.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from .model import Step

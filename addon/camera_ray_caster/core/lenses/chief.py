@@ -10,8 +10,6 @@ References: J. Boyd, Chebyshev and Fourier Spectral Methods, 2nd ed. (2001), sec
 Engineering, 4th ed. (2008), section 9 (pupils).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import inf, pi

@@ -1,7 +1,5 @@
 """A lens in focus: where the film stands, and the chief rays from there."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import lru_cache
 

@@ -1,7 +1,5 @@
 """Lens files, of several programs: found out by their text, and read into a ``Prescription``."""
 
-from __future__ import annotations
-
 import os
 import stat
 from functools import lru_cache

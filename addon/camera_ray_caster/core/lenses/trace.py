@@ -10,8 +10,6 @@ numbers or arrays, and can be recorded.
 References: W. Smith, Modern Optical Engineering, 4th ed. (2008), chapter 10; M. Born and E. Wolf, Principles of Optics.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

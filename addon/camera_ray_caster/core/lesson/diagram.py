@@ -1,7 +1,5 @@
 """A diagram of a camera in space, as points and line segments: its image in front of it, and some of its rays."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -6,8 +6,6 @@ multiplied, from left to right together with divisions. A superscript is a power
 assigned.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager

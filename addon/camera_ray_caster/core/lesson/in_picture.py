@@ -1,7 +1,5 @@
 """Points and line segments of the world where a camera's picture shows them: through its model, within its frame."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..camera.camera import Camera

@@ -4,8 +4,6 @@ All is traced from the film, surface by surface (``core.lenses.trace``), the way
 Points are in the camera's frame, in Blender units; segments are (n, 2, 3).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 

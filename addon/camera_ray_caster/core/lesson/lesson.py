@@ -1,7 +1,5 @@
 """Explanation of a pixel in steps, with numbers: raster, view coordinates, model formula, ray, shapes, hit, color."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """The color of one pixel in words: its material, the light of each lamp and of the world, the grid, and the product."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

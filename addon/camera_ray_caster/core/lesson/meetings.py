@@ -3,8 +3,6 @@
 The code is independent of the search for hits. It is written to be read; only boxes that the line misses are left out.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The section of a real lens through its axis and a pixel of the film, as a picture: glass, stop, film, and rays."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Cameras made from a model's key and settings, or from a calibration file."""
 
-from __future__ import annotations
-
 import os
 from textwrap import fill
 from typing import Any

@@ -1,7 +1,5 @@
 """Point clouds written into files."""
 
-from __future__ import annotations
-
 import os
 
 from .. import arguments

@@ -1,7 +1,5 @@
 """A pixel explained step by step, at its own time."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The pose of a camera that a calibration file has beside its lens."""
 
-from __future__ import annotations
-
 import re
 import warnings
 

@@ -1,7 +1,5 @@
 """Cameras written to files of other programs, without Blender, under a path that may tell the format."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import wraps

@@ -1,7 +1,5 @@
 """The camera of another model nearest to a camera, without Blender."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from typing import Any
 

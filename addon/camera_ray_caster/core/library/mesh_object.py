@@ -2,8 +2,6 @@
 and their colors: of vertices, of faces, or by a texture.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The list of camera models, and adding to it."""
 
-from __future__ import annotations
-
 import re
 
 from ..arguments import count, shown, word

@@ -1,7 +1,5 @@
 """Poses: the matrices from the frame of a camera, or of a mesh, to the world."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..arguments import keywords, numbers, shown

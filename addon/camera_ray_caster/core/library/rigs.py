@@ -1,7 +1,5 @@
 """The cameras of files with their poses, without Blender."""
 
-from __future__ import annotations
-
 import os
 import warnings
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Shapes made from arrays, without Blender: spheres, planes and triangle meshes."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

@@ -8,8 +8,6 @@ for Extending the Available Precision (1971); Ogita, Rump, Oishi, Accurate Sum a
 Accuracy and Stability of Numerical Algorithms, 2nd ed., chapter 12 (refinement with precise residuals).
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -3,8 +3,6 @@
 Reference: W. Press et al., Numerical Recipes, 3rd ed. (2007), section 9.4 (rtsafe) for the bracket.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property

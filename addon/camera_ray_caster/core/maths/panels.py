@@ -5,8 +5,6 @@ pixel. For fisheyes that compute sines or iterate, whole casts take 0.6 to 0.9 o
 result of ``Camera.rays`` takes 0.1 to 0.8 of the time. Models say where it pays: see ``Model.polynomials``.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import chain

@@ -1,7 +1,5 @@
 """Polynomials: their values, and their positive roots for coefficients of any size."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import inf
 

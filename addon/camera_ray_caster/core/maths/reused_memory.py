@@ -2,8 +2,6 @@
 it. The settings of the C library, which keeps small blocks itself, are those of the whole process and stay as they are.
 """
 
-from __future__ import annotations
-
 from math import prod
 
 import numpy as np

@@ -3,8 +3,6 @@
 References: K. Shoemake, T. Duff, Matrix Animation and Polar Decomposition (1992); O. Rodrigues (1840).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 

@@ -1,7 +1,5 @@
 """Vectors as three components that broadcast: a pinhole's x stays a row, its y a column, its z a number."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .recording import array

@@ -6,8 +6,6 @@ with the view along +Z, x right, y up. Cycles handles the camera's pose and the 
 Reference: Blender manual, Cycles, Open Shading Language, Cameras.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, is_dataclass, replace

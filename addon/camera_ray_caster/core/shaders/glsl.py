@@ -6,8 +6,6 @@ References: The OpenGL ES Shading Language 3.00, chapters 4.5 and 8; Vulkan, Pre
 Instructions (which WebGL often runs on); S. Moshier, Cephes (atanf), whose polynomial is used.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

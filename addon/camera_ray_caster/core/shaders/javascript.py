@@ -3,8 +3,6 @@
 Reference: ECMAScript 2015, chapter 20.2 (Math).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

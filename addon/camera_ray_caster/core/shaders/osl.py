@@ -4,8 +4,6 @@ OSL has no NaN: a division by zero gives 0 there, and so does the root of a nega
 Reference: Open Shading Language 1.14, Language Specification, chapters 5 and 7.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field

@@ -4,8 +4,6 @@ The text depends on the model and on which terms its formula has, not on the val
 compiled from it serves while a setting is dragged.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

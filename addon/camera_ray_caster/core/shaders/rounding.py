@@ -6,8 +6,6 @@ of a loop count as exact: here a step of Newton's method follows each iteration 
 Reference: N. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), section 3.3, running error bounds.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from math import isnan
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """Accuracy of the rays of a camera's shader in Cycles' float32, compared with the camera's own rays."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import NamedTuple
 

@@ -7,8 +7,6 @@ itself. Its first and last row are marks: they tell whether t runs from the top 
 Reference: Open Shading Language 1.14, Language Specification, chapter 7, texture.
 """
 
-from __future__ import annotations
-
 from hashlib import sha256
 
 import numpy as np

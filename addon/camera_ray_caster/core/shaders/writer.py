@@ -4,8 +4,6 @@ A language is a subclass of ``Writer``: its names of types, the text of each ope
 If it has no NaN, each value is accompanied by a truth value that tells whether the value is undefined.
 """
 
-from __future__ import annotations
-
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence

@@ -4,8 +4,6 @@ A formula branches on its settings. Each way through the branches is a variant o
 the given settings and at settings spread over the ranges of the knobs.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Figures of a lecture on cameras and ray generation, as states with which the page can begin."""
 
-from __future__ import annotations
-
 from typing import Any
 
 

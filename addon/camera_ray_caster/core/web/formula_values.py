@@ -3,8 +3,6 @@
 They are those that ``core.lesson`` puts in, except for the facts of reports that take no part in the rays.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any

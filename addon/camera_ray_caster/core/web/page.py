@@ -3,8 +3,6 @@
 It holds the programs of all models and the files of ``page_files``.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from functools import cache

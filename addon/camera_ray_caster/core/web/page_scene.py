@@ -4,8 +4,6 @@ The page's axes are x right, y up and z backward, of which Blender's z is up. Sh
 without textures.
 """
 
-from __future__ import annotations
-
 import base64
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The scene of the page: a room with a grid, and balls in it. Lengths are Blender units; x right, y up, z backward."""
 
-from __future__ import annotations
-
 from typing import Any
 
 BALLS = (

@@ -1,7 +1,5 @@
 """A record of rays in two parts: what depends on settings alone, computed once, and what each pixel needs."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 from ..maths.recording import Operation, Record, needed

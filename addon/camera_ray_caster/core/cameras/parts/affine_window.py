@@ -1,7 +1,5 @@
 """A window whose axes are not the pixels' axes: for a skewed camera matrix, or a sensor that is tilted slightly."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

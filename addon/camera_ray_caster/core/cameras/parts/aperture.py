@@ -12,8 +12,6 @@ Sources: Blender manual, Cameras > Depth of Field; R. L. Cook, T. Porter, L. Car
 Cycles does the same: planar cameras are sharp on the plane at depth focus, panoramas on the sphere |p| = focus.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -5,8 +5,6 @@ of radial_tangential.py moves it, and K brings it to the pixel. Rays undo these 
 where r(theta) stops growing, or where the distortion stops being one-to-one, whichever is nearer.
 """
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace

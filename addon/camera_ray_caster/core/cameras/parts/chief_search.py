@@ -5,8 +5,6 @@ is a smooth function of it; the secant method finds its root from a table of the
 for points that are very near, the root is bracketed and bisected.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

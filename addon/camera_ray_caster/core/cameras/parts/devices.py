@@ -5,8 +5,6 @@ lengths are in meters, and count as Blender units at any Unit Scale, as those of
 References: Velodyne, VLP-16, HDL-32E and VLP-32C User Manuals; Ouster, OS1 data sheet and Software User Manual.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import cos, pi, radians, sin
 from typing import Any, NamedTuple

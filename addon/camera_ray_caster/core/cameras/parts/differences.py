@@ -1,7 +1,5 @@
 """The derivatives of what a setting determines by an iteration or a search: from differences."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from ...maths.recording import Varied

@@ -7,8 +7,6 @@ four cells that hold its own. What is entered in a cell also holds in all cells 
 Reference: L. Williams, Pyramidal Parametrics, SIGGRAPH 1983.
 """
 
-from __future__ import annotations
-
 from itertools import pairwise
 from typing import Any, NamedTuple
 

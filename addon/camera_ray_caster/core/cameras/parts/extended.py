@@ -8,8 +8,6 @@ Splines: A Perfect Fit for Signal and Image Processing (1999); an entry's influe
 entry, so that WIDE entries further on it is below 1e-7.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 WIDE = 12

@@ -6,8 +6,6 @@ has to define its rays.
 Reference: J. Nocedal and S. Wright, Numerical Optimization, 2nd ed. (2006), section 10.3.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

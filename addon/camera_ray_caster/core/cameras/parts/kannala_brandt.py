@@ -5,8 +5,6 @@ Newton's method. Further distortion is applied to the picture as in ``Calibrated
 Reference: J. Kannala and S. Brandt, A Generic Camera Model and Calibration Method (2006).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from math import inf, pi

@@ -1,7 +1,5 @@
 """The formula of a real lens in steps, and its numbers for reports."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...lenses.chief import ChiefRays

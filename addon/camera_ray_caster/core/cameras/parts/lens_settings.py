@@ -1,7 +1,5 @@
 """The settings of a real lens, beside Blender's focal length, focus distance, f-stop and sensor."""
 
-from __future__ import annotations
-
 from ...lenses.prescription import D_LINE
 from .settings import Choice, FilePath, Flag, Item, Number
 

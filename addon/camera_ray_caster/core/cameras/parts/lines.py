@@ -6,8 +6,6 @@ the end of its X axis. A curve has the first and the last control point of its f
 the (m, 2) edges between its points.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

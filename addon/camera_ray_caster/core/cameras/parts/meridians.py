@@ -6,8 +6,6 @@ latitude of a height on the image plane and the height of a latitude.
 Reference: J. P. Snyder, Map Projections: A Working Manual (1987), chapters 10 to 12, the cylindrical projections.
 """
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from dataclasses import dataclass
 from functools import cached_property

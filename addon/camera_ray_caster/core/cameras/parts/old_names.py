@@ -1,7 +1,5 @@
 """The names of models before version 1.0, which still work with a warning."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from ...arguments import deprecated

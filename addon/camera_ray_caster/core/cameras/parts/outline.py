@@ -1,7 +1,5 @@
 """Where the picture ends within the frame: along a few lines, by the rays alone, for any model."""
 
-from __future__ import annotations
-
 import numpy as np
 
 AROUND = np.array([(0, 0), (0.5, 0), (1, 0), (0, 0.5), (1, 0.5), (0, 1), (0.5, 1), (1, 1)])

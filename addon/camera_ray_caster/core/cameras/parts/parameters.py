@@ -1,7 +1,5 @@
 """The values of settings, and the real numbers among them, by which pictures change smoothly: a camera's parameters."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any

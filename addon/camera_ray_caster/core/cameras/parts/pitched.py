@@ -1,7 +1,5 @@
 """A lens whose axis is turned up or down from the viewing direction: for projectors of domes and little planets."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import pi
 

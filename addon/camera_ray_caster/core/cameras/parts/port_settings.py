@@ -1,7 +1,5 @@
 """The settings of a port: what glass is before the lens of a camera, and what is behind it."""
 
-from __future__ import annotations
-
 from math import pi
 
 from .settings import Choice, Item, Number, Numbers, Setting

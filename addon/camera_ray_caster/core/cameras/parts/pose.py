@@ -1,7 +1,5 @@
 """The pose of a camera: as Blender takes it from an evaluated matrix, and the check of matrices from elsewhere."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...arguments import numbers, shape_of

@@ -6,8 +6,6 @@ in proportion to cos^4 of its angle to the axis at the film, relative to the mid
 References: C. Kolb, D. Mitchell, P. Hanrahan, A Realistic Camera Model for Computer Graphics (1995).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from itertools import pairwise
 

@@ -12,8 +12,6 @@ Reference: OpenCV documentation, Camera Calibration and 3D Reconstruction; D. C.
 A. Sanchez-Salmeron (2010), thin prism.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 from functools import cached_property

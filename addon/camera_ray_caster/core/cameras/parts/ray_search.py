@@ -7,8 +7,6 @@ as in ``core.camera.jacobian``. The table is continued into its holes and beyond
 there.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...conventions import EPS

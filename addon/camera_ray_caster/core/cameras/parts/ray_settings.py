@@ -1,7 +1,5 @@
 """The settings of a table of rays: its entries, their axes, and what lies between them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

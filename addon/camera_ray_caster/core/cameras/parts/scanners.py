@@ -1,7 +1,5 @@
 """The settings of scanners: what a device determines, and how it is run."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import pi, radians
 from typing import Any

@@ -1,7 +1,5 @@
 """Parts of a picture by the rays that they have: the bounds of balls for a model without a closed form of its own."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from itertools import pairwise, product

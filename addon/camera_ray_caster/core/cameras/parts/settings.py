@@ -4,8 +4,6 @@ Blender's properties, the panel, the copying into a record, the report and the t
 declarations. A setting that several models share is one object, declared in ``parts``.
 """
 
-from __future__ import annotations
-
 import math
 from abc import ABC
 from dataclasses import dataclass, field, fields

@@ -3,8 +3,6 @@
 Bounds are intervals on the image plane: (-inf, inf) if a sphere may be seen everywhere, NaN if it is seen nowhere.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...maths.vector import components

@@ -1,7 +1,5 @@
 """What a camera model says of itself: the steps of its formula, and when its pixels fire."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

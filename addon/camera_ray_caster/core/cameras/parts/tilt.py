@@ -7,8 +7,6 @@ A point has an image on the sensor if that denominator is positive.
 Reference: OpenCV documentation, Camera Calibration and 3D Reconstruction (tau_x, tau_y).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product

@@ -9,8 +9,6 @@ ray through (a, b) of the upright film is (a, b) (1 + m Z) at Z, m = (1 - c) / D
 found by Newton's method, and (a, b) has its ray's point P = (a n3, b n3, -w) / (n3 + m w) on the film, w = a n1 + b n2.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from itertools import product
 from math import degrees

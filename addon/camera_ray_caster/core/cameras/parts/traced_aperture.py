@@ -1,7 +1,5 @@
 """An aperture whose rays are traced through glass: how far they come from the chief rays, measured for some pixels."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import reduce
 

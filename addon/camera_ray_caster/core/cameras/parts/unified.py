@@ -12,8 +12,6 @@ and it changes its sign at r = 1 / (sqrt(beta) |alpha|) if alpha is below 0 or a
 The picture ends where r stops growing with theta; otherwise r has no limit.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import inf
 

@@ -5,8 +5,6 @@ also write 1 for it, which a plane into air has, too. ``ior`` is a number, or li
 indices. The last medium may be other than air (an eye).
 """
 
-from __future__ import annotations
-
 import json
 from math import inf
 from typing import Any

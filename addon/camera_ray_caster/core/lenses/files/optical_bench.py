@@ -7,8 +7,6 @@ radius, k and A4, A6 ...; with AsphericalA2 in [constants] they begin with A2, w
 A5 ...
 """
 
-from __future__ import annotations
-
 from math import inf, isfinite
 
 from ...records import InputError

@@ -4,8 +4,6 @@ Places are the z of each surface's frame (cs). Coefficients of EvenAsphere are t
 those of r, r^2 ... Files seldom have rims: the stop's radius then follows from the system's aperture.
 """
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from itertools import pairwise

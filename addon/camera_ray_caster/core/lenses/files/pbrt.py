@@ -5,8 +5,6 @@ it, so that the first is 0 and the last is not. The medium of the stop is that i
 Reference: pbrt.org, Realistic Camera; C. Kolb et al., A Realistic Camera Model for Computer Graphics (1995).
 """
 
-from __future__ import annotations
-
 from math import inf, isfinite
 
 from ...records import InputError

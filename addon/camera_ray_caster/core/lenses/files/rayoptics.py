@@ -5,8 +5,6 @@ Profiles have cv = 1 / radius, and cc, the conic constant, or ec = cc + 1. Coeff
 r^2, r^4 ..., of RadialPolynomial those of r, r^2 ... Radii are those of the clear apertures, or else max_aperture.
 """
 
-from __future__ import annotations
-
 import json
 from math import inf
 from typing import Any

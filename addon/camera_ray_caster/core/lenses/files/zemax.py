@@ -6,8 +6,6 @@ placeholders: such a glass must be known here by name. EVENASPH has PARM 1, 2 ..
 Surfaces that are no centered refracting ones (coordinate breaks, mirrors, gratings ...) are refused by their number.
 """
 
-from __future__ import annotations
-
 from math import inf
 
 from ...records import InputError

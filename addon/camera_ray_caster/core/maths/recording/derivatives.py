@@ -10,8 +10,6 @@ Reference: A. Griewank and A. Walther, Evaluating Derivatives, 2nd ed. (2008), c
 (fixed points).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """Large tables in records, shared instead of written out."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -7,8 +7,6 @@ same step, and a number as neither 0 nor infinite: formulas leave out terms that
 are the same with these.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any

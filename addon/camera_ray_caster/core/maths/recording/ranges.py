@@ -6,8 +6,6 @@ margin to what is made from them. Operations whose range would take more than a 
 Reference: R. E. Moore, Interval Analysis (1966).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 

@@ -7,8 +7,6 @@ NaN
     this rule, though numpy may return infinity: formulas rely on neither.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial

@@ -1,7 +1,5 @@
 """Functions of one number, which may be a recorded one. Of a varied number, roots take the value alone."""
 
-from __future__ import annotations
-
 import math
 from functools import reduce
 from typing import Any

@@ -10,8 +10,6 @@ that keeps them.
 Reference: A. Griewank and A. Walther, Evaluating Derivatives, 2nd ed. (2008), chapter 3 (forward mode).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from numbers import Real
