@@ -113,9 +113,9 @@ def crossing(corners: Any, origin: Any, d: Any) -> np.ndarray:
     poor = np.flatnonzero(~(np.abs(slope) > STEEP * product * norm(d)))
     if poor.size:
         ahead, start = (None if vector is None else tuple(c[poor] for c in vector) for vector in (d, origin))
-        places = np.array([from_origin([c[poor] for c in corner], start) for corner in corners])
-        ends = [dot(place, ahead) / dot(ahead, ahead) for place in places]
-        sides = [places.min(axis=0) / ahead, places.max(axis=0) / ahead]  # NaN, of sides along the ray, tells nothing
+        away = np.array([from_origin([c[poor] for c in corner], start) for corner in corners])
+        ends = [dot(corner, ahead) / dot(ahead, ahead) for corner in away]
+        sides = [away.min(axis=0) / ahead, away.max(axis=0) / ahead]  # NaN, of sides along the ray, tells nothing
         enter = np.fmax(np.minimum.reduce(ends), np.fmax.reduce(np.minimum(*sides)))
         leave = np.fmin(np.maximum.reduce(ends), np.fmin.reduce(np.maximum(*sides)))
         t[poor] = np.fmin(np.fmax(t[poor], enter - IN_BOX * np.abs(enter)), leave + IN_BOX * np.abs(leave))
