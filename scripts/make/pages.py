@@ -70,8 +70,9 @@ is the coordinate system of the file:
 
 The frame of a pose is that in the picture's name, CAMERA_FRAME or FRAME_CAMERA, or the number of the image; the first
 of several times, and KITTI's first pose, are frame 1. Images of the same name in several folders are of cameras named
-after these. If other images with the same name use different lens models or the same frame, they are split into
-NAME-1, NAME-2, ... If each frame uses exactly one camera, timeline markers switch between them.
+after these. Words behind the frames that are those of single pictures, such as titles, name no cameras. If other images
+with the same name use different lens models or the same frame, they are split into NAME-1, NAME-2, ... If each frame
+uses exactly one camera, timeline markers switch between them.
 
 * `--rig FILE` without `--frames` casts and exports each camera in the frames of its own poses.
 * `--rig-parent NAME` makes the empty a child of an object. If that is a camera, the coordinates of the file are those

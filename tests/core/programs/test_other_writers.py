@@ -155,6 +155,9 @@ def test_of_echoed_messages_the_first_is_read(tmp_path):
     assert settings(lens, "fx", "calibration_width") == [300, 400]
     with pytest.raises(InputError, match="line 9 begins a second document"):
         lenses_of(written(tmp_path, "two.yaml", f"{message}---\nK: 1\n"))
+    camera = message.split("seq: 1\n")[1]
+    with pytest.raises(InputError, match="line 7 begins a second document"):
+        lenses_of(written(tmp_path, "cameras.yaml", f"{camera}---\n{camera}"))
 
 
 @pytest.mark.parametrize("size", [
@@ -197,6 +200,11 @@ def test_folders_name_cameras_with_lenses_of_their_own(tmp_path):
     (["000000_rgb.png", "000010_rgb.png"], {"rgb": [0, 10]}),
     (["frame-000007.color.jpg", "frame-000009.color.jpg"], {"frame_color": [7, 9]}),
     (["IMG_20230101_120000_HDR.jpg", "IMG_20230101_120005_HDR.jpg"], {"Camera": [1, 2]}),
+    (["DJI_20240101120156_0001_D.JPG", "DJI_20240101120204_0002_D.JPG"], {"Camera": [1, 2]}),
+    (["DJI_20240101120156_0001.JPG", "DJI_20240101120204_0002.JPG"], {"Camera": [1, 2]}),
+    (["0001_kitchen.jpg", "0002_garden.jpg"], {"Camera": [1, 2]}),
+    (["IMG_0001.jpg", "IMG_0002_HDR.jpg", "IMG_0003.jpg"], {"Camera": [1, 2, 3]}),
+    (["A_0001.png", "B_0002.png"], {"A": [1], "B": [2]}),
 ])  # fmt: skip
 def test_names_of_pictures_are_cameras_and_frames(names, wanted, tmp_path):
     pose = [[1, 0, 0, 1], [0, 1, 0, 2], [0, 0, 1, 3]]

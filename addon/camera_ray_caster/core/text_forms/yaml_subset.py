@@ -2,9 +2,9 @@
 
 The subset: block mappings and block sequences by indentation; flow sequences and mappings, ``[ ... ]`` and ``{ ... }``,
 also over several lines, and in the line below their key; plain and quoted scalars, each in one line; comments; tags,
-which are ignored, as are directives and document marks. Of documents that begin alike, as messages that are echoed,
-the first is read. Anchors, block scalars, other documents and keys that are neither quoted nor plain words are refused.
-A sequence in place of the outermost mapping is read, too.
+which are ignored, as are directives and document marks. Of several messages that are echoed, the first is read.
+Anchors, block scalars, other documents and keys that are neither quoted nor plain words are refused. A sequence in
+place of the outermost mapping is read, too.
 Reference: YAML 1.2.2, chapters 6 to 9; OpenCV documentation, File Input and Output using XML / YAML / JSON files.
 """
 
@@ -15,6 +15,8 @@ from dataclasses import dataclass
 DEEPEST = 32
 """Levels of nesting that are read: calibrations have three."""
 
+MESSAGE = "header:"
+"""The first line of each message that ROS echoes."""
 COLON = re.compile(r":(?=[ \t\[]|$)")
 """What ends a name; before a list also without a space, as OpenCV reads it."""
 CLOSE = re.compile(r"""([A-Za-z]\w*\.[\w.]+):([-+.\d]\S*|"[^"]*")""")
@@ -64,7 +66,7 @@ def parse(text: str, check: Callable[[], None] = lambda: None) -> dict[str, Valu
         if content in ("---", "..."):
             ended = bool(root)
             continue
-        if ended and content == first:
+        if ended and content == first == MESSAGE:
             return root
         first = first or content
         if ended:

@@ -1,6 +1,7 @@
 """The poses of the cameras of a file of any program; see ``placed``."""
 
 import re
+from collections.abc import Sequence
 from pathlib import PurePath
 
 import numpy as np
@@ -39,14 +40,26 @@ def placed_in(document: Document, meters: float) -> list[Placed]:
     return [pose.changed(lambda matrix: matrix / size) for pose in placed]
 
 
-def object_and_frame(image: str) -> tuple[str, float | None]:
-    """Return the camera's name and the frame in the name of a picture, which may have folders and an ending; "" is the
+def objects_and_frames(images: Sequence[str]) -> list[tuple[str, float | None]]:
+    """Return the camera's name and the frame in each picture's name, which may have folders and an ending; "" is the
     camera of a number alone. A number beyond Blender's frames, such as a time in nanoseconds, is none, and so is a
-    date.
+    date. Words behind frames that are those of single pictures, such as titles, name no cameras, and neither do times
+    of pictures before their numbers.
     """
-    stem = PurePath(image.replace("\\", "/")).name
-    stem = stem.rsplit(".", 1)[0] if re.search(r"\.[A-Za-z]+\d?$", stem) else stem
+    stems = [PurePath(image.replace("\\", "/")).name for image in images]
+    stems = [stem.rsplit(".", 1)[0] if re.search(r"\.[A-Za-z]+\d?$", stem) else stem for stem in stems]
+    matches = [_of_frame(stem) for stem in stems]
+    names = [(match[1] or "", match[3] or "", float(match[2])) for match in matches if match]
+    cameras, frames = {name[:2] for name in names}, {frame for _, _, frame in names}
+    once = len(cameras) == len(names) and len(frames) > 1 and any(word or DATE.match(name) for name, word, _ in names)
+    apart = len({word for _, word, _ in names}) > 1 and len({(name, frame) for name, _, frame in names}) == len(names)
+    if once or apart:
+        return [(stem, None) for stem in stems]
+    return [("_".join(filter(None, (match[1], match[3]))), float(match[2])) if match else (stem, None)
+            for stem, match in zip(stems, matches, strict=True)]  # fmt: skip
+
+
+def _of_frame(stem: str) -> re.Match[str] | None:
     match = ENDING.fullmatch(stem)
-    if match is None or DATE.fullmatch(stem[: match.end(2)]) or abs(float(match[2])) > LAST_FRAME:
-        return stem, None
-    return "_".join(filter(None, (match[1], match[3]))), float(match[2])
+    is_none = match is None or DATE.fullmatch(stem[: match.end(2)]) or abs(float(match[2])) > LAST_FRAME
+    return None if is_none else match

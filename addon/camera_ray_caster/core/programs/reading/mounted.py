@@ -12,7 +12,7 @@ from .. import program_of
 from ..parts.document import Document
 from ..parts.lens import Lens
 from ..parts.placed import FROM_BLENDER, Placed, Rolling
-from .camera_poses import object_and_frame, placed_in
+from .camera_poses import objects_and_frames, placed_in
 from .folders import nearest, number_of, pair_of, pictures_in
 from .lenses import lenses_of
 
@@ -186,7 +186,9 @@ def _named(placed: list[Placed], models: dict[str, str]) -> list[tuple[Placed, s
     one name in several folders are of several cameras, named after these. Frames that are not told are in the order of
     the file. ``models``: key of each lens's model.
     """
-    by_names = [(pose, *object_and_frame(pose.image)) for pose in placed]
+    by_names = [
+        (pose, *name) for pose, name in zip(placed, objects_and_frames([pose.image for pose in placed]), strict=True)
+    ]
     if any(pose.frame is not None for pose in placed):
         return [(pose, pose.image or "Camera", pose.frame) for pose in placed]
     if not any(pose.image for pose in placed):
