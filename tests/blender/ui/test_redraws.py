@@ -25,12 +25,30 @@ def test_redraws_build_a_camera_once_until_it_or_its_file_changes(blender, scene
     assert redraw()[0] == 1
     assert redraw()[0] == 0
     data.camera_ray_caster.model, data.camera_ray_caster.calibration_file = "OPENCV_PINHOLE", str(path)
-    for focal in (17, 18):  # the same file with other numbers
-        path.write_text(f"1 PINHOLE 24 16 {focal} {focal} 12 8\n")
-        os.utime(path, ns=(focal, focal))
+    for focal in (17, 18):  # the same file with other numbers, copied with the time and size of the former
+        copy = tmp_path / "copy.txt"
+        copy.write_text(f"1 PINHOLE 24 16 {focal} {focal} 12 8\n")
+        os.utime(copy, ns=(1, 1))
+        copy.replace(path)
         count, text = redraw()
         assert count == 1
         assert f" {focal} 0 " in text
     assert redraw()[0] == 0
     path.unlink()
     assert redraw()[1] == ""
+
+
+def test_cameras_with_an_image_of_times_are_not_kept(blender, scene, monkeypatch):
+    own = scene.camera.data.camera_ray_caster
+    own.time_mode, own.time_image = "IMAGE", blender.data.images.new("Times", 8, 8, float_buffer=True, is_data=True)
+    monkeypatch.setattr(evaluated, "_kept_camera", None)
+
+    def first_time():
+        blender.context.view_layer.update()
+        depsgraph = blender.context.evaluated_depsgraph_get()
+        return evaluated.camera_or_reason(scene.camera, depsgraph)[1].pixel_time.first
+
+    own.time_image.pixels = [0.0] * 256
+    assert first_time() == 1
+    own.time_image.pixels = [1.0] * 256
+    assert first_time() == 25

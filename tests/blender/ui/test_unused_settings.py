@@ -1,5 +1,6 @@
 """Settings in whose place a device, a file or the fit of the sensor stands."""
 
+from camera_ray_caster.blender.read.scene_reader import read_camera
 from camera_ray_caster.blender.ui.camera_panels import SidebarSettings
 from camera_ray_caster.blender.ui.model_panels import ModelPanel
 
@@ -13,6 +14,8 @@ def test_settings_without_effect_are_not_shown(blender):
     beside_device = ("calibration_file", "scanner_device", "scanner_rate", "scanner_start")
     custom, _ = drawn(blender, ModelPanel, data)
     assert set(custom) > {*beside_device, "scanner_elevations", "scanner_low", "scanner_columns"}
+    own.scanner_elevations = " "
+    assert drawn(blender, ModelPanel, data)[0] == custom, "as without a text"
     own.scanner_elevations, own.scanner_period = "-10 10", 50.0
     assert set(custom) - set(drawn(blender, ModelPanel, data)[0]) == {"scanner_low", "scanner_high", "scanner_columns"}
     own.scanner_device = "OS1_64"
@@ -28,3 +31,24 @@ def test_settings_without_effect_are_not_shown(blender):
     shown = drawn(blender, SidebarSettings, data)[0]
     assert "sensor_height" in shown
     assert "sensor_width" not in shown
+
+
+def test_the_focal_length_is_shown_where_an_aperture_reads_it(blender, scene, tmp_path):
+    path = tmp_path / "cameras.txt"
+    path.write_text("1 PINHOLE 24 16 17 17 12 8\n")
+    data = scene.camera.data
+    data.camera_ray_caster.model, data.camera_ray_caster.calibration_width = "OPENCV_PINHOLE", 0
+    data.camera_ray_caster.calibration_height = 0
+
+    def radius(lens):
+        data.lens = lens
+        blender.context.view_layer.update()
+        aperture = read_camera(scene).aperture
+        return aperture and aperture.radius
+
+    for file in ("", str(path)):
+        data.camera_ray_caster.calibration_file = file
+        for has_blur in (False, True):
+            data.dof.use_dof = has_blur
+            assert (radius(30.0) != radius(60.0)) == has_blur
+            assert ("lens" in drawn(blender, SidebarSettings, data)[0]) == has_blur

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ...core.camera.build import camera_from
 from ...core.camera.camera import Camera
+from ...core.camera.pixel_time import GRAY
 from ...core.cameras import find_model
 from ...core.records import BlenderCamera, InputError
 from ...core.scene import Scene
@@ -39,10 +40,12 @@ def camera_or_reason(
     """Return what ``camera_at`` does and "", or None twice and why the camera cannot be cast, in one line.
 
     This is for the window, whose redraws ask for the same camera several times: it is kept until its record, or a file
-    that the record names, changes.
+    that the record names, changes. One with an image of times is not: comparing images takes longer.
     """
     try:
         raw = _record(camera_object, depsgraph, eye)
+        if raw.settings.get(GRAY.name) is not None:
+            return raw, camera_from(raw), ""
         stamps = tuple(_stamp(raw.settings.get(file.name)) for file in files())
         return raw, _kept_camera(find_model(raw), pickle.dumps(raw), stamps), ""
     except InputError as error:
@@ -58,13 +61,15 @@ def _kept_camera(model, pickled: bytes, stamps) -> Camera:
 forget_cameras = _kept_camera.cache_clear
 
 
-def _stamp(path: str | None) -> tuple[int, int] | None:
-    """Return time and size of a file; None if there is none, or no path."""
+def _stamp(path: str | None) -> tuple[int, ...] | None:
+    """Return what tells a file from another one at its path, which may have its size and time of modification; None if
+    there is none, or no path.
+    """
     try:
         stat = Path(path).stat() if path else None
     except (OSError, ValueError):  # ``camera_from`` refuses it
         return None
-    return stat and (stat.st_mtime_ns, stat.st_size)
+    return stat and (stat.st_ino, stat.st_ctime_ns, stat.st_mtime_ns, stat.st_size)
 
 
 Read = Callable[..., Scene]

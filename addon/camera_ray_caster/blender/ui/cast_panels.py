@@ -45,10 +45,15 @@ def summary(report) -> str:
     """Return the time of a cast, and its numbers of rays and shapes: where a row is too short, these are cut off.
     Of another engine's picture without passes it has the engine in place of the rays.
     """
-    rays = f"{report.rays / 1e6:.3g} M" if report.rays >= 1e6 else f"{report.rays:,}"
+    rays = f"{_short(report.rays / 1e6)} M" if report.rays >= 1e6 else f"{report.rays:,}"
     made = f"{rays} rays" if report.rays else f"{engine_label(report.combined['engine'])} picture"
     shapes = f"{report.shapes:,} {'shape' if report.shapes == 1 else 'shapes'}"
-    return f"{sum(report.seconds.values()):.3g} s: {made}, {shapes}"
+    return f"{_short(sum(report.seconds.values()))} s: {made}, {shapes}"
+
+
+def _short(number: float) -> str:
+    """Return three digits of a number, and all before its point."""
+    return f"{number:.3g}" if number < 100 else f"{number:,.0f}"
 
 
 class SidebarPasses(Sidebar, bpy.types.Panel):

@@ -4,7 +4,7 @@ from ...core.cameras import MODELS
 from ...core.cameras.behind_port import takes_port
 from ...core.cameras.model import Model
 from ...core.cameras.parts.calibration import FILE, FILE_CAMERA, MILLIMETERS, SIZE
-from ...core.cameras.parts.film import FILM
+from ...core.cameras.parts.film import FILM, LENS
 from ...core.cameras.parts.port_settings import PORT
 from ...core.cameras.parts.port_settings import SETTINGS as PORTS
 from ...core.cameras.parts.settings import CAMERA, OWN, STEREO, Setting
@@ -65,17 +65,24 @@ def settings_of(camera) -> tuple[Setting, ...]:
 
 
 def read_settings(camera) -> list[Setting]:
-    """Return the settings of a camera's model that are used beside its calibration file, or without one."""
+    """Return the settings of a camera's model that are used beside its calibration file, or without one. The focal
+    length is also that of the aperture.
+    """
     model, group = model_of(camera), getattr(camera, GROUP)
     if model is None:
         return []
+    by_aperture = (LENS,) if camera.dof.use_dof else ()
     if FILE in model.SETTINGS and group.calibration_file:
-        return [setting for setting in model.SETTINGS if setting in model.BESIDE_FILE]
+        return [setting for setting in model.SETTINGS if setting in (*model.BESIDE_FILE, *by_aperture)]
     names = {setting.name for setting in model.SETTINGS}
+
+    def is_used(setting: Setting) -> bool:
+        values = ((getattr(group, name), value) for name, value in setting.used_with if name in names)
+        return all((chosen.strip() if isinstance(chosen, str) else chosen) == value for chosen, value in values)
+
     return [
         setting for setting in model.SETTINGS
-        if setting != FILE_CAMERA
-        and all(getattr(group, name) == value for name, value in setting.used_with if name in names)
+        if setting != FILE_CAMERA and (setting in by_aperture or is_used(setting))
     ]  # fmt: skip
 
 
