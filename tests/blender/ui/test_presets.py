@@ -114,3 +114,10 @@ def test_a_preset_of_blender_s_own_model_keeps_the_type_and_the_lens(blender, ca
         blender.ops.script.execute_preset(filepath=str(path), menu_idname=presets.ModelPresets.bl_idname)
         assert (camera.camera_ray_caster.model, camera.type, camera.fisheye_fov) == ("BLENDER", "PANO", 2.5)
         blender.ops.camera_ray_caster.preset_add(name="Own", remove_name=True)
+
+
+@pytest.mark.parametrize(("name", "problem"), [("gone.py", "No such file"), ("broken.py", "division"), ("", "type")])
+def test_a_preset_that_cannot_be_used_is_refused_in_a_line(blender, camera_scene, tmp_path, name, problem):
+    (tmp_path / "broken.py").write_text("1 / 0\n")
+    with pytest.raises(RuntimeError, match=f"^Error: Preset '.*' cannot be used: .*{problem}.*\n$"):
+        blender.ops.camera_ray_caster.preset_execute(filepath=str(tmp_path / name))

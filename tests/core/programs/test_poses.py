@@ -185,5 +185,6 @@ def test_a_pose_of_a_camera_that_the_file_does_not_have_is_refused(tmp_path):
 
 
 def test_a_folder_without_a_model_of_colmap_is_refused_as_such(tmp_path):
-    with pytest.raises(InputError, match=r"^folder '.*' has no images.bin or images.txt, nor its sparse/0"):
-        read(tmp_path)
+    for folder in (tmp_path, "/"):  # the root has no name
+        with pytest.raises(InputError, match=r"^folder '.*' has no images.bin or images.txt, nor its sparse/0"):
+            read(folder)

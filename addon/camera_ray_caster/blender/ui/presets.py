@@ -8,6 +8,7 @@ from bl_ui.utils import PresetPanel
 from bpy.props import BoolProperty, StringProperty
 
 from ...core.cameras.parts.settings import CAMERA, OWN
+from ...core.records import InputError
 from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
 from .frame import SET_FRAME, framed
 from .model_drawing import PRESETS
@@ -38,7 +39,11 @@ class ExecutePreset(OfCamera, bpy.types.Operator):
         item, window = camera_object_of(context), context.window_manager
         is_set = self.set_frame if self.properties.is_property_set("set_frame") else getattr(window, TICK)
         with framed(context, item, is_set) as remarks, context.temp_override(camera=item.data):
-            done = bpy.ops.script.execute_preset(filepath=self.filepath, menu_idname=ModelPresets.bl_idname)
+            try:
+                done = bpy.ops.script.execute_preset(filepath=self.filepath, menu_idname=ModelPresets.bl_idname)
+            except RuntimeError as error:  # what Blender's operator reports
+                reason = str(error).partition("\n")[0].removeprefix("Error: ")
+                raise InputError(f"preset {self.filepath!r} cannot be used: {reason}") from error
         for line in remarks:
             self.report({"INFO"}, line)
         return done

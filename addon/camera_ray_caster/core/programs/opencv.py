@@ -51,9 +51,10 @@ def read(document: Document) -> list[Lens] | None:
 
 def pair(path: Path) -> tuple[Path, Path] | None:
     """See ProgramFiles: the two files of OpenCV's sample of stereo calibration."""
+    if path.stem not in FILES or path.suffix not in (".yml", ".yaml", ".xml"):
+        return None
     files = path.with_stem(FILES[0]), path.with_stem(FILES[1])
-    is_of_pair = path.stem in FILES and path.suffix in (".yml", ".yaml", ".xml")
-    return files if is_of_pair and all(map(Path.is_file, files)) else None
+    return files if all(map(Path.is_file, files)) else None
 
 
 def _is_pair(document: Document) -> bool:
