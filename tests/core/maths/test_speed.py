@@ -2,11 +2,12 @@
 
 from concurrent.futures import ThreadPoolExecutor
 from threading import Barrier
+from time import sleep
 
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.maths.speed import Scratch, Shared, lazy, sharing, whole_rows
+from camera_ray_caster.core.maths.speed import Scratch, Shared, in_shares, lazy, sharing, whole_rows
 from camera_ray_caster.core.maths.vector import inverse, linear, matvec
 
 RNG = np.random.default_rng(5)
@@ -113,3 +114,26 @@ def test_threads_work_out_a_property_of_different_objects_at_once():
         assert list(pool.map(lambda room: room.warmth, rooms)) == [21.0, 21.0]
     assert rooms[0].warmth == 21.0  # at the barrier it would wait in vain
     assert Room.warmth.__doc__ == "How warm it is."
+
+
+@pytest.mark.parametrize("threads", [1, 2, 3])
+def test_slices_of_shares_hold_each_item_once_in_order(threads):
+    slices = in_shares(lambda items: items, 100, threads, most=10)
+    assert [k for items in slices for k in range(100)[items]] == [*range(100)]
+    assert threads == 1 or max(items.stop - items.start for items in slices) <= 10
+
+
+@pytest.mark.parametrize("error", [ValueError, KeyboardInterrupt])
+def test_after_an_error_no_other_share_begins(error):
+    """If all were run, they would take 50 s."""
+    begun = []
+
+    def run(items):
+        begun.append(items)
+        if items.start == 0:
+            raise error
+        sleep(0.05)
+
+    with pytest.raises(error):
+        in_shares(run, 2000, 2, most=1)
+    assert len(begun) < 2000

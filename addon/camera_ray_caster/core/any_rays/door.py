@@ -15,6 +15,7 @@ from ..maths.speed import in_shares, processors, sharing
 from ..maths.vector import norm
 from ..motion.evaluations import Motion
 from ..records import InputError, Shapes
+from .body_search import MOST_RAYS
 from .moving import hit_groups, prepare, write_nearest
 from .ray_bodies import Span
 
@@ -119,7 +120,7 @@ def cast_rays(
         outs = {name: image[:, rays] for name, image in images.items()}
         write_nearest(shapes, *_share(rays, each, origin, direction), (near, far), outs)
 
-    in_shares(write, count, threads)
+    in_shares(write, count, threads, MOST_RAYS)
     for name, image in images.items():
         images[name] = image.reshape((*shape, *image.shape[2:]))
     return images
@@ -150,7 +151,7 @@ def occluded(origins, targets, shapes: Shapes, *, times=None, threads: int | Non
                 error = group.bodies.t_errors(origin[:, hits.ray], ahead[:, hits.ray], hits) + rounding[hits.ray]
                 hidden[rays][hits.ray[(hits.t > error) & (hits.t < 1 - error)]] = True
 
-    in_shares(hide, len(hidden), _threads(threads, shapes, each, (), len(hidden)))
+    in_shares(hide, len(hidden), _threads(threads, shapes, each, (), len(hidden)), MOST_RAYS)
     return hidden.reshape(shape)
 
 
@@ -264,7 +265,7 @@ def _all(shapes, each, origin, direction, shape, passes, span: Span, dtype, thre
                 images["shape_index"][0] = group.row
             parts.append((images, (group.number, group.row, hits.t, rays.start + hits.ray)))
 
-    in_shares(add, origin.shape[1], threads)
+    in_shares(add, origin.shape[1], threads, MOST_RAYS)
     groups, order = zip(*parts, strict=True)
     keys = [np.concatenate(key) for key in zip(*order, strict=True)]
     rank = np.lexsort(keys)
