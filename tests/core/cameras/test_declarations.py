@@ -64,3 +64,9 @@ def test_the_old_names_of_a_model_work_with_a_warning():
     for make in (partial(Perspective, window=model.window), partial(replace, model)):
         with pytest.raises(TypeError, match="give size="):
             make(frame=(6, 5))
+
+    class Own(Perspective):
+        def __init__(self, frame):
+            super().__init__(frame, model.window)
+
+    assert Own(frame=(6, 5)).size == (6, 5)

@@ -1,5 +1,7 @@
 """The contract that every camera model keeps, and the facts that geometry by hand supplies."""
 
+import copy
+import pickle
 from functools import partial
 
 import numpy as np
@@ -27,6 +29,15 @@ each_model = pytest.mark.parametrize("key", KEYS)
 @pytest.mark.parametrize("table", [EXAMPLES, FACTS, UNSEEN, REFUSED])
 def test_the_tables_name_models_that_there_are(table):
     assert set(table) <= set(KEYS)
+
+
+@each_example
+def test_cameras_can_be_copied_and_sent_to_other_processes(key, settings):
+    cam = camera(key, settings)
+    cam.project((0.1, 0.1, -3.0))
+    for other in (pickle.loads(pickle.dumps(cam)), copy.copy(cam), copy.deepcopy(cam)):
+        assert other == cam
+        np.testing.assert_array_equal(other.rays().directions, cam.rays().directions)
 
 
 @each_example

@@ -78,6 +78,10 @@ class BehindPort(Model):
             return lens
         return cls(raster.size, lens, port, float(focus_of(raw, pose_from(raw))))
 
+    def __reduce__(self):
+        """Return how to unpickle the model, whose class is no attribute of this module."""
+        return _unpickled, (self.kind, self.port_class, self.size, self.lens, self.port, self.focus)
+
     @property
     def steps(self) -> tuple[Step, ...]:
         """See Model: those of the lens, then those of the port."""
@@ -186,6 +190,11 @@ class BehindPort(Model):
 
 for _name in ("device_size", "facts", "guarded", "light", "pixel_rounding", "shape", "smooth"):
     setattr(BehindPort, _name, property(attrgetter(f"lens.{_name}")))
+
+
+def _unpickled(kind: type[Model], port_class: type, *values: Any) -> Model:
+    port = next(key for key, of_key in PORTS.items() if of_key is port_class)
+    return behind(kind, port)(*values)
 
 
 def lens_of(model: Model) -> Model:

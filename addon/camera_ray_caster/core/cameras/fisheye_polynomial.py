@@ -127,16 +127,20 @@ class FisheyePolynomial(Radial):
         theta = np.where(np.abs(theta) > self.half_fov, np.nan, theta)
         return factors_of(theta, r)
 
-    @property
+    @cached_property
     def _sign(self) -> float:
         return 1.0 if self.angle(self.limit) >= self.coefficients[0] else -1.0
 
     @cached_property
     def _inverse(self):
-        sign = self._sign
-        k1, k2, k3, k4 = (sign * i * k for i, k in enumerate(self.coefficients[1:], 1))
-        slope = lambda r: k1 + r * (k2 + r * (k3 + r * k4))  # noqa: E731
-        return Inverse(lambda r: sign * self.angle(r), slope, 0.0, self.limit, self._knots)
+        return Inverse(self._growing, self._slope, 0.0, self.limit, self._knots)
+
+    def _growing(self, r):
+        return self._sign * self.angle(r)
+
+    def _slope(self, r):
+        k1, k2, k3, k4 = (self._sign * i * k for i, k in enumerate(self.coefficients[1:], 1))
+        return k1 + r * (k2 + r * (k3 + r * k4))
 
     def radius(self, theta):
         """See Radial; r is negative if theta is seen on the other side of the axis."""

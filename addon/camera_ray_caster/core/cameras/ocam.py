@@ -121,10 +121,11 @@ class OCam(Calibrated):
     @cached_property
     def radius(self):
         """Return the inverse of the angle as a function of the radius; see Radial."""
-        slopes = self._slopes
+        return Inverse(self._angle, self._slope, 0.0, self.rim)
 
-        def slope(r):
-            behind = horner(r, self.polynomial)
-            return polyval(r, slopes) / (r * r + behind * behind)
+    def _angle(self, r):
+        return np.arctan2(r, -horner(r, self.polynomial))
 
-        return Inverse(lambda r: np.arctan2(r, -horner(r, self.polynomial)), slope, 0.0, self.rim)
+    def _slope(self, r):
+        behind = horner(r, self.polynomial)
+        return polyval(r, self._slopes) / (r * r + behind * behind)

@@ -1,5 +1,6 @@
 """The names of models before version 1.0, which still work with a warning."""
 
+from inspect import signature
 from typing import Any
 
 from ...arguments import deprecated
@@ -12,7 +13,7 @@ class OldNames:
 
     def __new__(cls, *values: Any, **fields: Any):
         """Refuse ``frame=`` of a model that has no such field of its own."""
-        if "frame" in fields.keys() - getattr(cls, "__dataclass_fields__", {}).keys():
+        if "frame" in fields and "frame" not in signature(cls.__init__).parameters:
             raise TypeError(f"{cls.__name__} has no frame: give size=, (width, height) in pixels")
         return super().__new__(cls)
 

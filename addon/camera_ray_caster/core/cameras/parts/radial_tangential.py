@@ -160,7 +160,10 @@ class RadialTangential:
     def _radius(self):
         """Return the inverse of r g(r^2), up to the limit or 89.9 degrees, whichever is less."""
         high = least(self.limit, STEEPEST)
-        return Inverse(lambda r: r * self.gain(r * r)[0], self._radial_slope, 0.0, high, _even_in_angle)
+        return Inverse(self._radial, self._radial_slope, 0.0, high, _even_in_angle)
+
+    def _radial(self, r):
+        return r * self.gain(r * r)[0]
 
     def _radial_slope(self, r):
         s = r * r
