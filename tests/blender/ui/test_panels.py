@@ -2,7 +2,6 @@
 
 import math
 from ast import literal_eval
-from types import SimpleNamespace
 
 import pytest
 
@@ -292,17 +291,3 @@ def test_the_dialogs_show_calibration_files_and_say_what_the_target_is(blender):
     kinds += " out toml"
     assert set(load["filter_glob"].default.split(";")) == {f"*.{kind}" for kind in kinds.split()}
     assert export["target"].name == "Target Camera"
-
-
-@pytest.mark.parametrize(
-    ("rays", "seconds", "text"),
-    [
-        (999_999, 0.9512, "0.951 s: 999,999 rays"),
-        (2_073_600, 99.96, "100 s: 2.07 M rays"),
-        (1_061_683_200, 1234.5, "1,234 s: 1,062 M rays"),
-    ],
-)
-def test_the_result_of_a_cast_has_no_powers_of_ten(rays, seconds, text):
-    from camera_ray_caster.blender.ui.cast_panels import summary
-
-    assert summary(SimpleNamespace(rays=rays, seconds={"cast": seconds}, shapes=2)) == f"{text}, 2 shapes"

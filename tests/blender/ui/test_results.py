@@ -230,3 +230,17 @@ def test_the_sliders_move_the_latest_pixel_and_its_ray(blender, scene):
     assert after.direction[0] > before.direction[0]
     pixel_lessons.forget()
     assert (place.column, place.row) == (0, 0)
+
+
+@pytest.mark.parametrize(
+    ("rays", "seconds", "text"),
+    [
+        (999_999, 0.9512, "0.951 s: 999,999 rays"),
+        (2_073_600, 99.96, "100 s: 2.07 M rays"),
+        (1_061_683_200, 1234.5, "1,234 s: 1,062 M rays"),
+    ],
+)
+def test_the_result_of_a_cast_has_no_powers_of_ten(rays, seconds, text):
+    from camera_ray_caster.blender.ui.cast_panels import summary
+
+    assert summary(SimpleNamespace(rays=rays, seconds={"cast": seconds}, shapes=2)) == f"{text}, 2 shapes"

@@ -188,3 +188,8 @@ def test_a_folder_without_a_model_of_colmap_is_refused_as_such(tmp_path):
     for folder in (tmp_path, "/"):  # the root has no name
         with pytest.raises(InputError, match=r"^folder '.*' has no images.bin or images.txt, nor its sparse/0"):
             read(folder)
+
+
+def test_a_path_that_is_too_long_is_refused():
+    with pytest.raises(InputError, match=r"^calibration file '.*' cannot be read: File name too long$"):
+        read("x" * 300)

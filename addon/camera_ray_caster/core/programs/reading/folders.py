@@ -35,11 +35,17 @@ def beside(path: str) -> tuple[str, ...]:
 
 
 def pair_of(path: str) -> tuple[str, str] | None:
-    """Return the file of lenses and that of poses that belong to a path; None of a folder of pictures."""
+    """Return the file of lenses and that of poses that belong to a path; None of a folder of pictures. Raises
+    InputError for a path that the system does not take.
+    """
     file = Path(path)
-    pair = next((files for program in PROGRAMS if (files := program.pair(file)) is not None), None)
+    try:
+        pair = next((files for program in PROGRAMS if (files := program.pair(file)) is not None), None)
+        is_folder = file.is_dir()
+    except OSError as error:
+        raise InputError(f"calibration file {path!r} cannot be read: {error.strerror}") from error
     if pair is None:
-        return None if file.is_dir() else (str(file), str(file))
+        return None if is_folder else (str(file), str(file))
     return str(pair[0]), str(pair[1])
 
 
