@@ -118,7 +118,7 @@ def test_threads_work_out_a_property_of_different_objects_at_once():
 
 @pytest.mark.parametrize("threads", [1, 2, 3])
 def test_slices_of_shares_hold_each_item_once_in_order(threads):
-    slices = in_shares(lambda items: items, 100, threads, most=10)
+    slices = in_shares(lambda items: items, 100, threads, longest=10)
     assert [k for items in slices for k in range(100)[items]] == [*range(100)]
     assert threads == 1 or max(items.stop - items.start for items in slices) <= 10
 
@@ -135,5 +135,5 @@ def test_after_an_error_no_other_share_begins(error):
         sleep(0.05)
 
     with pytest.raises(error):
-        in_shares(run, 2000, 2, most=1)
+        in_shares(run, 2000, 2, longest=1)
     assert len(begun) < 2000

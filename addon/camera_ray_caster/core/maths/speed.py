@@ -45,13 +45,13 @@ def sharing(threads: int, work: float) -> int:
     return max(1, min(threads, round(sqrt(work))))
 
 
-def in_shares(run: Callable[[slice], T], count: int, threads: int, most: int) -> list[T]:
+def in_shares(run: Callable[[slice], T], count: int, threads: int, longest: int) -> list[T]:
     """Return the results of ``run(items)`` for slices of ``count`` items, in order. Several threads share slices of at
-    most ``most`` items: after an error, which is raised, or Ctrl+C only those that have begun are run to their end.
+    most ``longest`` items: after an error, which is raised, or Ctrl+C only those that have begun are run to their end.
     """
     if threads == 1:
         return [run(slice(0, count))]
-    shares = threads * -(-count // (threads * most))
+    shares = threads * -(-count // (threads * longest))
     slices = [slice(*ends) for ends in pairwise(count * k // shares for k in range(shares + 1))]
     with ThreadPoolExecutor(threads) as pool:
         return list(pool.map(run, slices))
