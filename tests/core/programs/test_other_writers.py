@@ -102,6 +102,8 @@ REFUSED = {
     "division.xmp": (XMP.format(0.1), "DistortionModel is division, which is not read"),
     "no_f.csv": ("#name,x,y,alt,heading,pitch,roll\na.jpg,1,2,3,0,0,0\n", "no f of a.jpg"),
     "crop.pto": ('i w400 h400 f2 v180 r0 p0 y0 C10,390,10,390 n"a.jpg"\n', "a.jpg is cropped (C)"),
+    "board.json": ({"K": K(300, 200, 150), "calib_size": [9, 6]}, "9 x 6, but its center 200, 150: is the size"),
+    "right.json": ({"K": K(300, 200, 150), "right_K": K(310, 200, 150)}, "two cameras, one of them named right"),
     "fusion.yaml": ('%YAML:1.0\ncam0_calib: "cam0_mei.yaml"\nnum_of_cam: 1\n', "give cam0_mei.yaml"),
 }
 
@@ -116,6 +118,17 @@ def test_what_is_not_read_is_named(name, tmp_path):
         refusal = raised
     assert says in str(refusal)
     assert "\n" not in str(refusal)
+
+
+def test_a_place_that_vins_does_not_use_is_not_read(tmp_path):
+    lens = ("%YAML:1.0\nmodel_type: PINHOLE\nimage_width: 400\nimage_height: 300\n"
+            "distortion_parameters:\n  k1: 0\n  k2: 0\n  p1: 0\n  p2: 0\n"
+            "projection_parameters:\n  fx: 300\n  fy: 300\n  cx: 200\n  cy: 150\n")  # fmt: skip
+    place = matrix("extrinsicRotation", 3, np.eye(3).ravel().tolist()) + matrix("extrinsicTranslation", 1, PLACE)
+    (camera,) = rig(written(tmp_path, "used.yaml", f"{lens}estimate_extrinsic: 1\n{place}"))
+    assert camera.poses[0][:3, 3].tolist() == PLACE
+    with pytest.raises(InputError, match="it has no pose of a camera"):
+        rig(written(tmp_path, "unused.yaml", f"{lens}estimate_extrinsic: 2\n{place}"))
 
 
 def test_the_view_of_isaac_sim_is_its_pose():

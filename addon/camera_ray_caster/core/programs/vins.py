@@ -58,9 +58,9 @@ def read(document: Document) -> list[Lens]:
 
 
 def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles: that of the camera in the body, of settings that tell it."""
+    """See ProgramFiles: that of the camera in the body, of settings that tell it; at 2 VINS does not use theirs."""
     entries = document.entries
-    if not entries.has(TURN, PLACE):
+    if not entries.has(TURN, PLACE) or entries.number("estimate_extrinsic", 0.0) == 2:
         return []
     return [Placed("", "", None, of_rotation(document, entries.matrix(TURN, 9), entries.matrix(PLACE, 3), TURN))]
 

@@ -111,6 +111,8 @@ def _cameras(document: Document) -> list[tuple[str, Spelled]]:
     for prefix, entries in spelled.cameras_of(document.entries):
         camera = Spelled(entries)
         sides = camera.sides()
+        if len(sides) == 1 and any(map(camera.is_list, spelled.MATRIX)):
+            raise document.refusal(f"it has matrices of two cameras, one of them named {sides[0]}: name both")
         for end in sides if len(sides) > 1 else [""]:
             cameras.append((f"{prefix}{end}", camera.side(end or "".join(sides)) if sides else camera))
     return cameras

@@ -9,6 +9,8 @@ from ...cameras.parts.calibration import LARGEST
 from ...records import InputError
 from .lens import FRAME_SIZE, numbers_of
 
+BEYOND = 4
+"""Sides of a picture from its corner to its center, above which its size is none of a picture."""
 FAR = 0.15
 """Part of a picture's shorter side by which its center is near to its middle, in nearly all calibrations."""
 
@@ -57,10 +59,16 @@ class FileSource:
 
     def check_sides(self, size: Sequence[float | None], center: Sequence[float]) -> None:
         """Raise InputError if a list of two sides seems to be rows and columns: the center is far from the middle, and
-        near to that of the sides in the other order.
+        near to that of the sides in the other order; or if it seems to be of a chessboard: the center is far beyond.
         """
         (width, height), (cx, cy) = size, center
-        if width is None or height is None or width == height:
+        if width is None or height is None:
+            return
+        if cx > BEYOND * width or cy > BEYOND * height:
+            raise self.refusal(
+                f"its image size is {width:g} x {height:g}, but its center {cx:g}, {cy:g}: is the size that of a board?"
+            )
+        if width == height:
             return
         apart = hypot(cx - width / 2, cy - height / 2)
         if apart > FAR * min(width, height) and 2 * hypot(cx - height / 2, cy - width / 2) < apart:

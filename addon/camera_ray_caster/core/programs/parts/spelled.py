@@ -147,12 +147,12 @@ class Spelled:
     def has_list(self, *quantities: Sequence[str]) -> bool:
         """Whether there is an entry under one of these names; under a letter, which may be anything, only a list."""
         names = (name for names in quantities for name in names if name in self.by_name)
-        return any(len(name) > 1 or self._is_list(name) for name in names)
+        return any(len(name) > 1 or self.is_list(name) for name in names)
 
     def sides(self) -> list[str]:
         """Return the ends of the names of a pair's cameras; [] for one camera."""
         for pair in SIDES:
-            there = [side for side in pair if any(map(self._is_list, _on_side(MATRIX, side)))]
+            there = [side for side in pair if any(map(self.is_list, _on_side(MATRIX, side)))]
             if there:
                 return there
         return []
@@ -162,14 +162,15 @@ class Spelled:
         side_entries, stems = Spelled(Fields(self.document, {})), {*MATRIX, *DISTORTION}
         others = {name for pair in SIDES if end in pair for side in pair for name in _on_side(stems, side)}
         side_entries.by_name = {
-            name: entry for name, entry in self.by_name.items() if name not in others or not self._is_list(name)
+            name: entry for name, entry in self.by_name.items() if name not in others or not self.is_list(name)
         }
         for name, stem in _on_side(stems, end).items():
-            if self._is_list(name):
+            if self.is_list(name):
                 side_entries.by_name[stem] = self.by_name[name]
         return side_entries
 
-    def _is_list(self, name: str) -> bool:
+    def is_list(self, name: str) -> bool:
+        """Whether there is a list or a matrix under a name."""
         value = self.by_name[name][1] if name in self.by_name else None
         return isinstance(value, list) or (isinstance(value, dict) and "data" in value)
 
