@@ -94,7 +94,7 @@ class CameraPixelBounds:
             middle = np.sqrt((shapes.center * shapes.center).sum(axis=1))
         else:
             return np.full(len(reach), -np.inf), np.full(len(reach), np.inf)
-        reach = reach * (1 + 8 * EPS)
+        reach = reach * (1 + 16 * EPS)
         return middle - reach, middle + reach
 
     @property
