@@ -43,7 +43,8 @@ def test_a_camera_model(copy):
     assert free, said
     copy.change(f"{CORE}/cameras/mercator.py", ("27", free[1]))
     assert copy.run("scripts/make_docs.py").returncode == 0
-    assert "MERCATOR: no scene shows it" in said_by(copy, "tests/scenes/test_gallery.py", "-k", "scene_of_its_own")
+    said = said_by(copy, "tests/scenes/test_gallery.py", "-k", "scene_of_its_own")
+    assert "MERCATOR: no scene shows it" in said, said
     copy.change(
         "scripts/make/scenes/panoramas.py",
         (

@@ -7,6 +7,7 @@ import pytest
 
 import camera_ray_caster as crc
 from camera_ray_caster.core.any_rays import body_search
+from camera_ray_caster.core.shapes.mesh.triangles import crossing
 
 RANDOM = np.random.default_rng(12)
 COUNT = 600
@@ -80,3 +81,10 @@ def test_tangents_hit_a_sphere_where_it_is():
     assert len(hits["position"]) > COUNT
     away = np.linalg.norm(hits["position"] - CENTERS[hits["shape_index"]], axis=1)
     np.testing.assert_allclose(away, RADII[hits["shape_index"]], atol=1e-7)
+
+
+def test_a_ray_without_all_of_its_direction_meets_no_plane():
+    corners = LATTICE[0][:, :, None]
+    for direction in ((np.nan, np.nan, -1.0), (1.0, np.nan, 0.0), (np.nan,) * 3):
+        with np.errstate(all="ignore"):
+            assert np.isnan(crossing(corners, None, np.array(direction)[:, None])).all()

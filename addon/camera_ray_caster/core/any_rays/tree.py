@@ -105,11 +105,16 @@ def tree_of(low: np.ndarray, high: np.ndarray, body: np.ndarray) -> Tree:
     row[leaves] = np.arange(sizes[-1]) * LEAF
     count[leaves] = np.clip(len(body) - row[leaves], 0, LEAF)
     faces = np.array([np.concatenate([level[k] for level in levels[:0:-1]], axis=1) for k in (0, 1)]).swapaxes(0, 1)
-    faces, row, count = (
-        np.ascontiguousarray(values.reshape(*values.shape[:-1], -1, FAN).swapaxes(-1, -2)).reshape(values.shape)
-        for values in (faces, row, count)
-    )
-    return Tree(faces, ~np.isnan(faces[0, 0]), row, count, body[order])
+    faces = _by_slot(faces)
+    return Tree(faces, ~np.isnan(faces[0, 0]), _by_slot(row), _by_slot(count), body[order])
+
+
+def _by_slot(values: np.ndarray) -> np.ndarray:
+    """Return values of nodes, (..., n), that stand row by row, with the nodes of a row as many places apart as there
+    are rows.
+    """
+    rows = values.reshape(*values.shape[:-1], -1, FAN)
+    return np.ascontiguousarray(rows.swapaxes(-1, -2)).reshape(values.shape)
 
 
 def _padded(values: np.ndarray) -> np.ndarray:

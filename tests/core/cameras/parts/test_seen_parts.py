@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.cameras.model import Model
+from camera_ray_caster.core.cameras.parts.seen_parts import SeenParts
 
 from ..model_examples import IDENTITY, camera
 from ..test_model import inner_pixels
@@ -22,3 +23,13 @@ def test_bounds_of_a_formula_are_not_much_wider_than_what_is_seen(key):
     most = 20 if cam.model.central else 60
     assert np.median(x1 - x0) < most
     assert np.median(y1 - y0) < most
+
+
+@pytest.mark.parametrize("components", [3, 6])
+def test_a_ball_of_an_unknown_place_may_be_anywhere(components):
+    """Rays of two parts, from one eye or each from its own: (direction[, origin])."""
+    low = np.array([[(-0.5, -0.5, -1.0, 0, 0, 0), (0.0, 0.5, -1.0, 1, 0, 0)]])[..., :components]
+    parts = SeenParts(low, low + 0.01, np.array([[(0, 8, 0, 8), (8, 16, 0, 8)]]))
+    bounds = parts.bounds(np.array(((np.nan,) * 3, (-0.495, -0.495, -1.0))), np.array((1e-5, 1e-5)))
+    assert bounds[0].tolist() == [0, 16, 0, 8]
+    assert bounds[1].tolist() == [0, 8, 0, 8]

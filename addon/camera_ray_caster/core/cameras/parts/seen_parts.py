@@ -68,8 +68,8 @@ class SeenParts:
         bounds = np.full((len(radii), 4), np.nan)
         for middle, reach, directions in self._whole:
             away = centers - middle
-            is_far = (away * away).sum(axis=1) >= (FAR * reach) ** 2
-            far, near = np.flatnonzero(is_far), np.flatnonzero(~is_far)
+            is_near = (away * away).sum(axis=1) < (FAR * reach) ** 2  # a ball at NaN may be anywhere
+            far, near = np.flatnonzero(~is_near), np.flatnonzero(is_near)
             bounds[far] = directions.bounds(away[far], radii[far] + reach)
             if near.size:
                 bounds[near] = self._near_bounds(centers[near], radii[near])

@@ -116,8 +116,8 @@ def crossing(corners: Any, origin: Any, d: Any) -> np.ndarray:
         away = np.array([from_origin([c[poor] for c in corner], start) for corner in corners])
         ends = [dot(corner, ahead) / dot(ahead, ahead) for corner in away]
         sides = [away.min(axis=0) / ahead, away.max(axis=0) / ahead]  # NaN, of sides along the ray, tells nothing
-        enter = np.fmax(np.minimum.reduce(ends), np.fmax.reduce(np.minimum(*sides)))
-        leave = np.fmin(np.maximum.reduce(ends), np.fmin.reduce(np.maximum(*sides)))
+        enter = np.maximum(np.minimum.reduce(ends), np.fmax.reduce(np.minimum(*sides)))  # NaN without a direction
+        leave = np.minimum(np.maximum.reduce(ends), np.fmin.reduce(np.maximum(*sides)))
         t[poor] = np.fmin(np.fmax(t[poor], enter - IN_BOX * np.abs(enter)), leave + IN_BOX * np.abs(leave))
     return t
 
