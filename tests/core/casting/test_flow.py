@@ -17,7 +17,7 @@ from camera_ray_caster.core.motion.evaluations import resolve
 from camera_ray_caster.core.motion.matching import rows_in
 from camera_ray_caster.core.records import PLANE, SPHERE, InputError, no_shapes
 
-from ..camera.test_pixel_time import SHUTTER, turn
+from ..camera.test_pixel_time import ROWS, SHUTTER, turn
 from ..camera.test_pixel_time import camera as timed_camera
 from ..cameras.model_examples import TURNED, raw_of
 from ..shapes import meshes
@@ -223,6 +223,19 @@ def test_deforming_meshes_are_followed_by_their_triangles():
     gone = replace(flat, center=flat.center + np.array((0.25, 0, 0)), axes=np.diag([1.0, 1.0, 0.0])[None])
     flow = cast(*with_others(camera, flat, camera, gone), passes=("flow_forward",))["flow_forward"]
     assert flow[24, 32] == pytest.approx((4, 0), abs=1e-12)
+
+
+def test_times_of_an_image_at_which_no_point_is_left_to_follow():
+    """The sheet is met at the first of two times. It goes right by 0.25 units, which are 4 pixels."""
+    times = np.zeros((48, 64))
+    times[0, 63] = 1.0  # beside the sheet
+    camera = timed_camera(ROWS | {"time_mode": "IMAGE", "time_image": times})
+    sheet = meshes.grid(4, 4, lambda u, v: (2 * u - 1, 2 * v - 1, 0 * u))
+    now, after = (meshes.shapes_of((sheet, (x, 0, -5), 1.0)) for x in (0.0, 0.25))
+    motion = resolve(lambda time: (camera, now), camera.pixel_time.first, camera.pixel_time.last, 0.01, 64)
+    pair = with_others(*with_motion(camera, now, motion), camera, after)
+    flow = cast(*pair, passes=("flow_forward",))["flow_forward"]
+    assert flow[24, 16:48] == pytest.approx(np.broadcast_to((4.0, 0.0), (32, 2)), abs=1e-9)
 
 
 def test_a_rolling_shutter_sees_a_point_at_the_time_of_its_row():

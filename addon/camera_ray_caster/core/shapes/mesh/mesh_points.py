@@ -37,7 +37,8 @@ def _are_flat(triangles: HitTriangles) -> np.ndarray:
 def _are_others(triangles: HitTriangles, then: Shapes, rows: np.ndarray) -> np.ndarray:
     """Return which triangles, (k,) bool, belong to another mesh in ``then``, where their shapes have the rows (n,)."""
     pairs, pair = _pairs(triangles, then, rows)
-    return np.array([triangles.shapes.shapes.meshes[here] is not then.meshes[there] for here, there in pairs.T])[pair]
+    differ = [triangles.shapes.shapes.meshes[here] is not then.meshes[there] for here, there in pairs.T]
+    return np.array(differ, bool)[pair]
 
 
 def _with_triangles(triangles: HitTriangles, then: Shapes, rows: np.ndarray, point: Any) -> Moved:
