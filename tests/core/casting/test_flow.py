@@ -14,8 +14,7 @@ from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.casting.pixels import passes_at
 from camera_ray_caster.core.motion.evaluations import resolve
-from camera_ray_caster.core.motion.matching import rows_in
-from camera_ray_caster.core.records import PLANE, SPHERE, InputError, no_shapes
+from camera_ray_caster.core.records import PLANE, SPHERE, InputError
 
 from ..camera.test_pixel_time import ROWS, SHUTTER, turn
 from ..camera.test_pixel_time import camera as timed_camera
@@ -284,26 +283,6 @@ def test_a_face_that_is_divided_otherwise_moves_as_it_was_divided_before():
     assert np.isfinite(expected["flow_forward"][hit]).any()
     np.testing.assert_array_equal(found["flow_forward"], expected["flow_forward"])
     assert np.isnan(none["flow_forward"]).all()
-
-
-def test_shapes_are_known_by_their_names():
-    rows = [(SPHERE, (k, 0, -5), 1.0) for k in range(4)]
-    before = replace(shapes_of(*rows), names=("a", "b", "c", "a"), name_index=np.array([0, 1, 2, 3], np.int32))
-    after = replace(shapes_of(*rows), names=("b", "new", "a", "a"), name_index=np.array([0, 1, 2, 3], np.int32))
-    assert rows_in(before, before).tolist() == [0, 1, 2, 3]
-    assert rows_in(before, after).tolist() == [2, 0, -1, 3]
-    other = replace(after, kind=np.array([PLANE, SPHERE, SPHERE, SPHERE], np.uint8))
-    assert rows_in(before, other).tolist() == [2, -1, -1, 3]
-    one_less = replace(after, names=("b", "new", "a", "d"))
-    assert rows_in(before, one_less).tolist() == [-1, 0, -1, -1]
-    flow = cast(*with_others(camera_at(), before, camera_at(), one_less), passes=("flow_forward", "shape_index"))
-    assert (np.isnan(flow["flow_forward"][..., 0]) == (flow["shape_index"] != 1)).all()
-    assert rows_in(before, no_shapes()).tolist() == [-1] * 4
-    passes = "flow_forward", "flow_hidden", "shape_index"
-    flow = cast(*with_others(camera_at(), before, camera_at(), no_shapes()), passes=passes)
-    assert (flow["shape_index"] >= 0).any()
-    assert np.isnan(flow["flow_forward"]).all()
-    assert not flow["flow_hidden"].any()
 
 
 def test_a_frame_that_was_not_read_is_named():
