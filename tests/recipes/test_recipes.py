@@ -86,6 +86,8 @@ def test_a_kind_of_shape(copy):
     copy.change(f"{CORE}/records.py", ("import AREA, ", "import AREA, DISC, "))
     assert "the number 3 of mesh is taken: 4 is free" in said_by(copy, KINDS, "-k", "ships_has")
     copy.change(f"{CORE}/shape_records.py", ("2, 3, 3", "2, 3, 4"))
+    assert "KIND_NAMES in core/shape_records.py has no 'round disc' at 4" in said_by(copy, KINDS, "-k", "ships_has")
+    copy.change(f"{CORE}/shape_records.py", ('plane", "mesh"', 'plane", "mesh", "round disc"'))
     said = said_by(copy, KINDS, "-k", "ships_has")
     assert "EQUATIONS in core/lesson/meetings.py has no equation of round disc" in said
     copy.change(

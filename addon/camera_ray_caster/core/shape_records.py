@@ -19,6 +19,8 @@ from .other_names import OF_SHAPES, instead
 
 SPHERE, PLANE, INFINITE_PLANE, MESH = 0, 1, 2, 3
 """Values of ``Shapes.kind``."""
+KIND_NAMES = "sphere", "plane", "infinite plane", "mesh"
+"""What these kinds are called, in their order."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +72,7 @@ class Geometry:
     """
 
     kind: np.ndarray
-    """(n,) uint8: SPHERE, PLANE, INFINITE_PLANE or MESH."""
+    """(n,) uint8: SPHERE, PLANE, INFINITE_PLANE or MESH, places in ``KIND_NAMES``."""
     center: np.ndarray
     """(n, 3) float64, world."""
     axes: np.ndarray
@@ -209,7 +211,7 @@ class Shapes(_Values):
         return len(self.kind)
 
     def __repr__(self) -> str:
-        counts = zip(np.bincount(self.kind), ("sphere", "plane", "infinite plane", "mesh"), strict=False)
+        counts = zip(np.bincount(self.kind), KIND_NAMES, strict=False)
         return f"<Shapes {', '.join(f'{kind}: {count}' for count, kind in counts if count) or 'none'}>"
 
     def at(self, frame: float) -> Shapes:

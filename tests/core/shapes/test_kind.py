@@ -9,12 +9,13 @@ from camera_ray_caster.core import tuning
 from camera_ray_caster.core.any_rays.door import cast_rays
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.pixels import passes_at
-from camera_ray_caster.core.lesson.meetings import EQUATIONS
+from camera_ray_caster.core.lesson.meetings import EQUATIONS, meetings, nearest
 from camera_ray_caster.core.motion.landmarks import lit
-from camera_ray_caster.core.records import INFINITE_PLANE, SPHERE, InputError
+from camera_ray_caster.core.records import INFINITE_PLANE, MESH, SPHERE, InputError
 from camera_ray_caster.core.report.accuracy import accuracy
 from camera_ray_caster.core.report.indices import indices_of
 from camera_ray_caster.core.report.omitted import omitted
+from camera_ray_caster.core.shape_records import KIND_NAMES
 from camera_ray_caster.core.shapes import kinds
 
 from ..cameras.model_examples import camera as camera_of
@@ -136,9 +137,27 @@ def test_every_kind_that_ships_has_a_number_a_name_and_an_equation_of_its_own():
     free = min(set(range(len(numbers) + 1)) - set(numbers))
     for kind in SHIPPED:
         assert numbers.count(kind.number) == 1, f"the number {kind.number} of {kind.name} is taken: {free} is free"
+        named = KIND_NAMES[kind.number : kind.number + 1] == (kind.name,)
+        assert named, f"KIND_NAMES in core/shape_records.py has no {kind.name!r} at {kind.number}"
         assert kind.number in EQUATIONS, f"EQUATIONS in core/lesson/meetings.py has no equation of {kind.name}"
     assert len(EQUATIONS) == len(numbers)
     assert len({kind.name for kind in SHIPPED}) == len(SHIPPED)
+
+
+@pytest.mark.parametrize("kind", [kind for kind in SHIPPED if kind.number != MESH], ids=lambda kind: kind.name)
+def test_the_equation_of_a_kind_that_ships_meets_what_a_cast_meets(kind):
+    camera = camera_of("PERSP", SIZE)
+    turned = np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))[0] * (0.9, 1.1, 1.0)
+    shapes = shapes_of((kind.number, (0.2, 0.1, -6), turned))
+    distance, rays = cast(camera, shapes, passes="distance", dtype=np.float64)["distance"], camera.rays()
+    hits = {True: 0, False: 0}
+    for j, i in np.ndindex(distance.shape):
+        met = nearest(meetings(camera, shapes, rays.origins[j, i], rays.directions[j, i]))
+        assert (met is None) == np.isinf(distance[j, i])
+        hits[met is not None] += 1
+        assert met is None or met[1].t == pytest.approx(distance[j, i], rel=1e-12)
+    assert hits[True] > 20
+    assert hits[False] > 20 or kind.number == INFINITE_PLANE
 
 
 def test_reports_name_a_kind_by_its_number_not_by_its_place():

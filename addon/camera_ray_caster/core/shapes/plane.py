@@ -18,6 +18,7 @@ import numpy as np
 from ..conventions import EPS, gamma
 from ..maths.vector import cross, difference, linear, matvec
 from ..records import INFINITE_PLANE, PLANE, Shapes
+from ..shape_records import KIND_NAMES
 from .affine import AffineErrors, AffineKind
 from .kind import PixelNormals
 from .shape_frames import InCamera
@@ -44,7 +45,7 @@ class Plane(AffineKind):
     """Parallelograms."""
 
     number = PLANE
-    name = "plane"
+    name = KIND_NAMES[PLANE]
     meets_once = True
     faces_eye = True
     has_edges = True
@@ -127,7 +128,7 @@ class InfinitePlane(Plane):
     """Planes without edges: infinite planes."""
 
     number = INFINITE_PLANE
-    name = "infinite plane"
+    name = KIND_NAMES[INFINITE_PLANE]
     has_edges = False
 
     def half_sides(self, axes: np.ndarray) -> Any:

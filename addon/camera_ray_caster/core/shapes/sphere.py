@@ -13,6 +13,7 @@ from ..conventions import EPS, gamma
 from ..maths.speed import Scratch, merged, taken
 from ..maths.vector import cross, difference, dot, matvec, norm, unit
 from ..records import SPHERE, Shapes
+from ..shape_records import KIND_NAMES
 from . import sphere_rays
 from .affine import AffineErrors, AffineKind
 from .kind import HitPixels, PixelNormals
@@ -24,7 +25,7 @@ class Sphere(AffineKind):
     """Spheres and ellipsoids."""
 
     number = SPHERE
-    name = "sphere"
+    name = KIND_NAMES[SPHERE]
 
     def extent(self, shapes: Shapes, at: np.ndarray, axes: np.ndarray):
         """See ``Kind``. The radius is the root of the largest absolute row sum of the axes' Gram matrix (Gershgorin):

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ...records import MESH, Shapes
+from ...shape_records import KIND_NAMES
 from ..cutouts import Cutouts
 from ..kind import HitPixels, Kind, PixelNormals, Visible
 from ..shape_frames import InCamera, WorldRays
@@ -20,7 +21,7 @@ class Meshes(Kind):
     """Triangle meshes, seen from both sides; triangles without area are invisible."""
 
     number = MESH
-    name = "mesh"
+    name = KIND_NAMES[MESH]
     may_be_flat = True
 
     def extent(self, shapes: Shapes, at: np.ndarray, axes: np.ndarray):
