@@ -100,6 +100,7 @@ help:  ## show this list
 INSTALL = $(PYTHON) -m pip --python $(@D)/bin/python install --quiet --no-compile
 
 .venv/bpy-%/ready: pyproject.toml
+	@echo "once: pip fetches bpy $*, 1.5 GB on disk, without a word, for some minutes"
 	$(PYTHON) -m venv --without-pip $(@D)
 	$(INSTALL) --editable '.[test]' 'bpy==$*.*' pip
 	@touch $@

@@ -165,7 +165,8 @@ def numbers(value, name: str) -> np.ndarray:
             raise TypeError
         return np.asarray(array, dtype=np.float64)
     except Exception as error:  # numpy may raise anything, with several lines of text
-        raise _refusal(name, value, "real numbers, without a mask") from error
+        masked = isinstance(value, np.ma.MaskedArray)
+        raise _refusal(name, value, "real numbers" + masked * ", without a mask") from error
 
 
 def unknown(kind: str, value, known: Collection[str]) -> InputError:

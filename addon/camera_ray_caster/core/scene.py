@@ -33,8 +33,9 @@ class Scene:
         if isinstance(camera, Scene) and shapes is None:
             return camera
         if not (isinstance(camera, Camera) and isinstance(shapes, Shapes)):
-            types = f"{type(camera)} and {type(shapes)}"
-            raise TypeError(f"{to} takes a camera and shapes, or a scene and all else by name, not {types}")
+            types = f"{type(camera).__name__} and {type(shapes).__name__}"
+            several = "; make one of several shapes: join(*shapes)" if isinstance(shapes, list | tuple) else ""
+            raise TypeError(f"{to} takes a camera and shapes, or a scene and all else by name, not {types}{several}")
         return cls(camera, shapes)
 
     @classmethod

@@ -57,6 +57,7 @@ def test_the_ball_straight_ahead_is_met_at_4_and_at_6():
     assert "t = 6: hidden behind the nearest" in text
     assert "r = x u + aspect y v + d w" in text
     assert "(20, 15) of 41 × 31, from the bottom left" in text
+    assert repr(explained) == f"<Lesson: pixel (20, 15), Ball, {len(explained.steps)} steps: print it>"
 
 
 @pytest.mark.cases(1)

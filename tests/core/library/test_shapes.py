@@ -206,5 +206,19 @@ def test_a_scene_is_camera_and_shapes(camera):
     shapes = crc.spheres((0, 0, 1))
     depth = crc.cast(crc.Scene(camera, shapes), passes=("depth",))["depth"]
     np.testing.assert_array_equal(depth, crc.cast(camera, shapes, passes=("depth",))["depth"])
-    with pytest.raises(TypeError, match="a scene and all else by name"):
+    with pytest.raises(TypeError, match=r"a scene and all else by name, not Camera and NoneType$"):
         crc.cast(camera, passes=("depth",))
+    with pytest.raises(TypeError, match=r"not Camera and list; make one of several shapes: join\(\*shapes\)$"):
+        crc.cast(camera, [shapes, shapes])
+    with pytest.raises(TypeError, match=r"not list: give join\(\*shapes\)$"):
+        crc.join([shapes, shapes])
+
+
+def test_what_was_not_cast_and_what_is_no_number_is_named(camera):
+    shapes = crc.spheres((0, 0, 1))
+    with pytest.raises(KeyError, match="no pass 'uv' was cast: name it in passes=; there are depth, normal"):
+        crc.cast(camera, shapes)["uv"]
+    with pytest.raises(KeyError, match="no pass 'uv' was cast: name it in passes=; there are distance"):
+        crc.cast_rays((0, 0, 9), (0, 0, -1), shapes, passes="distance")["uv"]
+    with pytest.raises(crc.InputError, match=r"color is 'red': it must be real numbers$"):
+        crc.spheres((0, 0, 1), color="red")

@@ -54,7 +54,7 @@ class RayImages(dict[str, np.ndarray]):
     rays: RayPattern | None = None
     """The rays, of whose nearest hits ``scan`` and ``save_points`` make a cloud; None with ``all_hits``."""
 
-    __repr__ = Images.__repr__
+    __repr__, __missing__ = Images.__repr__, Images.__missing__
 
 
 @arguments.keywords
@@ -223,7 +223,7 @@ def _range(near, far) -> tuple[float, float]:
 
 def _require(shapes: Shapes, shape: tuple[int, ...], passes: tuple[str, ...], dtype) -> None:
     if not isinstance(shapes, Shapes):
-        raise TypeError(f"rays are cast at shapes as they are read or made, not at {type(shapes)}")
+        raise TypeError(f"rays are cast at shapes as they are read or made, not at {type(shapes).__name__}")
     count = math.prod(shape)
     memory.require(128 * count + image_bytes((1, count), passes, dtype), f"the passes of {count:,} rays", PARTS)
 

@@ -30,6 +30,9 @@ class Images(dict[str, np.ndarray]):
         passes = ", ".join(f"{name} {np.shape(image)}" for name, image in self.items())
         return f"<{type(self).__name__}: {passes or 'none'}>"
 
+    def __missing__(self, name: object) -> np.ndarray:
+        raise KeyError(f"no pass {name!r} was cast: name it in passes=; there are {', '.join(self) or 'none'}")
+
     def keep(self, passes: tuple[str, ...]) -> None:
         """Remove all but some passes, and put these in their order."""
         kept = {name: self[name] for name in passes}

@@ -64,7 +64,7 @@ def camera_to_json(camera: Camera) -> str:
     anything but a camera.
     """
     if not isinstance(camera, Camera):
-        raise TypeError(f"camera_to_json takes a camera as it is read, not {type(camera)}")
+        raise TypeError(f"camera_to_json takes a camera as it is read, not {type(camera).__name__}")
     return _text([Shot(camera.name, float(camera.record.settings.get(FRAME, 0.0)), camera)])
 
 

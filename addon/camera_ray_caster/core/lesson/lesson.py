@@ -81,6 +81,9 @@ class Lesson:
         }  # fmt: skip
         return {name: _plain(value) for name, value in known.items()}
 
+    def __repr__(self) -> str:
+        return f"<Lesson: pixel {self.seen.pixel}, {self.seen.name or 'no hit'}, {len(self.steps)} steps: print it>"
+
     def __str__(self) -> str:
         return "\n".join(self.lines())
 

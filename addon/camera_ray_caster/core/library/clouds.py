@@ -35,7 +35,7 @@ def save_points(
     if isinstance(data, RayImages):
         data = scan(rays=data)
     if not isinstance(data, PointCloud):
-        raise TypeError(f"save_points takes the points of scan or the result of cast_rays, not {type(data)}")
+        raise TypeError(f"save_points takes the points of scan or the result of cast_rays, not {type(data).__name__}")
     chosen, stem = arguments.word(axes, "axes", AXES), file_name(arguments.name(name) or data.name)
     folder, file, key = destination(path, format, ENDINGS)
     files = {(stem + ending): content for ending, content in files_of(data, key, chosen)}

@@ -101,7 +101,7 @@ def export(
     cameras = [data] if isinstance(data, Camera) or not isinstance(data, Iterable) else list(data)
     for camera in (*cameras, *([] if target is None else [target])):
         if not isinstance(camera, Camera):
-            raise TypeError(f"export takes cameras, not {type(camera)}")
+            raise TypeError(f"export takes cameras, not {type(camera).__name__}")
     if not cameras:
         raise InputError("there is no camera to export: give one or more")
     folder, name, key = destination(path, format, ENDINGS)

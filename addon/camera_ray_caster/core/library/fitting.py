@@ -33,7 +33,7 @@ def fit(
     one eye, for pixels with times of their own, and if the model sees too few of the region's rays.
     """
     if not isinstance(camera, Camera):
-        raise TypeError(f"fit takes a camera, not {type(camera)}")
+        raise TypeError(f"fit takes a camera, not {type(camera).__name__}")
     old = dict(zip(("within", "free"), others, strict=False)) | (
         {"within": settings.pop("region")} if "region" in settings else {}
     )

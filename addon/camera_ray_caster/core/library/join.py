@@ -27,7 +27,8 @@ def join(*shapes: Shapes) -> Shapes:
     """
     for record in shapes:
         if not isinstance(record, Shapes):
-            raise TypeError(f"join takes shapes, not {type(record)}")
+            several = ": give join(*shapes)" if isinstance(record, list | tuple) else ""
+            raise TypeError(f"join takes shapes, not {type(record).__name__}{several}")
         if (record.motion, record.next, record.previous) != (None, None, None):
             raise InputError("shapes that move cannot be joined: join those of one frame")
     if len(shapes) < 2:

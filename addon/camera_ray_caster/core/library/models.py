@@ -2,7 +2,7 @@
 
 import re
 
-from ..arguments import count, shown, word
+from ..arguments import count, shown, unknown, word
 from ..cameras import MODELS
 from ..cameras.model import GROUPS, Model
 from ..records import InputError
@@ -23,6 +23,9 @@ class Models(dict[str, type[Model]]):
             f"{key:{width}}  {model.label}: {', '.join(setting.name for setting in model.SETTINGS) or 'no settings'}"
             for key, model in self.items()
         )
+
+    def __missing__(self, key: object) -> type[Model]:
+        raise KeyError(str(unknown("model", key, self)))
 
 
 def models() -> Models:

@@ -15,6 +15,8 @@ def look_at(eye, target, *, up=(0.0, 0.0, 1.0)) -> np.ndarray:
     """
     eye, target, up = (_vector(value, name) for value, name in ((eye, "eye"), (target, "target"), (up, "up")))
     back = eye - target
+    if not back.any():
+        raise InputError("eye and target are the same point: give another target")
     right = np.cross(up, back)
     if not np.linalg.norm(right) > 1e-12 * np.linalg.norm(up) * np.linalg.norm(back):
         raise InputError("eye, target and up lie on one line: give another up")

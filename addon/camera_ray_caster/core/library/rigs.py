@@ -64,8 +64,8 @@ def load_rig(
     that the table of programs lists.
 
     A camera that moves is the camera at its first frame; ``camera.frames`` are all of them, ``camera.at(frame)`` is the
-    camera at another one, and ``for one in camera`` goes through them. One with a rolling shutter moves from the pose
-    of its first row to that of its last. Blender units are meters; the world is the file's, or the body of a rig.
+    camera at another one, and ``list(camera)`` has it at each. One with a rolling shutter moves from the pose of its
+    first row to that of its last. Blender units are meters; the world is the file's, or the body of a rig.
     Rotations are the nearest ones to the file's.
 
     size: (width, height) of the pictures; default that which the file tells.
