@@ -210,7 +210,7 @@ def test_a_scene_is_camera_and_shapes(camera):
         crc.cast(camera, passes=("depth",))
     with pytest.raises(TypeError, match=r"not Camera and list; make one of several shapes: join\(\*shapes\)$"):
         crc.cast(camera, [shapes, shapes])
-    with pytest.raises(TypeError, match=r"not list: give join\(\*shapes\)$"):
+    with pytest.raises(TypeError, match=r"one by one, as join\(\*shapes\), not list$"):
         crc.join([shapes, shapes])
 
 

@@ -27,8 +27,7 @@ def join(*shapes: Shapes) -> Shapes:
     """
     for record in shapes:
         if not isinstance(record, Shapes):
-            several = ": give join(*shapes)" if isinstance(record, list | tuple) else ""
-            raise TypeError(f"join takes shapes, not {type(record).__name__}{several}")
+            raise TypeError(f"join takes shapes one by one, as join(*shapes), not {type(record).__name__}")
         if (record.motion, record.next, record.previous) != (None, None, None):
             raise InputError("shapes that move cannot be joined: join those of one frame")
     if len(shapes) < 2:
