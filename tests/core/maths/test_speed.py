@@ -3,11 +3,12 @@
 from concurrent.futures import ThreadPoolExecutor
 from threading import Barrier
 from time import sleep
+from weakref import ref
 
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.maths.speed import Scratch, Shared, in_shares, lazy, sharing, whole_rows
+from camera_ray_caster.core.maths.speed import Scratch, Shared, in_shares, lazy, memoized, sharing, whole_rows
 from camera_ray_caster.core.maths.vector import inverse, linear, matvec
 
 RNG = np.random.default_rng(5)
@@ -114,6 +115,44 @@ def test_threads_work_out_a_property_of_different_objects_at_once():
         assert list(pool.map(lambda room: room.warmth, rooms)) == [21.0, 21.0]
     assert rooms[0].warmth == 21.0  # at the barrier it would wait in vain
     assert Room.warmth.__doc__ == "How warm it is."
+
+
+def test_a_result_is_made_by_one_thread_and_goes_with_its_record():
+    made, started = [], Barrier(4)
+
+    @memoized
+    def size(record):
+        made.append(len(record.__dict__))
+        sleep(0.01)
+        return made[-1]
+
+    def ask(record):
+        started.wait()
+        return size(record)
+
+    class Record:
+        pass
+
+    records = [Record(), Record()]
+    with ThreadPoolExecutor(4) as pool:
+        assert list(pool.map(ask, 2 * records)) == [0] * 4
+    assert len(made) == 2
+    gone = ref(records.pop())
+    assert gone() is None
+
+
+def test_a_result_that_could_not_be_made_is_made_again():
+    record, errors = lambda: None, [ZeroDivisionError]
+
+    @memoized
+    def made(record):
+        if errors:
+            raise errors.pop()
+        return 1
+
+    with pytest.raises(ZeroDivisionError):
+        made(record)
+    assert made(record) == 1
 
 
 @pytest.mark.parametrize("threads", [1, 2, 3])

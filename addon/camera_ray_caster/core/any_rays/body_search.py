@@ -6,11 +6,10 @@ from functools import partial
 from math import inf
 from threading import Lock
 from typing import Any, NamedTuple, Self
-from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from ..maths.speed import Scratch, lazy, taken
+from ..maths.speed import Scratch, lazy, memoized, taken
 from ..records import Shapes
 from ..shapes.bodies import Bodies
 from ..shapes.kinds import by_kind
@@ -210,14 +209,10 @@ class BodySearch(RayBodies):
                 yield RayHits(hits.ray, hits.t, self._place[k][hits.body])
 
 
-_searches: WeakKeyDictionary[Shapes, BodySearch] = WeakKeyDictionary()
-
-
+@memoized
 def search_of(shapes: Shapes) -> BodySearch:
     """Return the bodies of shapes with their tree, which is kept as long as the shapes are."""
-    if shapes not in _searches:
-        _searches[shapes] = BodySearch(replace(shapes))  # a copy: a value that refers to its key would never be freed
-    return _searches[shapes]
+    return BodySearch(replace(shapes))  # a copy: see ``memoized``
 
 
 def met(

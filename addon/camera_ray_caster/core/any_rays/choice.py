@@ -1,7 +1,6 @@
 """Which search finds the nearest hits of a picture: that of tiles, or the tree of bodies, ray by ray."""
 
 from collections.abc import Callable
-from functools import partial
 
 import numpy as np
 
@@ -10,7 +9,7 @@ from ..casting.plan import Plan
 from ..casting.rays import TileRays
 from ..casting.search import HitSearch, nearest_hits
 from ..maths.vector import matvec, norm
-from .body_search import BodySearch, search_of
+from .body_search import search_of
 
 TRIANGLES, TRIANGLES_OF_SHAPE = 10_000, 40
 """Number of triangles from which the tree, with its making, pays for a model without bounds, and as how many a shape
@@ -29,8 +28,8 @@ PROBES = 8
 
 
 def search_for(plan: Plan) -> HitSearch:
-    """Return the search for the rays of a plan, ready to be used by several threads."""
-    return nearest_hits if not uses_tree(plan) else partial(_by_tree, search_of(plan.shapes))
+    """Return the search for the rays of a plan."""
+    return _by_tree if uses_tree(plan) else nearest_hits
 
 
 def uses_tree(plan: Plan) -> bool:
@@ -57,8 +56,8 @@ def uses_tree(plan: Plan) -> bool:
     return bool(np.isinf(model.bounds(points, np.zeros(len(points)))).all())
 
 
-def _by_tree(bodies: BodySearch, plan: Plan, rays: TileRays, listen: Callable[[], object]) -> Hits:
-    camera, shape = plan.camera, rays.shape
+def _by_tree(plan: Plan, rays: TileRays, listen: Callable[[], object]) -> Hits:
+    camera, shape, bodies = plan.camera, rays.shape, search_of(plan.shapes)
     origin, direction = (
         np.array([np.broadcast_to(component, shape).reshape(-1) for component in matvec(camera.pose.basis, vector)])
         for vector in (rays.origin, rays.direction)

@@ -16,7 +16,7 @@ from ..maths.vector import norm
 from ..motion.evaluations import Motion
 from ..records import InputError, Shapes
 from .body_search import MOST_RAYS
-from .moving import hit_groups, prepare, write_nearest
+from .moving import hit_groups, may_share, write_nearest
 from .ray_bodies import Span
 
 KNOWN = tuple(name for name in PASSES if name not in WITHOUT_PIXEL)
@@ -156,9 +156,9 @@ def occluded(origins, targets, shapes: Shapes, *, times=None, threads: int | Non
 
 
 def _threads(threads, shapes: Shapes, each: np.ndarray | None, passes: tuple[str, ...], count: int) -> int:
-    """Return how many threads share some rays, for which the shapes are prepared."""
+    """Return how many threads share some rays."""
     limit = processors() if threads is None else arguments.count(threads, "threads")
-    return sharing(limit, count / SHARED_RAYS) if prepare(shapes, each, passes) else 1
+    return sharing(limit, count / SHARED_RAYS) if may_share(shapes, each, passes) else 1
 
 
 def _share(

@@ -11,12 +11,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
-from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from ..maths.exact import invert
-from ..maths.speed import Scratch
+from ..maths.speed import Scratch, memoized
 from ..motion.apart import BY_SHAPE, bends, centers_at, light_changes, mesh_of, moving, of_rows, place_at, rows_of
 from ..motion.evaluations import Motion
 from ..motion.interpolation import PLACE
@@ -62,18 +61,12 @@ class Moving:
     """By row, the lowest and the highest corner of a shape's box in its own axes, (2, 3); not all shapes have one."""
 
 
-_known: WeakKeyDictionary[Shapes, Moving | None] = WeakKeyDictionary()
-
-
+@memoized
 def moving_of(shapes: Shapes) -> Moving | None:
     """Return the shapes, divided; None if they have no motion that tells which of them move."""
-    if shapes not in _known:
-        motion = shapes.motion
-        _known[shapes] = _divided(motion) if isinstance(motion, Motion) else None
-    return _known[shapes]
-
-
-def _divided(motion: Motion) -> Moving | None:
+    motion = shapes.motion
+    if not isinstance(motion, Motion):
+        return None
     moves, changes = moving(motion), moving(motion, but=PLACE)
     looks, meshes = moving(motion, but=(*PLACE, "meshes")), moving(motion, but={*BY_SHAPE} - {"mesh"})
     if moves is None or changes is None or looks is None or meshes is None:
@@ -135,15 +128,11 @@ class HitGroup:
         return cls(bodies, every, rows[bodies.at[hits.body]], bodies.number[hits.body])
 
 
-def prepare(shapes: Shapes, times: np.ndarray | None, passes: tuple[str, ...]) -> bool:
-    """Prepare shapes that do not move for rays with these times, (n,), and return whether threads may share the rays:
-    not those that meet other shapes at each time, which would be made by each thread.
+def may_share(shapes: Shapes, times: np.ndarray | None, passes: tuple[str, ...]) -> bool:
+    """Whether threads may share rays with these times, (n,): not those that meet other shapes at each time, which would
+    be made by each thread.
     """
-    apart = _apart(shapes, times, passes)
-    if apart is None and times is not None:
-        return False
-    search_of(shapes if apart is None else apart.still)
-    return True
+    return times is None or _apart(shapes, times, passes) is not None
 
 
 def write_nearest(

@@ -8,12 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from ..conventions import gamma
-from ..maths.speed import Scratch
+from ..maths.speed import Scratch, memoized
 from ..mesh import Mesh
 from ..motion.apart import rows_of
 from ..records import MESH, Shapes
@@ -154,14 +153,10 @@ def _reach(mesh: Mesh) -> float:
     return float(np.abs(mesh.vertices - mesh.middle[:, None]).max())
 
 
-_trees: WeakKeyDictionary[Mesh, Tree] = WeakKeyDictionary()
-
-
+@memoized
 def _tree_of(mesh: Mesh) -> Tree:
     """Return the tree of a mesh's triangles in its own frame, by boxes that are enlarged."""
-    if mesh not in _trees:
-        ends = [(mesh.vertices - mesh.middle[:, None])[:, corner] for corner in mesh.triangles]
-        slack = BOX_MARGIN * _reach(mesh)
-        low, high = np.minimum.reduce(ends) - slack, np.maximum.reduce(ends) + slack
-        _trees[mesh] = tree_of(low, high, np.arange(len(mesh)))
-    return _trees[mesh]
+    ends = [(mesh.vertices - mesh.middle[:, None])[:, corner] for corner in mesh.triangles]
+    slack = BOX_MARGIN * _reach(mesh)
+    low, high = np.minimum.reduce(ends) - slack, np.maximum.reduce(ends) + slack
+    return tree_of(low, high, np.arange(len(mesh)))

@@ -18,7 +18,7 @@ from ..scene import Scene
 from .body_search import RAYS
 from .choice import search_for
 from .door import times_of
-from .moving import prepare, write_nearest
+from .moving import write_nearest
 
 
 def work_of(
@@ -77,7 +77,6 @@ class BeamWork(PictureWork):
 
     def __init__(self, scene: Scene, plan: Plan, threads: int):
         self._scene = scene
-        prepare(scene.shapes, None if scene.shapes.motion is None else np.zeros(1), plan.request.passes)
         height, width = scene.camera.raster.shape
         super().__init__(plan, bands(slice(0, height), slice(0, width), RAYS), threads)
 

@@ -12,16 +12,19 @@ import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from functools import wraps
 from itertools import pairwise
 from math import prod, sqrt
-from threading import Condition
+from threading import Condition, Lock
 from typing import Any, Generic, TypeVar, overload
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from . import reused_memory
 
 T = TypeVar("T")
+Record = TypeVar("Record")
 
 MULTIPLE = 16
 """Widths of windows are multiples of this."""
@@ -55,6 +58,25 @@ def in_shares(run: Callable[[slice], T], count: int, threads: int, longest: int)
     slices = [slice(*ends) for ends in pairwise(count * k // shares for k in range(shares + 1))]
     with ThreadPoolExecutor(threads) as pool:
         return list(pool.map(run, slices))
+
+
+def memoized(make: Callable[[Record], T]) -> Callable[[Record], T]:
+    """Return a function that keeps its results as long as the records that it takes; of several threads one makes each.
+
+    A result that refers to its record would never be freed.
+    """
+    known: WeakKeyDictionary[Record, list[Any]] = WeakKeyDictionary()
+
+    @wraps(make)
+    def memory_of(record: Record) -> T:
+        lock, *results = entry = known.get(record) or known.setdefault(record, [Lock()])
+        if not results:
+            with lock:
+                if len(entry) == 1:
+                    entry.append(make(record))
+        return entry[1]
+
+    return memory_of
 
 
 def taken(values: np.ndarray, indices: np.ndarray) -> np.ndarray:
