@@ -41,17 +41,17 @@ class PixelWork(PictureWork):
         request, time = plan.request, scene.camera.pixel_time
         self._scene, self.time = scene, time
         sampled = ("combined",) if samples > 1 and "combined" in request.passes else ()
+        chief = tuple(name for name in request.passes if name not in sampled)
         self.samples = samples if sampled else 1
-        chief = replace(request, passes=tuple(name for name in request.passes if name not in sampled))
-        self._requests = [(chief, 1)] if chief.passes or not sampled else []
-        self._requests += [(replace(request, passes=sampled, sampled=True), samples)] if sampled else []
-        self.rays = sum(count for wanted, count in self._requests if wanted.passes)
+        self.rays = bool(chief) + samples * bool(sampled)
+        self._requests = [replace(request, passes=chief)] if chief or not sampled else []
+        self._requests += [replace(request, passes=sampled, sampled=True)] if sampled else []
         self._plans: dict[Request, Plan] = {}
         self._search = search_for(plan) if time is None else nearest_hits
         if time is None:
-            for wanted, count in self._requests:
-                self._plans[wanted] = plan if count == 1 else make_plan(scene.camera, scene.shapes, wanted)
-            tiles = shares(self._plans[self._requests[-1][0]], threads, self._requests[-1][1])
+            for wanted in self._requests:
+                self._plans[wanted] = make_plan(scene.camera, scene.shapes, wanted) if wanted.sampled else plan
+            tiles = shares(self._plans[self._requests[-1]], threads, self.samples)
         else:
             tiles = listening(moments(scene.camera, time), progress)
         super().__init__(plan, tiles, threads)
@@ -61,7 +61,7 @@ class PixelWork(PictureWork):
     ) -> np.ndarray:
         seconds, then = np.zeros(len(TIMED_STEPS)), self._scene.at(tile.frame)
         with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
-            for request, _ in self._requests:
+            for request in self._requests:
                 if request.passes and (request.sampled or is_last):
                     plan = self._plans.get(request) or make_plan(then.camera, then.shapes, request)
                     outs = {name: images[name] for name in request.passes}

@@ -11,6 +11,7 @@ from ..casting.hit_values import HitValues
 from ..casting.hits import NOTHING, Hits
 from ..casting.passes import PASSES
 from ..casting.rays import TileRays, given_rays
+from ..casting.request import Request
 from ..casting.store import store
 from ..casting.target import RayTarget
 from ..maths.speed import Scratch, lazy
@@ -67,7 +68,7 @@ class RayBodies:
     def __init__(self, shapes: Shapes):
         self.shapes = shapes
         self.placed = in_camera(shapes, WORLD)
-        self.target = RayTarget(self.placed, np.arange(len(shapes)))
+        self.target = RayTarget(self.placed, np.arange(len(shapes)), Request(()))
 
     @lazy
     def is_triangle(self) -> np.ndarray:

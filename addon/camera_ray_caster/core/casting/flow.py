@@ -38,7 +38,7 @@ NEXT, PREVIOUS = "next", "previous"
 def flow_of(values: HitValues, name: str) -> Flow:
     """Return the flow of a block of hits to the NEXT or the PREVIOUS frame, computed once per block."""
     if name not in values.flows:
-        values.flows[name] = Flow(values, values.target.pictures[name])
+        values.flows[name] = Flow(values, values.target.request.others[name])
     return values.flows[name]
 
 

@@ -20,9 +20,9 @@ from ..errors.hit_errors import HitErrors
 from ..maths.reused_memory import empty
 from ..maths.speed import write_where
 from ..maths.vector import matvec, unit
-from . import shading
 from .flow import NEXT, PREVIOUS, flow_of
 from .hit_values import HitValues
+from .shading import albedo, shade, sky
 
 ROUNDED_UP = 1 + 2.0**-9
 """Factor that makes up for the rounding of the bounds themselves, to the type in which they are stored."""
@@ -75,22 +75,6 @@ class Pass:
     def shape(self, shape: tuple[int, int]) -> tuple[int, ...]:
         """Return the shape of the array for the pass of a picture of (rows, columns)."""
         return (*shape, self.channels) if self.channels else shape
-
-
-def combined(values: HitValues, out):
-    """Linear RGBA: the shaded color, the world's color where nothing is hit, transparent black without a ray."""
-    shading.shade(values, out)
-
-
-def sky(values: HitValues, out):
-    """The world's color, and transparent black without a ray: what ``combined`` is where nothing is hit."""
-    shading.sky(values, out)
-    write_where(out, 0, values.hits.lost)
-
-
-def albedo(values: HitValues, out):
-    """Linear RGB: the color of the material without light, of emission without its strength; see ``shading.albedo``."""
-    shading.albedo(values, out)
 
 
 def depth(values: HitValues, out):
@@ -239,7 +223,7 @@ def _write_ray(values: HitValues, vector, offset, out) -> None:
 
 
 PASSES = {
-    "combined": Pass(combined, "Color of the surface in the light of the scene's lamps", "RGBA", shown=AS_IS,
+    "combined": Pass(shade, "Color of the surface in the light of the scene's lamps", "RGBA", shown=AS_IS,
                      blender="use_pass_combined", missed=sky),
     "albedo": Pass(albedo, "Color of the material without light; of emission, without its strength", "RGB",
                    shown=AS_IS, missed=0),

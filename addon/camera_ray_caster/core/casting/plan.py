@@ -134,7 +134,7 @@ def make_plan(camera: Camera, shapes: Shapes, request: Request) -> Plan:
     plan = Plan(
         camera=camera,
         request=request,
-        target=RayTarget(placed, np.flatnonzero(seen), request.shading, request.others),
+        target=RayTarget(placed, np.flatnonzero(seen), request),
         pixels=pixels,
         seen=np.flatnonzero(seen),
         bounds=bounds[seen],

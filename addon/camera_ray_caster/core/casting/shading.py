@@ -48,13 +48,16 @@ def shade(values: HitValues, out: np.ndarray) -> None:
 
 
 def sky(values: HitValues, out: np.ndarray) -> None:
-    """Write the world's linear RGBA into ``out``, (rows, columns, 4), where nothing is hit."""
+    """Write linear RGBA into ``out``, (rows, columns, 4), where nothing is hit: the world's, and transparent black
+    where there is no ray.
+    """
     write_where(out, values.target.shapes.world_color, values.hits.missed)
     if values.target.shapes.background is not None and values.hits.missed is not None:
         places = np.nonzero(values.hits.missed)
         direction = [np.broadcast_to(component, values.hits.missed.shape)[places] for component in values.direction]
         color = Directions(direction).value(values.target.shapes.background)
         out[..., :3][places] = np.broadcast_to(color, (3, len(places[0]))).T
+    write_where(out, 0, values.hits.lost)
 
 
 def albedo(values: HitValues, out: np.ndarray) -> None:
@@ -88,7 +91,7 @@ def paint(values: HitValues, image: np.ndarray, of: Callable, channel: int, how:
 
 def grid_factor(values: HitValues) -> np.ndarray | None:
     """Return 1 between the lines of the grid and 0.15 on them, (rows, columns); None without a grid."""
-    if values.target.shading != GRID:
+    if values.target.request.shading != GRID:
         return None
     shade = np.ones(values.hits.t.shape)
     for (where, places), (_, from_edge) in zip(values.coordinates, values.from_edge, strict=True):

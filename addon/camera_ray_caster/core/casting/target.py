@@ -1,16 +1,14 @@
 """What rays are cast at: shapes in the frame of the rays, and the tables in which passes look up values by shape."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from ..records import Pose, Shapes
 from ..shapes.normals import NormalTable, normal_table
 from ..shapes.shape_frames import InCamera
-from .request import MATERIAL
+from .request import Request
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,10 +19,8 @@ class RayTarget:
     """The shapes in the frame of the rays: that of the camera, or the world."""
     seen: np.ndarray
     """(m,) indices into ``Shapes``, ascending: the shapes that some ray may hit."""
-    shading: str = MATERIAL
-    """The shading of the combined pass."""
-    pictures: Mapping[str, Any] = field(default_factory=dict)
-    """The pictures of other frames that passes need, by name; see ``flow``."""
+    request: Request
+    """The options of the passes."""
 
     @property
     def shapes(self) -> Shapes:
