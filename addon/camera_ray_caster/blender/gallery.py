@@ -1,7 +1,5 @@
 """The extension's gallery: example scenes of camera models, pixel times and places, with a picture of each scene."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import bpy.utils.previews

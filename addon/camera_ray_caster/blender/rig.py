@@ -5,8 +5,6 @@ Blender stores places and quaternions as float32: a camera stands where the file
 changes from frame to frame is keyed, in float32.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from contextlib import contextmanager
 from functools import lru_cache

@@ -5,8 +5,6 @@ the model's inverse (``core.faces.inverse_table``). It needs no OSL, so that it 
 without this add-on.
 """
 
-from __future__ import annotations
-
 import bpy
 import numpy as np
 from mathutils import Matrix

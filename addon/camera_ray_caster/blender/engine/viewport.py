@@ -5,8 +5,6 @@ A redraw waits for the coarse picture, but not long. A picture that takes longer
 the view has changed meanwhile; the next one is coarser.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial

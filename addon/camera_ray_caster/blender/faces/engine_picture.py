@@ -5,8 +5,6 @@ Each face has a camera of its own, a child of the scene's camera, so that motion
 the edges of faces, so that screen-space effects have what lies there.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager, redirect_stdout
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Annotations of pictures in COCO files: one for each picture, and one for a whole run."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass

@@ -4,8 +4,6 @@ The arrays hold the pixels that were cast, which are those of the render border.
 frame, unless it is cropped to the border.
 """
 
-from __future__ import annotations
-
 import zipfile
 from collections.abc import Iterable, Mapping
 from pathlib import Path

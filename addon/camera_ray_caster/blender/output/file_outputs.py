@@ -1,7 +1,5 @@
 """The compositor's File Output nodes. They write to any path in the file, so they run only if the user allows it."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Cast passes as float Image datablocks, one per pass. They are saved in the .blend and replaced by the next cast."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 
 import bpy

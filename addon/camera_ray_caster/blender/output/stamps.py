@@ -3,8 +3,6 @@
 The stamp is stored in the frame's report, which appears together with the other files.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

@@ -4,8 +4,6 @@ The window's scene keeps its frame, and objects that were moved without a keyfra
 all data with the scene, and exists during one reading only.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 

@@ -4,8 +4,6 @@ Frames are evaluated while nothing changes: those with keyframes first, then tho
 evaluated once, and kept until Blender reports a change or no view shows the camera's picture.
 """
 
-from __future__ import annotations
-
 from collections.abc import Generator, Iterator
 from dataclasses import dataclass, field, replace
 from time import perf_counter

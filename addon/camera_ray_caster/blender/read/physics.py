@@ -6,8 +6,6 @@ the first one of the simulation are evaluated in their order; then any frame is 
 numbers however it is reached.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass

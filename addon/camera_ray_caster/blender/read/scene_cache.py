@@ -1,7 +1,5 @@
 """Cache of the camera and the shapes that the window shows; they are read again only after a change."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 

@@ -1,7 +1,5 @@
 """The 3D Views in the windows, and where one in camera view shows the camera's frame."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import bpy

@@ -1,7 +1,5 @@
 """The command that renders a Blender file into pictures, passes and reports, by one process or several."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Sequence

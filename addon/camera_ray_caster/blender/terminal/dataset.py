@@ -7,8 +7,6 @@ records the inputs and settings; reader.py reads the set, and preview.png shows 
 second run makes only the missing pictures.
 """
 
-from __future__ import annotations
-
 import json
 from argparse import Namespace
 from collections.abc import Iterable, Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """What is the same for all pictures of a data set, from the first picture: see ``core.sets.shared_facts``."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import bpy

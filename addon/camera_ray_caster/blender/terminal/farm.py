@@ -5,8 +5,6 @@ unfinished pictures go to another worker. Importing this module does not import 
 the thread that imports bpy.
 """
 
-from __future__ import annotations
-
 import atexit
 import logging
 import os

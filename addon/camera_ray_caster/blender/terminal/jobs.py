@@ -1,7 +1,5 @@
 """Records that processes exchange about pictures. No bpy here: some threads that handle them may not import it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property

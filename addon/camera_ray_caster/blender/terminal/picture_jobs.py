@@ -1,7 +1,5 @@
 """The pictures that a command line requests, one per camera and frame: made, or skipped if already finished."""
 
-from __future__ import annotations
-
 import math
 from argparse import Namespace
 from collections.abc import Callable, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Ray maps: the rays of a camera that stands still are written once, and its frames leave them out of their files."""
 
-from __future__ import annotations
-
 import hashlib
 from dataclasses import replace
 

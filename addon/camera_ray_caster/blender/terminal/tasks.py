@@ -3,8 +3,6 @@
 Nothing of Dask is imported: a client is what has Dask's ``submit``, ``nthreads``, ``scheduler_info`` and ``close``.
 """
 
-from __future__ import annotations
-
 import time
 from collections import Counter
 from collections.abc import Callable, Generator, Iterator

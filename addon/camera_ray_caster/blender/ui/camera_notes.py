@@ -1,7 +1,5 @@
 """The panels' notes on a camera: missing objects, a stretched frame, an engine that does not support its model."""
 
-from __future__ import annotations
-
 from functools import partial
 
 from ...core.cameras.parts.settings import Setting

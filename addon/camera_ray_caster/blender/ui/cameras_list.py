@@ -1,7 +1,5 @@
 """The sidebar's list of the scene's cameras: each with its model, and buttons to make it active and see through it."""
 
-from __future__ import annotations
-
 import re
 
 import bpy

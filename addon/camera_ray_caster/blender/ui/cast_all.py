@@ -1,7 +1,5 @@
 """The Cast All operator: pictures of all cameras and frames of the scene, by the ``cast`` command in a process."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import bpy

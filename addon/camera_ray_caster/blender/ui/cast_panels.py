@@ -1,7 +1,5 @@
 """Sidebar panels for casting: the passes, the button and the report."""
 
-from __future__ import annotations
-
 import bpy
 
 from ...core.report.pass_notes import sentences

@@ -1,7 +1,5 @@
 """The choice of frames of operators that cast or export several cameras."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

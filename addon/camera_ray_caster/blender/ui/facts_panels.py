@@ -1,7 +1,5 @@
 """The camera's numbers, in the 3D View's sidebar and in the camera's tab of the Properties editor."""
 
-from __future__ import annotations
-
 import bpy
 
 from ...core.camera.camera import Camera

@@ -1,7 +1,5 @@
 """The operator that moves the pixel times with the timeline, and the note that offers it."""
 
-from __future__ import annotations
-
 import bpy
 
 from ...core.camera.pixel_time import END, SETTINGS, START

@@ -1,7 +1,5 @@
 """Set Frame: the resolution becomes the one that the camera asks for, in which nothing is stretched."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial

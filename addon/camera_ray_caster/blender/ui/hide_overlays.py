@@ -8,8 +8,6 @@ quit call no handlers of add-ons, so a screen with changed views is marked; when
 are restored.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import bpy

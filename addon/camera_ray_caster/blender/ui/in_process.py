@@ -3,8 +3,6 @@
 The process reads the file as it is saved, or a copy if it has unsaved changes. The open scene is not changed.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import sys

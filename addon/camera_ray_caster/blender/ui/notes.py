@@ -4,8 +4,6 @@ In the sidebar they take a constant number of rows, so that no button moves unde
 the full text.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 

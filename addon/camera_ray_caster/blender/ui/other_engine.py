@@ -1,7 +1,5 @@
 """Render engines that do not support a camera's model: messages in the panels and the status bar, with alternatives."""
 
-from __future__ import annotations
-
 from functools import partial
 
 import bpy

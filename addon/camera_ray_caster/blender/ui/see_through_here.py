@@ -1,7 +1,5 @@
 """A line on a camera view that shows Blender's own view in place of the model's picture; a click sees through it."""
 
-from __future__ import annotations
-
 import bpy
 
 from ..properties.declared import BLENDERS_OWN, GROUP

@@ -1,7 +1,5 @@
 """Position of the active camera's pixels in a 3D View in camera view, and in an Image Editor."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 

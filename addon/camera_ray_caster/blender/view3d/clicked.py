@@ -1,7 +1,5 @@
 """The pixels that Step Through shows, and where one of them is dragged."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 

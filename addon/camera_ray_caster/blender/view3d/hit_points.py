@@ -1,7 +1,5 @@
 """The points that the active camera's rays hit, drawn in the 3D View; of a scanner, those swept so far by choice."""
 
-from __future__ import annotations
-
 import bpy
 import gpu
 import numpy as np

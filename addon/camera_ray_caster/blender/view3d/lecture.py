@@ -1,7 +1,5 @@
 """Lecture mode of Step Through: a step of the latest pixel, large on the camera's picture."""
 
-from __future__ import annotations
-
 from ...core.lesson.lesson import Lesson
 from . import text
 

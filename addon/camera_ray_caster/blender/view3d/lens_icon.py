@@ -1,7 +1,5 @@
 """The section of a real lens with the rays of a pixel, as an icon that panels show."""
 
-from __future__ import annotations
-
 import bpy.utils.previews
 
 from ...core.camera.camera import Camera

@@ -1,7 +1,5 @@
 """A real lens in the 3D View: its glass, stop, pupils and film in their place, and the rays of Step Through in them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import gpu

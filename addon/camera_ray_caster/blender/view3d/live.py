@@ -4,8 +4,6 @@ Blender draws a few perspective faces from the camera's eye, which one program w
 The faces are drawn again only after a change. Handlers and GPU objects exist only while a view is live.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The picture of a live view in a region: its camera, the directions of its rays, its faces, what is around them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any

@@ -1,7 +1,5 @@
 """The two programs of a live view: the directions of a camera's rays, and the warp of faces along them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cache
 

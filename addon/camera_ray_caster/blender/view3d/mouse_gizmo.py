@@ -1,7 +1,5 @@
 """In camera view, text about the ray of the pixel under the mouse. It is a gizmo, to receive mouse moves."""
 
-from __future__ import annotations
-
 import math
 
 import bpy

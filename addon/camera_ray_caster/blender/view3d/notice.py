@@ -4,8 +4,6 @@ A view shows all pixels at one frame, and the notice says so, until the scene ha
 The shapes are read once for all views, so the notice also says that rays are not limited to Local View.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import bpy

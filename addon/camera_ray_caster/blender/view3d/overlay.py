@@ -4,8 +4,6 @@ In camera view hit points and normals are drawn over the picture, through the ca
 perspective, beside the picture of any other model.
 """
 
-from __future__ import annotations
-
 import blf
 import bpy
 import gpu

@@ -5,8 +5,6 @@ coordinates. The view also has hit points and normals, through the camera's mode
 a view, it is drawn with the mouse cursor, because Blender can redraw the cursor without the scene below it.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import blf

@@ -1,7 +1,5 @@
 """What a 3D View in camera view shows: the picture of the camera's model, or Blender's own view from the camera."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP

@@ -1,7 +1,5 @@
 """Text on a dark background in a 3D View, as a table of two columns."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Sequence
 
