@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.lesson.meetings import words
+from camera_ray_caster.core.lesson.formula import shown
 
 
 def picture(command, path, folder, *passes):
@@ -55,7 +55,7 @@ def test_explain_sees_what_a_render_sees_and_not_the_viewport(command, scene, tm
         assert f"Seen\n  '{name}', shape_index {passes['shape_index'][y, x]}\n" in said
         face = said.split("; seen: the nearest")[0].rsplit("face ", 1)[1].split(",")[0]
         assert int(face) == passes["face_index"][y, x]
-        assert said.rstrip().endswith(words(passes["combined"][y, x]))
+        assert said.rstrip().endswith(shown(passes["combined"][y, x]))
         seen.add(name)
     assert passes["face_index"].max() > 31
     assert seen == {"Sphere", "Wall"}
@@ -70,7 +70,7 @@ def test_explain_takes_a_pixel_at_the_moment_of_the_picture(command, scene, tmp_
     for x, y in ((16, 12), (14, 10), (13, 14)):
         said = command("explain", scene, "--pixel", f"{x},{y}").stdout
         assert said.startswith(f"At frame {1 + (y + 0.5) / 24:g}, the time of this pixel")
-        assert said.rstrip().endswith(words(color[y, x]))
+        assert said.rstrip().endswith(shown(color[y, x]))
 
 
 def test_explain_shows_the_first_view_layer_that_is_rendered(command, scene, blender):

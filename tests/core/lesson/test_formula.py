@@ -6,7 +6,15 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.cameras import MODELS
-from camera_ray_caster.core.lesson.formula import assignments, at_most, digits, shown, value, with_numbers, worked_out
+from camera_ray_caster.core.lesson.formula import (
+    assignments,
+    at_most,
+    digits,
+    shown,
+    value_and_noise,
+    with_numbers,
+    worked_out,
+)
 from camera_ray_caster.core.lesson.lesson import lesson
 from camera_ray_caster.core.records import no_shapes
 
@@ -40,7 +48,7 @@ KNOWN = {"x": 2.5, "W": 40, "fov": 3.0, "k1": -0.5, "r": 2.0, "u": np.array([1.0
     ],
 )
 def test_an_expression_is_worked_out_or_has_names_that_are_not_known(expression, expected):
-    result = value(expression, KNOWN)
+    result, _ = value_and_noise(expression, KNOWN)
     assert result is None if expected is None else result == pytest.approx(expected, rel=1e-15)
 
 

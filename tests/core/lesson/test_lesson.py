@@ -7,8 +7,9 @@ import pytest
 
 from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.lesson.formula import shown
 from camera_ray_caster.core.lesson.lesson import lesson
-from camera_ray_caster.core.lesson.meetings import nearest, words
+from camera_ray_caster.core.lesson.meetings import nearest
 from camera_ray_caster.core.mesh import Mesh
 from camera_ray_caster.core.records import INFINITE_PLANE, MESH, PLANE, SPHERE, BlenderCamera, InputError, Shapes
 
@@ -102,10 +103,10 @@ def test_the_color_is_that_of_the_picture(changed, samples, shading):
         # to rounding: triangles are searched otherwise in a single pixel
         assert explained.color == pytest.approx(picture[row, column], rel=1e-12, abs=0)
         color_step = dict(explained.steps)["Color"]
-        assert words(one[row, column]) in color_step[-1 if samples == 1 else -2]
+        assert shown(one[row, column]) in color_step[-1 if samples == 1 else -2]
         if samples > 1:
             assert f"the mean of {samples} rays" in color_step[-1]
-            assert color_step[-1].endswith(words(picture[row, column]))
+            assert color_step[-1].endswith(shown(picture[row, column]))
         differing += not np.array_equal(one[row, column], picture[row, column])
     assert (differing > 0) == (samples > 1)
 

@@ -7,7 +7,8 @@ import numpy as np
 
 from ...core.camera.camera import Camera
 from ...core.cameras.real_lens import RealLens
-from ...core.lesson.lens_diagram import LensDrawing, chief_path, fan_of, lens_drawing
+from ...core.lesson.diagram import segments_of
+from ...core.lesson.lens_diagram import chief_path, fan_of, lens_drawing
 from ...core.lesson.lesson import Lesson
 from ..read.scene_cache import cached_scene
 from ..read.view import camera_frame
@@ -40,8 +41,7 @@ def parts_of_paths(camera: Camera, steps: Lesson) -> Iterator[tuple[str, np.ndar
             color = STOPPED
         elif np.isfinite(steps.seen.distance):
             points = np.concatenate((points, [points[-1] + steps.seen.distance * path.direction]))
-        line = in_world(camera, points)
-        yield "POLYLINE", np.stack((line[:-1], line[1:]), axis=1), color, width
+        yield "POLYLINE", segments_of(in_world(camera, points)[None]), color, width
 
 
 def in_world(camera: Camera, points: np.ndarray) -> np.ndarray:
@@ -58,16 +58,14 @@ def draw_lens(context, in_steps: bool) -> None:
     if camera is None or not isinstance(camera.model, RealLens) or camera_frame(context) is not None:
         return
     if not _drawn or _drawn[0][0] is not camera:
-        _drawn[:] = [(camera, _made(camera, lens_drawing(camera.model)))]
+        lens = lens_drawing(camera.model)
+        batches = {name: batch_of("POLYLINE", in_world(camera, getattr(lens, name))) for name in STYLES}
+        _drawn[:] = [(camera, batches)]
     scale = context.preferences.system.ui_scale
     gpu.state.blend_set("ALPHA")
     for name, (color, width) in STYLES.items():
         draw_batch(_drawn[0][1][name], "POLYLINE", color, width * scale)
     gpu.state.blend_set("NONE")
-
-
-def _made(camera: Camera, lens: LensDrawing) -> dict:
-    return {name: batch_of("POLYLINE", in_world(camera, getattr(lens, name))) for name in STYLES}
 
 
 def forget_lens() -> None:

@@ -164,12 +164,12 @@ def _record(camera: Camera) -> dict[str, Any]:
 
 def _camera(entry: Mapping[str, Any]) -> Camera:
     """Return the camera of an entry."""
-    camera = camera_from(_restored_record(entry["record"]))
+    camera = camera_from(BlenderCamera(**entry["record"]))
     if "evaluations" not in entry:
         return camera
     states = {}
     for evaluation in entry["evaluations"]:
-        record = _restored_record(merged(entry["record"], evaluation["record"]))
+        record = BlenderCamera(**merged(entry["record"], evaluation["record"]))
         states[evaluation[FRAME]] = replace(camera_from(record), pixel_time=camera.pixel_time), no_shapes()
     accuracy: dict[str, Any] = {
         name: tuple(value) if isinstance(value, list) else value for name, value in entry["motion"].items()
@@ -177,10 +177,6 @@ def _camera(entry: Mapping[str, Any]) -> Camera:
     accuracy["unresolved"] = tuple(map(tuple, accuracy["unresolved"]))
     intervals = tuple(TimeInterval.of(states, tuple(frames)) for frames in entry["intervals"])
     return replace(camera, motion=Motion(intervals, states, **accuracy))
-
-
-def _restored_record(record: Mapping[str, Any]) -> BlenderCamera:
-    return BlenderCamera(**record)
 
 
 def _chosen(cameras: Sequence[Mapping[str, Any]], name: str | None) -> Mapping[str, Any]:

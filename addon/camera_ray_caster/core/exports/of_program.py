@@ -88,6 +88,6 @@ def record_of(shot: Shot, lens: Lens) -> CameraRecord:
 
 
 def _pose(camera: Camera) -> np.ndarray:
-    pose = np.eye(4)
-    pose[:3, :3], pose[:3, 3] = camera.pose.basis * FROM_BLENDER.diagonal()[:3], camera.pose.eye
+    pose = camera.world_from_camera
+    pose[:3] *= FROM_BLENDER.diagonal()
     return pose

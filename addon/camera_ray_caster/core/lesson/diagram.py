@@ -83,10 +83,10 @@ def diagram(camera: Camera, shapes: Shapes, size: float, rays_across: int) -> Di
     across, up = _image(camera, size)
     border = np.concatenate((across[[0, -1]], up[[0, -1]]))
     u, v, z = camera.pose.basis.T
-    edges = [_segments(border), *([_corners(camera, size)] if camera.model.planar else [])]
+    edges = [segments_of(border), *([_corners(camera, size)] if camera.model.planar else [])]
     return Diagram(
         border=_drawn(np.concatenate(edges)),
-        grid=_drawn(_segments(np.concatenate((across[1:-1], up[1:-1])))),
+        grid=_drawn(segments_of(np.concatenate((across[1:-1], up[1:-1])))),
         basis=_drawn(np.stack([(camera.pose.eye, camera.pose.eye + size * axis) for axis in (u, v, -z)])),
         hit_rays=_drawn(np.stack((flat["ray_origin"][hit], hits), axis=1)),
         missed_rays=_drawn(np.stack((flat["ray_origin"], ends), axis=1)[missed]),
@@ -121,7 +121,7 @@ def probe_of(camera: Camera, shapes: Shapes, column: int, row: int, images: Mapp
 def pixel_outline(camera: Camera, size: float, column: int, row: int) -> np.ndarray:
     """Return the segments (n, 2, 3) of a pixel's outline on the image in space: see ``diagram``."""
     x, y = column + np.array([0.0, 1.0, 1.0, 0.0, 0.0]), row + np.array([0.0, 0.0, 1.0, 1.0, 0.0])
-    return _drawn(_segments(_ahead(camera, size, x, y)[None]))
+    return _drawn(segments_of(_ahead(camera, size, x, y)[None]))
 
 
 def _spread(count: int, wanted: int) -> np.ndarray:
@@ -155,7 +155,7 @@ def _ahead(camera: Camera, t: float, x, y) -> np.ndarray:
     return np.stack([np.broadcast_to(component, shape) for component in points], axis=-1) + camera.pose.eye
 
 
-def _segments(lines: np.ndarray) -> np.ndarray:
+def segments_of(lines: np.ndarray) -> np.ndarray:
     """Return the segments (n, 2, 3) of lines (k, points, 3)."""
     return np.stack((lines[:, :-1], lines[:, 1:]), axis=2).reshape(-1, 2, 3)
 

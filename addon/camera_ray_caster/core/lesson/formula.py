@@ -79,13 +79,9 @@ def assignments(symbols: str) -> Iterator[tuple[str, str]]:
             yield match[1], match[2]
 
 
-def value(expression: str, known: Mapping[str, Any]) -> Any:
-    """Return the value of an expression, a number or a vector; None if it is malformed or has unknown names."""
-    return value_and_noise(expression, known)[0]
-
-
 def value_and_noise(expression: str, known: Mapping[str, Any], noise: Mapping[str, float] | None = None) -> tuple:
-    """Return the value of an expression, or None, and what rounding can have added to it, in the value's shape.
+    """Return the value of an expression, a number or a vector, and what rounding can have added to it, in the value's
+    shape. The value is None if the expression is malformed or has unknown names.
 
     noise: of known values, if it is more than their own rounding. To first order: the sum of what the value changes by
     if each number in the expression changes by NOISE times itself, or by its noise.

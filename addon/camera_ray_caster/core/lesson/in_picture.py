@@ -16,7 +16,7 @@ panorama, where the picture goes on at its other edge.
 def points_in_picture(camera: Camera, points) -> np.ndarray:
     """Return the pixel coordinates (m, 2), float64, of those of the world points (n, 3) that lie in the frame."""
     pixels = camera.project(np.asarray(points, np.float64).reshape(-1, 3))
-    return pixels[np.isfinite(pixels).all(axis=1) & _inside(camera, pixels).all(axis=1)]
+    return pixels[((pixels >= 0) & (pixels <= camera.raster.size)).all(axis=1)]
 
 
 def lines_in_picture(camera: Camera, segments) -> np.ndarray:
@@ -28,10 +28,6 @@ def lines_in_picture(camera: Camera, segments) -> np.ndarray:
     pieces = pieces[np.isfinite(pieces).all(axis=(1, 2))]
     longest = np.abs(pieces[:, 1] - pieces[:, 0]).max(axis=1)
     return _clipped(pieces[longest <= JUMP * max(camera.raster.size)], camera.raster.size)
-
-
-def _inside(camera: Camera, pixels: np.ndarray) -> np.ndarray:
-    return (pixels >= 0) & (pixels <= camera.raster.size)
 
 
 def _clipped(pieces: np.ndarray, size: tuple[int, int]) -> np.ndarray:

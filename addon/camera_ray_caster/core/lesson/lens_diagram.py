@@ -12,6 +12,7 @@ import numpy as np
 from ..cameras.real_lens import RealLens
 from ..lenses.trace import LensSurface, trace
 from ..maths.vector import cross, norm, unit
+from .diagram import segments_of
 from .formula import digits
 
 ARC_POINTS, CIRCLE_POINTS = 33, 49
@@ -67,10 +68,10 @@ def lens_drawing(model: RealLens) -> LensDrawing:
     x, y, z = model.tilted.places(a, b, float(model.film))
     frame = np.stack((-x, -y, np.broadcast_to(z, x.shape)), axis=-1)  # upside down
     return LensDrawing(
-        glass=np.concatenate([_segments(line) for line in glass]),
-        stop=np.concatenate([_segments(_circle(model, stop.z, size)) for size in (radius, _reach(model))]),
-        pupils=np.concatenate([_segments(line) for line in pupils]),
-        film=_segments(_placed(model, frame)),
+        glass=np.concatenate([segments_of(line[None]) for line in glass]),
+        stop=segments_of(np.stack([_circle(model, stop.z, size) for size in (radius, _reach(model))])),
+        pupils=segments_of(np.stack(pupils)),
+        film=segments_of(_placed(model, frame)[None]),
     )
 
 
@@ -200,8 +201,3 @@ def _circle(model: RealLens, z: float, radius: float) -> np.ndarray:
 def _placed(model: RealLens, points: np.ndarray) -> np.ndarray:
     """Return points (n, 3) of the lens, mm of its file, in the camera's frame."""
     return (points - (0.0, 0.0, float(model.pupil))) * float(model.unit)
-
-
-def _segments(line: np.ndarray) -> np.ndarray:
-    """Return the segments (n - 1, 2, 3) of a line through points (n, 3)."""
-    return np.stack((line[:-1], line[1:]), axis=1)

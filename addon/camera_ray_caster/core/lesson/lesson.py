@@ -24,7 +24,7 @@ from .diagram import PROBED, Probe, probe_of
 from .formula import NOISE, digits, shown, worked_out
 from .lens_diagram import refraction_lines
 from .light import color_lines
-from .meetings import Meeting, meetings, nearest, words
+from .meetings import Meeting, meetings, nearest
 
 NORMALIZED = "[-1, 1]²"
 """Text in the words of a formula step whose x and y are view coordinates instead of pixels."""
@@ -186,14 +186,14 @@ def _seen(seen: Probe, point: np.ndarray, normal: np.ndarray, depth: float) -> t
         return ("nothing",)
     return (
         f"{seen.name!r}, shape_index {seen.shape_index}",
-        f"point o + t r = {words(point)}, distance {digits(seen.distance, count=9)}, depth {digits(depth, count=9)}",
-        f"unit normal, turned towards the ray {words(normal)}",
+        f"point o + t r = {shown(point)}, distance {digits(seen.distance, count=9)}, depth {digits(depth, count=9)}",
+        f"unit normal, turned towards the ray {shown(normal)}",
     )
 
 
 def _mean(camera: Camera, samples: int, mean: np.ndarray | None) -> str:
     over = "the pixel" if camera.aperture is None else "the pixel and the aperture"
-    mean_text = "too many to cast here" if mean is None else words(mean)
+    mean_text = "too many to cast here" if mean is None else shown(mean)
     return f"the steps follow the chief ray; the picture has the mean of {samples} rays over {over}: {mean_text}"
 
 
@@ -201,19 +201,12 @@ def _raster(camera: Camera, seen: Probe):
     (column, row), raster = seen.pixel, camera.raster
     width, height = raster.width, raster.height
     x, y = column + 0.5, row + 0.5
-    yield (
-        "Pixel",
-        (f"({column}, {row}) of {width} × {height}, from the bottom left", f"its center: x = {x:g}, y = {y:g}"),
-    )
-    yield (
-        f"View coordinates {NORMALIZED}",
-        tuple(
-            f"2 {name}/{side} - 1 = 2 · {pixel:g}/{pixels} - 1 = {digits(coordinate)}"
-            for name, side, pixel, pixels, coordinate in zip(
-                "xy", "WH", (x, y), (width, height), seen.view, strict=True
-            )
-        ),
-    )
+    where = f"({column}, {row}) of {width} × {height}, from the bottom left"
+    yield "Pixel", (where, f"its center: x = {x:g}, y = {y:g}")
+    sides = zip("xy", "WH", (x, y), (width, height), seen.view, strict=True)
+    lines = (f"2 {name}/{side} - 1 = 2 · {pixel:g}/{count} - 1 = {digits(coordinate)}"
+             for name, side, pixel, count, coordinate in sides)  # fmt: skip
+    yield f"View coordinates {NORMALIZED}", tuple(lines)
 
 
 def _formula(camera: Camera, seen: Probe):
@@ -242,10 +235,10 @@ def _formula(camera: Camera, seen: Probe):
         return
     if isinstance(lens, WindowModel):
         yield f"on the image plane: ({digits(plane[0])}, {digits(plane[1])})"
-    yield f"in the camera's frame (x right, y up, -z ahead): origin {words(origin)}"
+    yield f"in the camera's frame (x right, y up, -z ahead): origin {shown(origin)}"
     length = float(np.linalg.norm(direction))
     angle = np.degrees(np.arctan2(np.hypot(*direction[:2]), -direction[2]))
-    yield f"direction {words(direction)}, of length {digits(length)}; {digits(angle)}° from the axis"
+    yield f"direction {shown(direction)}, of length {digits(length)}; {digits(angle)}° from the axis"
 
 
 def _known(camera: Camera, x: float, y: float) -> dict[str, Any]:
@@ -274,12 +267,12 @@ def _known(camera: Camera, x: float, y: float) -> dict[str, Any]:
 def _world(camera: Camera, seen: Probe) -> tuple[str, ...]:
     u, v, z = camera.pose.basis.T
     return (
-        f"eye = {words(camera.pose.eye)}",
-        f"u = {words(u)}",
-        f"v = {words(v)}",
-        f"w = {words(-z)}",
-        f"o = {words(seen.origin)}",
-        f"r = {words(seen.direction)}, of length 1",
+        f"eye = {shown(camera.pose.eye)}",
+        f"u = {shown(u)}",
+        f"v = {shown(v)}",
+        f"w = {shown(-z)}",
+        f"o = {shown(seen.origin)}",
+        f"r = {shown(seen.direction)}, of length 1",
     )
 
 

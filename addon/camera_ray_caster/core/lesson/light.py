@@ -7,8 +7,7 @@ import numpy as np
 
 from ..casting.hit_values import HitValues
 from ..casting.shading import HEADLIGHT, POINT, SUN, Light, grid_factor, irradiance, lights, material_color, paint
-from .formula import digits
-from .meetings import words
+from .formula import digits, shown
 
 MOST_LAMPS = 12
 """Maximum number of lamps listed: those that give most."""
@@ -17,10 +16,10 @@ MOST_LAMPS = 12
 def color_lines(values: HitValues, color: np.ndarray) -> Iterator[str]:
     """Yield lines on the linear color (4,) of one pixel, whose values are (1, 1) arrays."""
     if values.hits.lost is not None:
-        yield f"no ray, no color: {words(color)}"
+        yield f"no ray, no color: {shown(color)}"
         return
     if values.hits.missed is not None:
-        yield f"linear, of the world: {words(color)}"
+        yield f"linear, of the world: {shown(color)}"
         return
     world = values.target.shapes.world_color[:3]
     with np.errstate(all="ignore"):  # a lamp may be at the point itself
@@ -32,21 +31,21 @@ def color_lines(values: HitValues, color: np.ndarray) -> Iterator[str]:
                  enumerate(lights(values), 1)]  # fmt: skip
         total = [_one(channel_sum) + of_world for channel_sum, of_world in zip(irradiance(values), world, strict=True)]
         grid = grid_factor(values)
-    yield f"material {words(material)}"
+    yield f"material {shown(material)}"
     ranked = sorted(range(len(terms)), key=lambda k: -terms[k][0].max())
     for share, line, formula in (terms[k] for k in sorted(ranked[:MOST_LAMPS])):
         yield line
-        yield f"  {formula} = {words(share)}"
+        yield f"  {formula} = {shown(share)}"
     if len(terms) > MOST_LAMPS:
-        yield f"{len(terms) - MOST_LAMPS} more lamps, together {words(sum(terms[k][0] for k in ranked[MOST_LAMPS:]))}"
-    yield f"world, from all directions {words(world)}"
-    yield f"light, of lamps and world {words(total)}"
+        yield f"{len(terms) - MOST_LAMPS} more lamps, together {shown(sum(terms[k][0] for k in ranked[MOST_LAMPS:]))}"
+    yield f"world, from all directions {shown(world)}"
+    yield f"light, of lamps and world {shown(total)}"
     if grid is not None:
         yield f"grid {_one(grid):g}, {'on a line' if _one(grid) < 1 else 'between its lines'}"
     if glow.any():
-        yield f"emission {words(glow[:, 0, 0])}"
+        yield f"emission {shown(glow[:, 0, 0])}"
     factors = f"material · light{'' if grid is None else ' · grid'}{' + emission' if glow.any() else ''}"
-    yield f"linear, {factors}: {words(color)}"
+    yield f"linear, {factors}: {shown(color)}"
 
 
 def _told(light: Light, number: int) -> tuple[str, str]:
@@ -56,12 +55,12 @@ def _told(light: Light, number: int) -> tuple[str, str]:
     if light.kind == HEADLIGHT:
         return f"headlight along the ray, as there are no lamps: {cosine}", "cosine"
     towards = np.array([_one(component) for component in light.towards])
-    line = f"{light.kind} {number} towards {words(towards / np.linalg.norm(towards))}, {cosine}"
+    line = f"{light.kind} {number} towards {shown(towards / np.linalg.norm(towards))}, {cosine}"
     if light.kind != SUN:
         beam_text = "" if light.kind == POINT else f"beam {digits(beam)}, "
-        line = f"{line}, {beam_text}distance = {digits(np.sqrt(_one(light.square)))}, P = {words(light.power)}"
+        line = f"{line}, {beam_text}distance = {digits(np.sqrt(_one(light.square)))}, P = {shown(light.power)}"
         return line, f"P {'beam ' if beam_text else ''}cosine / (4 pi² distance²)"
-    return f"{line}, E = {words(light.power)}", "E cosine / pi"
+    return f"{line}, E = {shown(light.power)}", "E cosine / pi"
 
 
 def _one(values: Any) -> float:

@@ -110,7 +110,7 @@ def _sphere(shapes, k, at, along):
     length, away = np.sqrt(a), np.sqrt(c + 1)
     noise = NOISE * 2 * length * away, NOISE * (c + 2), NOISE * 4 * a * (away + 1) ** 2
     lines = (
-        f"own frame, where it is the unit sphere: |p + t d|² = 1, p = {words(at)}, d = {words(along)}",
+        f"own frame, where it is the unit sphere: |p + t d|² = 1, p = {shown(at)}, d = {shown(along)}",
         f"{digits(a)} t² {digits(b, '+', noise[0])} t {digits(c, '+', noise[1])} = 0, "
         f"discriminant {digits(under, noise=noise[2])}",
     )
@@ -155,10 +155,10 @@ def _mesh(shapes, k, at, along):
         t = (other_edge * turned).sum(axis=0) * scale
         hit = np.flatnonzero((v >= 0) & (w >= 0) & (v + w <= 1))
     hit = hit[np.argsort(np.abs(t[hit]))][:MOST_INTERSECTIONS]
-    lines = (f"own frame: p + t d = (1 - v - w) A + v B + w C, p = {words(at)}, d = {words(along)}",)
+    lines = (f"own frame: p + t d = (1 - v - w) A + v B + w C, p = {shown(at)}, d = {shown(along)}",)
     roots = []
     for i in hit:
-        named = ", ".join(f"{name} = {words(corner)}" for name, corner in zip("ABC", corners[:, :, i].T, strict=True))
+        named = ", ".join(f"{name} = {shown(corner)}" for name, corner in zip("ABC", corners[:, :, i].T, strict=True))
         text = f"face {mesh.polygon[candidates[i]]}, {named}, v = {v[i]:.4f}, w = {w[i]:.4f}"
         roots.append((float(t[i]), text, int(candidates[i])))
     return lines, roots
@@ -199,8 +199,3 @@ def _clipped(camera: Camera, t: float, depth: float) -> str:
     if depth < camera.clip_start:
         return f"nearer than the clip start, {digits(camera.clip_start)}"
     return f"farther than the clip end, {digits(camera.clip_end)}" if depth > camera.clip_end else ""
-
-
-def words(vector) -> str:
-    """Return a vector as text: see ``shown``."""
-    return shown(np.asarray(vector))

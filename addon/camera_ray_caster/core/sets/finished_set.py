@@ -105,11 +105,11 @@ class View:
         name = self.camera_name.removesuffix(suffix)
         return Shot(name, self.frame, self.camera, self.meters, suffix=suffix, rate=self.frame_rate)
 
-    @property
-    def picture(self) -> bytes | None:
-        """Return the PNG of the picture; None if the combined pass was not cast."""
+    def picture_as(self, name: str) -> Iterator[tuple[str, bytes]]:
+        """Yield the PNG of the picture under a name; nothing if the combined pass was not cast."""
         path = self.folder / f"{self.name}.png"
-        return path.read_bytes() if path.is_file() else None
+        if path.is_file():
+            yield name, path.read_bytes()
 
     @property
     def annotations(self) -> dict[str, Any]:

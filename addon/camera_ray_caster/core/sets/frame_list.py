@@ -15,18 +15,15 @@ import numpy as np
 from ..programs.nerfstudio import camera_model, frame_of
 from ..records import InputError
 from .finished_set import TRAIN, VALIDATION, Files, View
-from .png import png
-from .set_formats import SetFormat
-from .streams import Records, Waiting
-
-MOST_16_BITS = 65535
+from .png import MOST_16_BITS, png
+from .streams import Waiting, records_of
 
 
 def files(views: list[View]) -> Files:
     """Yield the files of a set; see the package. Raises InputError for cameras that nerfstudio cannot represent, and
     for depths beyond 65 m.
     """
-    each, frames = Records("nerfstudio", views), Waiting()
+    each, frames = records_of("nerfstudio", views), Waiting()
     transforms: dict[str, Any] = {"camera_model": camera_model(each), "frames": [""]}
     for frame, view in zip(map(frame_of, each), views, strict=True):
         depth = np.round(view.planar_depth() * 1000)
@@ -41,8 +38,7 @@ def files(views: list[View]) -> Files:
             yield frame[key], png(pixels[::-1])
         frame["file_path"] = f"images/{view.name}.png"
         frames.add(json.dumps(frame, indent=1).replace("\n", "\n  "), ",\n  ")
-        if (picture := view.picture) is not None:
-            yield frame["file_path"], picture
+        yield from view.picture_as(frame["file_path"])
     if views[0].split:
         names = {split: [f"images/{view.name}.png" for view in views if view.split == split]
                  for split in (TRAIN, VALIDATION)}  # fmt: skip
@@ -50,8 +46,3 @@ def files(views: list[View]) -> Files:
         transforms |= {f"{split}_filenames": paths for split, paths in parts.items()}
     before, after = json.dumps(transforms, indent=1).split('""', 1)
     yield "transforms.json", chain([before], frames, [after])
-
-
-FORMAT = {
-    "nerfstudio-scene": SetFormat("nerfstudio: transforms.json, images, depths and masks", files, splits=True),
-}  # fmt: skip

@@ -31,21 +31,14 @@ def panoptic(views: list[View]) -> Files:
         colors = np.stack([(ids >> shift & 255).astype(np.uint8) for shift in (0, 8, 16)], axis=-1)
         end = f"_{view.split}" if view.split else ""
         yield f"panoptic{end}/{view.name}.png", png(colors)
-        segments = [
-            {
-                "id": shape["shape_index"] + 1,
-                "iscrowd": 0,
-                **{key: shape[key] for key in ("category_id", "bbox", "area")},
-            }
-            for shape in objects
-        ]
+        kept = [{key: shape[key] for key in ("category_id", "bbox", "area")} for shape in objects]
+        segments = [{"id": shape["shape_index"] + 1, "iscrowd": 0} | entry
+                    for shape, entry in zip(objects, kept, strict=True)]  # fmt: skip
         segmented = {"image_id": size["id"], "file_name": f"{view.name}.png", "segments_info": segments}
         for waiting, entry in zip(images[end], (size, segmented), strict=True):
             waiting.add(json.dumps(entry))
-    info, categories = (
-        json.dumps(merging.info),
-        json.dumps([{**category, "isthing": 1} for category in merging.categories]),
-    )
+    info = json.dumps(merging.info)
+    categories = json.dumps([{**category, "isthing": 1} for category in merging.categories])
     for end, (files, segments_of) in images.items():
         yield f"panoptic{end}.json", chain(
             [f'{{"info": {info}, "images": ['], files, ['], "annotations": ['], segments_of,
@@ -67,8 +60,7 @@ def yolo(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
         objects, (size,) = entries["annotations"], entries["images"]
         stem = f"{view.split}/{view.name}" if view.split else view.name
         yield f"labels/{stem}.txt", "".join(_box(entry, size) for entry in objects)
-        if (picture := view.picture) is not None:
-            yield f"images/{stem}.png", picture
+        yield from view.picture_as(f"images/{stem}.png")
 
 
 def _box(entry: dict[str, Any], size: dict[str, Any]) -> str:

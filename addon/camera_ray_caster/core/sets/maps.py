@@ -9,9 +9,8 @@ from ..conventions import FROM_BLENDER
 from ..records import InputError
 from ..units import MILLIMETERS, factor
 from .finished_set import View
-from .png import png, srgb
+from .png import MOST_16_BITS, png, srgb
 
-MOST_16_BITS = 65535
 SHOWN = "combined", "depth", "distance", "shape_index", "object_index", "normal"
 """Passes of which a preview shows those that there are."""
 

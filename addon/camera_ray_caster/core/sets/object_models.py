@@ -135,21 +135,17 @@ def ply(model: ObjectModel, scale: float) -> bytes:
     """Return the binary PLY of a model whose lengths are multiplied by ``scale``, with normals, and its colors as
     sRGB.
     """
-    names = [("x", "y", "z"), ("nx", "ny", "nz")]
-    arrays = [scale * model.vertices, model.normals]
-    head = "ply\nformat binary_little_endian 1.0\n" + f"element vertex {len(model.vertices)}\n"
-    head += "".join(f"property float {name}\n" for group in names for name in group)
-    fields: list[tuple] = [(name, "<f4") for group in names for name in group]
+    columns = dict(zip(("x", "y", "z", "nx", "ny", "nz"), (*(scale * model.vertices).T, *model.normals.T), strict=True))
+    kinds = dict.fromkeys(columns, ("float", "<f4"))
     if model.colors is not None:
-        names.append(("red", "green", "blue"))
-        arrays.append(srgb(model.colors))
-        fields += [(name, "u1") for name in names[-1]]
-        head += "".join(f"property uchar {name}\n" for name in names[-1])
+        columns |= zip(("red", "green", "blue"), srgb(model.colors).T, strict=True)
+        kinds = {name: kinds.get(name, ("uchar", "u1")) for name in columns}
+    head = "ply\nformat binary_little_endian 1.0\n" + f"element vertex {len(model.vertices)}\n"
+    head += "".join(f"property {word} {name}\n" for name, (word, _) in kinds.items())
     head += f"element face {len(model.triangles)}\nproperty list uchar int vertex_indices\nend_header\n"
-    points = np.empty(len(model.vertices), np.dtype(fields))
-    for group, array in zip(names, arrays, strict=True):
-        for name, values in zip(group, array.T, strict=True):
-            points[name] = values
+    points = np.empty(len(model.vertices), np.dtype([(name, kind) for name, (_, kind) in kinds.items()]))
+    for name, values in columns.items():
+        points[name] = values
     faces = np.empty(len(model.triangles), np.dtype([("count", "u1"), ("vertices", "<i4", 3)]))
     faces["count"], faces["vertices"] = 3, model.triangles
     return head.encode() + points.tobytes() + faces.tobytes()

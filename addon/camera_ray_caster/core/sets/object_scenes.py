@@ -21,11 +21,9 @@ from ..records import InputError, Shapes
 from ..units import MILLIMETERS, factor
 from .finished_set import Files, View
 from .object_models import diameter, model_of, ply
-from .png import png
-from .set_formats import SetFormat
+from .png import MOST_16_BITS, png
 from .streams import Waiting
 
-MOST_16_BITS = 65535
 DEPTH_STEP = 0.1
 """Millimeters of a step of depth, if the farthest hit is then within 16 bits; else as coarse as needed."""
 
@@ -72,22 +70,21 @@ def _scene(folder: str, views: list[View], numbers: dict[str, int]) -> Files:
         depth = view.planar_depth() * factor(MILLIMETERS, view.meters)
         step = DEPTH_STEP if depth.max(initial=0) <= MOST_16_BITS * DEPTH_STEP else float(depth.max()) / MOST_16_BITS
         yield f"{folder}/depth/{number}.png", png(np.round(depth / step).astype(np.uint16)[::-1])
-        if (picture := view.picture) is not None:
-            yield f"{folder}/rgb/{number}.png", picture
+        yield from view.picture_as(f"{folder}/rgb/{number}.png")
         (record,) = records("bop", [view.shot])
         cameras.add(_entry(view, image_of(record) | {"depth_scale": step}))
-        seen = {entry["shape_index"]: entry for kind in ("annotations", "hidden") for entry in view.annotations[kind]}
         poses = {entry["shape_index"]: entry for entry in view.annotations["objects"]}
-        truth.add(_entry(view, [_truth(view, poses[row], numbers) for row in seen if row in poses]))
-        facts.add(_entry(view, [_facts(entry) for row, entry in seen.items() if row in poses]))
-        for k, entry in enumerate(entry for row, entry in seen.items() if row in poses):
-            visible = unpacked(entry["segmentation"]) if "segmentation" in entry else None
+        entries = [entry for kind in ("annotations", "hidden") for entry in view.annotations[kind]]
+        entries = [entry for entry in entries if entry["shape_index"] in poses]
+        truth.add(_entry(view, [_truth(view, poses[entry["shape_index"]], numbers) for entry in entries]))
+        facts.add(_entry(view, [_facts(entry) for entry in entries]))
+        for k, entry in enumerate(entries):
             whole = unpacked(entry["segmentation_whole"])
-            visible = np.zeros_like(whole) if visible is None else visible
+            visible = unpacked(entry["segmentation"]) if "segmentation" in entry else np.zeros_like(whole)
             yield f"{folder}/mask/{number}_{k:06}.png", png(whole.astype(np.uint8) * 255)
             yield f"{folder}/mask_visib/{number}_{k:06}.png", png(visible.astype(np.uint8) * 255)
-    for name, entries in (("scene_camera", cameras), ("scene_gt", truth), ("scene_gt_info", facts)):
-        yield f"{folder}/{name}.json", chain(["{"], entries, ["}"])
+    for name, texts in (("scene_camera", cameras), ("scene_gt", truth), ("scene_gt_info", facts)):
+        yield f"{folder}/{name}.json", chain(["{"], texts, ["}"])
 
 
 def _entry(view: View, content: Any) -> str:
@@ -109,8 +106,3 @@ def _facts(entry: dict[str, Any]) -> dict[str, Any]:
         "px_count_visib": entry.get("area", 0),
         "visib_fract": entry.get("visible_fraction", 0.0),
     }  # fmt: skip
-
-
-FORMAT = {"bop-scenes": SetFormat(
-    "BOP: a scene per camera: rgb, depth, masks, poses of objects, boxes", files, splits=True, option="models"
-)}  # fmt: skip

@@ -13,6 +13,7 @@ COLOR = {1: 0, 3: 2, 4: 6}
 """The color type of a number of channels."""
 
 LEVEL = 6
+MOST_16_BITS = 65535
 
 
 def png(pixels: np.ndarray) -> bytes:

@@ -3,11 +3,9 @@
 dataset.json holds the run, so that ``--complete`` knows the pictures without the Blender file.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 from ..names import frame_digits
 
@@ -64,7 +62,7 @@ class Run:
                 "suffixes": list(self.suffixes)}  # fmt: skip
 
     @classmethod
-    def of_data(cls, data: Mapping[str, Any]) -> Run:
+    def of_data(cls, data: Mapping[str, Any]) -> Self:
         """Undo ``as_data``. Raises KeyError, TypeError or ValueError for anything else."""
         if "range" in data:
             first, last, step = data["range"]

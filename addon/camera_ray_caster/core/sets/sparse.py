@@ -16,8 +16,7 @@ from ..programs.colmap import IMAGES, POINTS, texts
 from ..records import InputError
 from .finished_set import VALIDATION, Files, View
 from .png import srgb
-from .set_formats import SetFormat
-from .streams import Records, Tracks, Waiting
+from .streams import Tracks, Waiting, records_of
 
 POINT_COUNT = 10_000
 """Number of points of a set."""
@@ -28,7 +27,7 @@ BESIDE = 1.5
 
 def files(views: list[View], count: int = POINT_COUNT) -> Files:
     """Yield the files of a model; see the package. Raises InputError for cameras that COLMAP cannot represent."""
-    cameras, images = texts(Records("colmap", views))
+    cameras, images = texts(records_of("colmap", views))
     head = remarks("colmap", [views[0].shot])
     places, colors = _seeds(views, count)
     tracks, lines = Tracks(len(places)), Waiting()
@@ -48,8 +47,7 @@ def files(views: list[View], count: int = POINT_COUNT) -> Files:
     if views[0].split:
         yield "sparse/0/test.txt", "".join(f"{view.name}.png\n" for view in views if view.split == VALIDATION)
     for view in views:
-        if (picture := view.picture) is not None:
-            yield f"images/{view.name}.png", picture
+        yield from view.picture_as(f"images/{view.name}.png")
 
 
 def _seeds(views: list[View], count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -102,8 +100,3 @@ def _around(distances: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         slack += np.nan_to_num(np.fmin(before, after))
     slack = BESIDE * slack + 1e-6 * np.nan_to_num(distances)
     return distances - slack, distances + slack
-
-
-FORMAT = {"colmap-scene": SetFormat(
-    "COLMAP: images, sparse/0, seed points with tracks from the hits", files, splits=True, option="points"
-)}  # fmt: skip

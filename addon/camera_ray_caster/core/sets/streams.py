@@ -8,6 +8,7 @@ from tempfile import TemporaryFile
 import numpy as np
 
 from ..exports import records
+from ..exports.format import Each
 from ..programs.parts.program import CameraRecord
 from ..records import InputError
 from .finished_set import View
@@ -36,24 +37,19 @@ class Waiting:
         return iter(partial(self._file.read, CHUNK), "")
 
 
-class Records(Sequence[CameraRecord]):
-    """The plain records of the views of a set for a program, made at each iteration. Raises InputError for a camera
-    that the program cannot represent.
+def records_of(key: str, views: Sequence[View]) -> Sequence[CameraRecord]:
+    """Return the plain records of the views of a set for a program, made at each iteration. They raise InputError for a
+    camera that the program cannot represent.
     """
 
-    def __init__(self, key: str, views: Sequence[View]):
-        self._key, self._views = key, views
-
-    def __len__(self) -> int:
-        return len(self._views)
-
-    def __getitem__(self, number):
-        view = self._views[number]
+    def record(view: View) -> CameraRecord:
         try:
-            return records(self._key, [view.shot])[0]
+            return records(key, [view.shot])[0]
         except InputError as error:
-            several = any(view.camera_name != other.camera_name for other in self._views)
+            several = any(view.camera_name != other.camera_name for other in views)
             raise InputError(f"{error}, or export the other cameras (--cameras)") if several else error from error
+
+    return Each(views, record)
 
 
 class Tracks:

@@ -44,28 +44,27 @@ def symmetries(vertices: np.ndarray, normals: np.ndarray, colors: np.ndarray) ->
     turns += [turn for turn in _of_cube() if points.stay(turn)]
     if axes:  # the only other turns are those that swap the ends of the axis
         turns = [turn for turn in turns if len(axes) == 1 and turn[axes[0], axes[0]] < -0.5][:1]
-    turns = _group(turns)
-    entries: dict[str, list[Any]] = {}
-    if turns:
-        entries["symmetries_discrete"] = [_matrix(turn, middle) for turn in turns]
-    if axes:
-        entries["symmetries_continuous"] = [
-            {"axis": np.eye(3)[axis].tolist(), "offset": middle.tolist()} for axis in axes
-        ]
-    return entries
+    return _entries(_group(turns), axes, middle)
 
 
 def of_ellipsoid(size: np.ndarray) -> dict[str, list[Any]]:
     """Return the symmetries of an ellipsoid of one color: continuous ones about an axis if the other two are equal."""
     others = [np.delete(size, axis) for axis in range(3)]
     axes = [axis for axis, (first, second) in enumerate(others) if np.isclose(first, second, rtol=EQUAL)]
-    flips = [_turn(axis, 2) for axis in range(3)]
-    entries: dict[str, list[Any]] = {}
-    if len(axes) < 2:
-        flips = [flip for flip in flips if flip[axes[0], axes[0]] < 0][:1] if axes else flips
-        entries["symmetries_discrete"] = [_matrix(flip, np.zeros(3)) for flip in flips]
+    flips = [] if len(axes) > 1 else [_turn(axis, 2) for axis in range(3)]
     if axes:
-        entries["symmetries_continuous"] = [{"axis": np.eye(3)[axis].tolist(), "offset": [0.0] * 3} for axis in axes]
+        flips = [flip for flip in flips if flip[axes[0], axes[0]] < 0][:1]
+    return _entries(flips, axes, np.zeros(3))
+
+
+def _entries(turns: list[np.ndarray], axes: list[int], middle: np.ndarray) -> dict[str, list[Any]]:
+    """Return the entries of rotations and of axes of revolution through a point, as far as there are any."""
+    entries: dict[str, list[Any]] = {}
+    if turns:
+        entries["symmetries_discrete"] = [_matrix(turn, middle) for turn in turns]
+    if axes:
+        offset = middle.tolist()
+        entries["symmetries_continuous"] = [{"axis": axis, "offset": offset} for axis in np.eye(3)[axes].tolist()]
     return entries
 
 

@@ -82,9 +82,8 @@ def program_of(camera: Camera, held: Collection[str] = ()) -> Program:
     """
     model, raw = type(camera.model), camera.record
     knobs = tuple(knob for setting in model.SETTINGS for knob in knobs_of(setting, raw))
-    options = {
-        setting: words for setting in model.SETTINGS if setting.name not in held and (words := _options(setting))
-    }
+    free = [setting for setting in model.SETTINGS if setting.name not in held]
+    options = {setting: words for setting in free if (words := _options(setting))}
     current = {setting.name: setting.given(raw) for setting in options}
     choices = [dict(zip(current, words, strict=True)) for words in product(*options.values())]
     try:
@@ -157,7 +156,7 @@ def _options(setting: Setting) -> dict[Any, str]:
 def _variants(camera: Camera, chosen: Mapping[str, Any], knobs: tuple[Knob, ...]) -> list[Variant]:
     """Return the variants for some choices."""
     generator = np.random.default_rng(len(knobs))
-    variants: list[Variant] = []
+    variants, model = list[Variant](), type(camera.model)
     for sample in range(1 + TRIED_SETTINGS):
         shares = generator.uniform(size=len(knobs))
         values = {
@@ -167,7 +166,7 @@ def _variants(camera: Camera, chosen: Mapping[str, Any], knobs: tuple[Knob, ...]
         if any(holds(variant.parts, values) for variant in variants) or len(variants) == MOST_VARIANTS:
             continue
         try:
-            _model(camera, {**chosen, **values})
+            model.from_blender(with_settings(camera.record, model, {**chosen, **values}), camera.raster)
         except InputError:  # no camera has these settings
             continue
         record, names = record_settings(camera, chosen, values)
@@ -202,8 +201,3 @@ def record_settings(camera: Camera, chosen: Mapping[str, Any], values: Mapping[s
         return numbers
 
     return record_known(ray, values, 2), tuple(names)
-
-
-def _model(camera: Camera, values: Mapping[str, Any]) -> Model:
-    model = type(camera.model)
-    return model.from_blender(with_settings(camera.record, model, values), camera.raster).posed(camera.pose)

@@ -4,7 +4,7 @@ They are those that ``core.lesson`` puts in, except for the facts of reports tha
 """
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -39,7 +39,6 @@ OVER = "[-1, 1]²"
 NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*'?")
 
 Values = Iterator[tuple[str, Any]] | Mapping[str, Any]
-Part = Callable[..., Values]
 
 
 def _film(model: Model, raw: BlenderCamera, raster: Raster, x, y) -> Values:

@@ -59,9 +59,6 @@ HELD = {
 }  # fmt: skip
 """Settings that are no knobs: each of their variants holds the table, or the traced lens, again."""
 
-SPACES = re.compile(r"\n +| (?:[=*/+?:<>]|[<>=]=|&&|\|\|) |, ")
-"""What ``dense`` shortens: a seventh of the page."""
-
 FILES = Path(__file__).with_name("page_files")
 SCRIPTS = "formula", "mathml", "scene", "picture", "space", "state", "own", "glass", "main"
 TABLES = {"prepare": "PREPARE", "rays": "RAYS", "values": "VALUES"}
@@ -143,11 +140,6 @@ def example(model: type[Model], **settings: Any) -> Camera:
     return made(SIZE if shape is None else within(*SIZE, shape))
 
 
-def dense(code: str) -> str:
-    """Return JavaScript or GLSL without indentation and without spaces around operators, but for minus: "a - -b"."""
-    return SPACES.sub(lambda space: space[0].strip(" "), code)
-
-
 class _Tables:
     """Lists of functions, each of which is written once."""
 
@@ -156,7 +148,7 @@ class _Tables:
 
     def place(self, name: str, text: str) -> int:
         """Return the place of a text in a list, to which it is added if it is new, without the spaces of no use."""
-        text = dense(text)
+        text = packed(text)
         if text not in self.texts[name]:
             self.texts[name].append(text)
         return self.texts[name].index(text)
@@ -167,8 +159,8 @@ class _Tables:
         variants = []
         for variant in program.variants:
             made = functions(variant.parts)
-            places = {name: self.place(table, packed(made[name])) for name, table in TABLES.items()}
-            places["glsl"] = self.place("GLSL", packed(glsl(variant.parts)[0]))
+            places = {name: self.place(table, made[name]) for name, table in TABLES.items()}
+            places["glsl"] = self.place("GLSL", glsl(variant.parts)[0])
             variants.append({"choices": variant.choices, "names": variant.names, **places})
         return {
             "key": model.key, "label": model.label, "group": model.group, "description": model.description,
@@ -198,8 +190,11 @@ def glass_of(model: RealLens) -> dict[str, Any]:
 
 
 def packed(text: str) -> str:
-    """Return a function without the spaces and line ends that it does not need: a seventh of the page."""
-    return re.sub(r" - (?!-)", "-", re.sub(r" ?([=*/<>?:,;{}()\[\]+]) ?", r"\1", re.sub(r"\s*\n\s*", "", text)))
+    """Return JavaScript or GLSL without the spaces and line ends that it does not need, such as in "a - -b": a seventh
+    of the page.
+    """
+    text = re.sub(r" ?([=*/<>?:,;{}()\[\]+]|&&|\|\|) ?", r"\1", re.sub(r"\s*\n\s*", "", text))
+    return re.sub(r" - (?!-)", "-", text)
 
 
 def _data(value: Any) -> str:

@@ -182,9 +182,7 @@ def _tree(parts: list[tuple[np.ndarray, np.ndarray, np.ndarray]], names: list[st
     used, name_index = np.unique(shape[sorted_], return_inverse=True)
     bits = np.rint(255 * np.clip(colors[sorted_], 0, 1) ** (1 / 2.2)) @ (1.0, 256.0, 65536.0)
     a, b, c = (corners[sorted_, k] for k in range(3))
-    texels = np.concatenate(
-        [np.column_stack(columns) for columns in ((a, name_index), (b - a, bits), (c - a, 0 * bits))], axis=1
-    )
+    texels = np.column_stack((a, name_index, b - a, bits, c - a, 0 * bits))
     data = np.concatenate((np.array(nodes), texels.reshape(-1, 4))).astype("<f4")
     return {
         "nodes": len(nodes) // 2, "triangles": len(corners), "names": [names[k] for k in used],
