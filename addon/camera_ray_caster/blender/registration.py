@@ -38,7 +38,6 @@ from .ui import (
     lesson_panels,
     menus,
     model_panels,
-    object_panels,
     open_lesson,
     operators,
     other_engine,
@@ -56,27 +55,20 @@ from .ui import (
 )
 from .view3d import hit_points, lens_icon, live, mouse_gizmo, notice, overlay, pixel_lessons
 
-CLASSES = (
-    *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,
-    *cycles_operators.CLASSES, *frame.CLASSES, *follow_timeline.CLASSES, *other_engine.CLASSES, *add_line.CLASSES,
-    *export_operators.CLASSES, *rig_operators.CLASSES, *mouse_gizmo.CLASSES, *render_panels.CLASSES,
-    *gallery_panels.CLASSES, *menus.CLASSES, *presets.CLASSES, *model_panels.CLASSES,
-    *see_through.CLASSES, *see_through_here.CLASSES, *select_seen.CLASSES,
-    *camera_panels.CLASSES, *in_process.CLASSES, *cast_all.CLASSES,
-    *cameras_list.CLASSES, *show_result.CLASSES, *cast_panels.CLASSES, *verify_panels.CLASSES,
-    *left_out_panels.CLASSES, *lens_operators.CLASSES, *lesson_operators.CLASSES, *lecture_operators.CLASSES,
-    *point_operators.CLASSES, *gallery_operators.CLASSES,
-    *open_lesson.CLASSES, *lesson_panels.CLASSES, *facts_panels.CLASSES, *overlay_panels.CLASSES,
-    *cloud_operators.CLASSES, *object_panels.CLASSES, *through_model.CLASSES,
+PARTS = (
+    groups, paths, shape_cache, shader_updates, reports, image_datablocks, gallery, lens_icon, scene_cache, other_times,
+    overlay, engine, viewport, operators, cast_operator, hit_points, pixel_lessons, live, notice, cycles_operators,
+    frame, follow_timeline, other_engine, add_line, export_operators, rig_operators, mouse_gizmo, render_panels,
+    gallery_panels, menus, presets, model_panels, see_through, see_through_here, select_seen, camera_panels, in_process,
+    cast_all, cameras_list, show_result, cast_panels, verify_panels, left_out_panels, lens_operators, lesson_operators,
+    lecture_operators, point_operators, gallery_operators, open_lesson, lesson_panels, facts_panels, overlay_panels,
+    cloud_operators, through_model, commands, hide_overlays,
 )  # fmt: skip
-"""Blender types in registration order: a panel comes after its parent panel."""
+"""Modules with types of Blender or something else to register, in this order: a panel comes after its parent panel."""
 
-MODULES = (
-    groups, paths, shape_cache, shader_updates, reports, image_datablocks, gallery, lens_icon, scene_cache,
-    other_times, engine, viewport, cast_operator, overlay, hit_points, pixel_lessons, live, notice, render_panels,
-    menus, gallery_panels, gallery_operators, lesson_operators, lecture_operators, presets, export_operators,
-    rig_operators, commands, other_engine, see_through, hide_overlays, select_seen, in_process,
-)  # fmt: skip
+CLASSES = tuple(cls for module in PARTS for cls in getattr(module, "CLASSES", ()))
+
+MODULES = tuple(module for module in PARTS if hasattr(module, "register"))
 """Modules that register more than classes. Their ``register(undo)`` gives ``undo`` the callbacks that undo it."""
 
 
@@ -87,12 +79,20 @@ class Undo(ExitStack):
         """Add a callback."""
         return super().callback(_unless_gone, remove, *arguments)
 
-    def add_handlers(self, handlers) -> None:
-        """Append functions to the named lists in ``bpy.app.handlers``, until they are undone."""
-        for name, function in handlers:
-            handler_list = getattr(bpy.app.handlers, name)
-            handler_list.append(function)
-            self.callback(handler_list.remove, function)
+    def append(self, functions, function) -> None:
+        """Append a function to a menu or a list of handlers."""
+        functions.append(function)
+        self.callback(functions.remove, function)
+
+    def add_handlers(self, function, *names: str) -> None:
+        """Append a function to lists in ``bpy.app.handlers``."""
+        for name in names:
+            self.append(getattr(bpy.app.handlers, name), function)
+
+    def add_drawing(self, space: type[bpy.types.Space], function, when: str) -> None:
+        """Have Blender call a function whenever it draws a region of an editor: see ``Space.draw_handler_add``."""
+        handle = space.draw_handler_add(function, (), "WINDOW", when)
+        self.callback(space.draw_handler_remove, handle, "WINDOW")
 
 
 def _unless_gone(remove, *arguments) -> None:

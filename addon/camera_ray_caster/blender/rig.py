@@ -6,7 +6,7 @@ changes from frame to frame is keyed, in float32.
 """
 
 from collections.abc import Callable, Iterable
-from contextlib import contextmanager
+from contextlib import ExitStack
 from functools import lru_cache
 from pathlib import Path
 
@@ -26,6 +26,7 @@ from .properties.calibration_choice import READING, set_lens, settings_in
 from .properties.declared import GROUP, MODEL
 from .properties.owners import owner_of
 from .properties.setting_labels import label_of
+from .read.changes import changed
 from .read.frames import frame_rate
 from .read.lengths import meters_of
 from .read.size import SIZE, size_of
@@ -58,7 +59,8 @@ def add_rig(
     empty.parent = parent
     if parent is not None and parent.type == "CAMERA":
         empty.matrix_parent_inverse = FROM_BLENDER
-    with _linear():
+    with ExitStack() as stack:  # between two poses cameras move straight
+        changed(stack, bpy.context.preferences.edit, keyframe_new_interpolation_type="LINEAR")
         if trajectories and cameras:
             _place(empty, zip(trajectories[0].frames, trajectories[0].poses, strict=True))
             empty[KEYED] = trajectories[0].frames
@@ -195,15 +197,3 @@ def _mark(scene, cameras: list[Mounted], objects: list) -> None:
         return
     for frame, item in shown:
         scene.timeline_markers.new(item.name, frame=int(frame)).camera = item
-
-
-@contextmanager
-def _linear():
-    """Let new keyframes be linear: between two poses the camera moves straight."""
-    edit = bpy.context.preferences.edit
-    before = edit.keyframe_new_interpolation_type
-    edit.keyframe_new_interpolation_type = "LINEAR"
-    try:
-        yield
-    finally:
-        edit.keyframe_new_interpolation_type = before

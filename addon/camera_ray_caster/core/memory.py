@@ -4,6 +4,8 @@ import ctypes
 import errno
 import os
 import platform
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 from .records import InputError
 
@@ -61,12 +63,18 @@ def of_pixels(arrays: str, shape: tuple[int, ...]) -> str:
 EXHAUSTED = {errno.EMFILE: "open files", errno.ENFILE: "open files", errno.ENOMEM: "memory", errno.EAGAIN: "processes"}
 
 
-def exhausted(error: BaseException) -> str:
-    """Return a line on what the process has run out of: memory, threads or open files; "" for any other error."""
-    resource = EXHAUSTED.get(error.errno or 0, "") if isinstance(error, OSError) else ""
-    if isinstance(error, MemoryError):
-        resource = "memory"
-    if isinstance(error, RuntimeError) and "start new thread" in str(error):
-        resource = "threads"
-    remedy = "raise the limits of this process (ulimit), or end other programs"
-    return f"not enough {resource}: {remedy}" if resource else ""
+@contextmanager
+def limits_as_input() -> Iterator[None]:
+    """Raise InputError if the process runs out of memory, threads or open files inside the context."""
+    try:
+        yield
+    except (MemoryError, RuntimeError, OSError) as error:
+        resource = EXHAUSTED.get(error.errno or 0) if isinstance(error, OSError) else None
+        if isinstance(error, MemoryError):
+            resource = "memory"
+        if isinstance(error, RuntimeError) and "start new thread" in str(error):
+            resource = "threads"
+        if resource is None:
+            raise
+        remedy = "raise the limits of this process (ulimit), or end other programs"
+        raise InputError(f"not enough {resource}: {remedy}") from error

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import camera_ray_caster as crc
-from camera_ray_caster.blender.cycles.openimageio import openimageio
+from camera_ray_caster.blender.cycles.shader import openimageio
 from camera_ray_caster.core.openexr.reading import channels_of
 
 from ...core.cameras.table_examples import pinhole, without_eye

@@ -28,9 +28,10 @@ from ...core.shaders.camera_shader import camera_shader
 from ...core.shaders.turn import UPRIGHT, Turn, shutter_of
 from ..process.signals import raise_if_stopping
 from ..read.camera_fields import camera_record, shader_mark, view_names
+from ..read.changes import changed
 from ..read.scene_reader import evaluated, evaluated_camera
 from .device import device_of
-from .renderer import Render, border, changed, cycles_engine
+from .renderer import EnginePicture, Render, border, cycles_engine
 from .rolling import blur_settings, is_shutter
 from .shader import check_cycles, set_shader, texture_folder
 
@@ -40,24 +41,6 @@ BLACK = (
     "Cycles' picture is black: shapes hide the lamps and the world from what is seen, or there are none. Cycles "
     "has shadows, and casts have none: put a lamp where the camera is"
 )
-
-
-@dataclass(frozen=True)
-class CyclesPicture:
-    """The combined pass of every view layer and view."""
-
-    pixels: Mapping[tuple[str, str], np.ndarray]
-    """Pixels (rows, columns, 4) float32 of the render window, row 0 at the bottom, by names of view layer and view."""
-    made_by: Mapping[str, object]
-    """Engine, device and samples, for the report."""
-    seconds: float
-    step = "cycles"
-    """Name of its seconds in the report."""
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """A line on a picture without light."""
-        return () if any((pixels[..., :3] > DARK).any() for pixels in self.pixels.values()) else (BLACK,)
 
 
 @dataclass(frozen=True)
@@ -73,7 +56,7 @@ class Eye:
     """Cycles' shift of the raster, in widths of the frame; not all models use the shift of an eye."""
 
 
-def picture_of(scene) -> CyclesPicture:
+def picture_of(scene) -> EnginePicture:
     """Render a scene's current frame with Cycles, with the file's settings and the rays of its camera.
 
     Raises InputError if Cycles is disabled or has no OSL, if ``read_camera`` refuses the camera, for a linked camera
@@ -85,7 +68,8 @@ def picture_of(scene) -> CyclesPicture:
         for view in view_names(scene):
             pixels |= {(layer, view): colors for layer, colors in _of_view(scene, view, run).items()}
     made_by = {"engine": "CYCLES", "device": device_of(scene), "samples": scene.cycles.samples}
-    return CyclesPicture(pixels, made_by, perf_counter() - started)
+    is_lit = any((colors[..., :3] > DARK).any() for colors in pixels.values())
+    return EnginePicture("cycles", pixels, made_by, perf_counter() - started, () if is_lit else (BLACK,))
 
 
 def _of_view(scene, view: str, render: Render) -> Mapping[str, np.ndarray]:

@@ -1,17 +1,34 @@
 """Cycles as a function: a render that returns its float pixels before Blender processes them."""
 
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import ExitStack, contextmanager, redirect_stdout
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
 
 import bpy
 import numpy as np
 
-from ...core.records import InputError, Raster
-from ..process.opening import reported
+from ...core.records import Raster
+from ..process.opening import refused_as_input
 from ..process.signals import raise_if_stopping
+from ..read.changes import changed
 
 INSIDE = 0.25
 """Offset of a border from a pixel's edge, in pixels, so that rounding cannot move it to the next pixel."""
+
+
+@dataclass(frozen=True)
+class EnginePicture:
+    """The combined pass of every view layer and view, by another engine."""
+
+    step: str
+    """Name of its seconds in the report."""
+    pixels: Mapping[tuple[str, str], np.ndarray]
+    """Pixels (rows, columns, 4) float32 of the render window, row 0 at the bottom, by names of view layer and view."""
+    made_by: Mapping[str, object]
+    """Engine, and how it rendered, for the report."""
+    seconds: float
+    warnings: tuple[str, ...] = ()
+
 
 Render = Callable[[], Mapping[str, np.ndarray]]
 """Function that renders the scene with Cycles and returns the pixels by view layer."""
@@ -50,12 +67,9 @@ def cycles_engine(scene) -> Iterator[Render]:
 
     def render() -> Mapping[str, np.ndarray]:
         pictures.clear()
-        try:
-            with redirect_stdout(None), ExitStack() as stack:
-                changed(stack, scene.render, engine=Pixels.bl_idname)  # not before: Blender would compile shaders, too
-                bpy.ops.render.render(scene=scene.name)
-        except RuntimeError as error:
-            raise InputError(reported(error)) from error
+        with refused_as_input(), ExitStack() as stack:
+            changed(stack, scene.render, engine=Pixels.bl_idname)  # not before: Blender would compile shaders, too
+            bpy.ops.render.render(scene=scene.name)
         raise_if_stopping()
         if not pictures:
             raise RuntimeError("Cycles returned no pixels: see the messages in the terminal")
@@ -88,10 +102,3 @@ def border(window: Raster) -> dict[str, object]:
         "border_min_y": (window.y0 + within) / height,
         "border_max_y": (window.y1 + within) / height,
     }
-
-
-def changed(stack: ExitStack, owner, **values) -> None:
-    """Set properties of a Blender struct until the stack is closed."""
-    for name, value in values.items():
-        stack.callback(setattr, owner, name, getattr(owner, name))
-        setattr(owner, name, value)

@@ -66,15 +66,7 @@ def forget(*_):
     _known.clear()
 
 
-HANDLERS = (
-    ("depsgraph_update_post", follow),
-    ("frame_change_post", follow),
-    ("undo_post", forget),
-    ("redo_post", forget),
-    ("load_pre", forget),
-)
-
-
 def register(undo) -> None:
     undo.callback(forget)
-    undo.add_handlers(HANDLERS)
+    undo.add_handlers(follow, "depsgraph_update_post", "frame_change_post")
+    undo.add_handlers(forget, "undo_post", "redo_post", "load_pre")

@@ -1,7 +1,5 @@
 """The render engine: Blender requests a picture, ``job`` casts it, and Blender stores, shows and writes it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -9,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial, reduce
 from operator import add
 from time import perf_counter, sleep
+from typing import Self
 
 import bpy
 import numpy as np
@@ -16,12 +15,11 @@ import numpy as np
 from ...core.camera.asked_size import asked_size
 from ...core.camera.stereo import eye_record
 from ...core.cast import Images
-from ...core.memory import exhausted
+from ...core.memory import limits_as_input
 from ...core.motion.evaluations import UNRESOLVED
 from ...core.records import BlenderCamera, Cancelled, InputError
 from ...core.report.report import Report
-from ..cycles.cycles_picture import CyclesPicture
-from ..faces.engine_picture import FacesPicture
+from ..cycles.renderer import EnginePicture
 from ..output import reports
 from ..process import signals
 from ..properties.declared import ENGINE
@@ -31,7 +29,7 @@ from ..read import physics
 from ..read.camera_fields import camera_record
 from ..read.frames import frame_of
 from .after import warnings
-from .job import run
+from .job import Job
 from .viewport import Viewport
 
 BAND_PIXELS = 1 << 18
@@ -51,7 +49,7 @@ _ending: list[bool] = []
 class RenderCall:
     """Input and result of one render that the add-on starts."""
 
-    picture: CyclesPicture | FacesPicture | None = None
+    picture: EnginePicture | None = None
     """Another engine's picture, which replaces the combined pass; None for our own."""
     images: dict[tuple[str, str], Images] | None = None
     """Images of the render, by layer and view; None if they are not kept."""
@@ -63,7 +61,7 @@ class RenderCall:
     """Whether the render was stopped."""
 
     @contextmanager
-    def handed(self) -> Iterator[RenderCall]:
+    def handed(self) -> Iterator[Self]:
         """Let the engine have this call inside the context."""
         CameraRayCaster.call = self
         try:
@@ -109,14 +107,10 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         """Render one view layer, or report why not."""
         try:
             source = reports.Source.read(depsgraph.scene, depsgraph)
-            with signals.heard(self.has_ended):
+            with limits_as_input(), signals.heard(self.has_ended):
                 report = self.render_layer(depsgraph)
         except InputError as error:
             self.report({"ERROR"}, str(error) if bpy.app.background else in_labels(str(error)))
-        except (MemoryError, RuntimeError, OSError) as error:
-            if not (problem := exhausted(error)):
-                raise
-            self.report({"ERROR"}, problem)
         else:
             self.keep(report, depsgraph.view_layer_eval.name, source)
 
@@ -166,11 +160,10 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         def show(combined: np.ndarray, rows: slice, _: int) -> None:
             self.store({PASSES[0].label: ("combined", combined)}, rows, layer, view)
 
-        images, report = run(
-            depsgraph, self.camera_override, [key for key in keys if key not in rendered], self.advance, store,
-            call.spare.pop((layer, view), None), None if bpy.app.background else show,
-            visit=partial(self.visit, depsgraph), view=view, eye=partial(self.eye, view=view),
-        )  # fmt: skip
+        cast_keys, visit = [key for key in keys if key not in rendered], partial(self.visit, depsgraph)
+        job = Job.read(depsgraph, self.camera_override, cast_keys, visit, view, partial(self.eye, view=view))
+        spare = call.spare.pop((layer, view), None)
+        images, report = job.cast(self.advance, store, spare, None if bpy.app.background else show)
         images |= rendered
         if call.images is not None:
             call.images[layer, view] = images
@@ -217,16 +210,14 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
 
         With Persistent Data an engine renders several frames in succession: a repeated layer starts a new frame.
         """
-        if report.left_out:
-            self.report({"WARNING"}, f"{reports.left_out_line(report.left_out)}; the report gives the reasons")
-        for line in report.motion:
-            if line.startswith(UNRESOLVED):
-                self.report({"WARNING"}, line)
-        for line in report.warnings:
+        failed = [finding.witness for finding in report.findings if not finding.passed]
+        for line in (
+            *[f"{reports.left_out_line(report.left_out)}; the report gives the reasons"] * bool(report.left_out),
+            *(line for line in report.motion if line.startswith(UNRESOLVED)),
+            *report.warnings,
+            *(f"the reference check {witness} failed: see the report" for witness in failed),
+        ):
             self.report({"WARNING"}, line)
-        for finding in report.findings:
-            if not finding.passed:
-                self.report({"WARNING"}, f"the reference check {finding.witness} failed: see the report")
         self.done = {layer: report} if layer in self.done else {**self.done, layer: report}
         whole = reduce(add, self.done.values())
         if self.call is not None:

@@ -1,7 +1,5 @@
 """The steps from an evaluated scene to images and a report. They are the same for panel, F12 and terminal."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -28,6 +26,11 @@ from ..read.motion import with_other_frames
 from ..verification.check import findings_of_picture
 
 
+def host_of(scene) -> dict[str, object]:
+    """Return Blender's version, the length of a Blender unit in meters, and the frames of a second: see ``Report``."""
+    return {"blender": bpy.app.version_string, "meters": meters_of(scene), "frame_rate": frame_rate(scene)}
+
+
 @dataclass(frozen=True)
 class Job:
     """All data that a cast needs from Blender, read and verified. The cast itself may run in another thread."""
@@ -44,7 +47,6 @@ class Job:
     stored: tuple[int, int]
     """Rows and columns of the picture that Blender stores: the whole frame, unless Blender crops to a border."""
     host: dict[str, object]
-    """Blender's version, and the length of a Blender unit in meters."""
     several: bool
     """Whether the layer is one of several that are rendered."""
 
@@ -57,7 +59,7 @@ class Job:
         visit: Callable | None = None,
         view: str = "",
         eye: Eye | None = None,
-    ) -> Job:
+    ) -> "Job":
         """Read an evaluated scene with one camera, and verify the camera.
 
         Only the depsgraph is read, so that a render's thread may call this. ``visit(frame)`` evaluates the scene at
@@ -98,11 +100,7 @@ class Job:
             frame=frame,
             layer=layer,
             stored=record.camera.raster.picture_size[::-1],
-            host={
-                "blender": bpy.app.version_string,
-                "meters": meters_of(scene),
-                "frame_rate": frame_rate(scene),
-            },
+            host=host_of(scene),
             several=several,
         )
 
@@ -134,10 +132,3 @@ class Job:
             accuracy=bounds, host=self.host,
         )  # fmt: skip
         return images, report
-
-
-def run(
-    depsgraph, camera_object, passes: Sequence[str], progress=None, finished=None, spare=None, preview=None, **eye
-) -> tuple[Images, Report]:
-    """Read and cast in one call: see ``Job``."""
-    return Job.read(depsgraph, camera_object, passes, **eye).cast(progress, finished, spare, preview)

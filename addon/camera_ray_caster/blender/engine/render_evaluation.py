@@ -3,16 +3,17 @@
 Blender evaluates a scene in this way only for an engine that renders it. So an engine renders that only reads.
 """
 
-from contextlib import ExitStack, redirect_stdout
+from contextlib import ExitStack
 from functools import partial
 
 import bpy
 
 from ...core.records import Cancelled, InputError
-from ..cycles.renderer import changed, only_engine
+from ..cycles.renderer import only_engine
 from ..process import signals
-from ..process.opening import reported
+from ..process.opening import refused_as_input
 from ..read.camera_fields import check_camera
+from ..read.changes import changed
 from ..read.frames import check_layers
 from .engine import CameraRayCaster
 from .job import Job
@@ -47,11 +48,8 @@ def read_as_rendered(scene) -> Job:
         stack.callback(bpy.utils.unregister_class, Reader)
         only_engine(stack, scene)
         changed(stack, scene.render, engine=Reader.bl_idname, use_multiview=False)
-        try:
-            with redirect_stdout(None):
-                bpy.ops.render.render(scene=scene.name, layer=layer.name)
-        except RuntimeError as error:
-            raise InputError(reported(error)) from error
+        with refused_as_input():
+            bpy.ops.render.render(scene=scene.name, layer=layer.name)
     if not read:
         raise RuntimeError("the render failed: see the messages in the terminal")
     if isinstance(read[0], Exception):

@@ -5,9 +5,8 @@ Each face has a camera of its own, a child of the scene's camera, so that motion
 the edges of faces, so that screen-space effects have what lies there.
 """
 
-from collections.abc import Iterator, Mapping
-from contextlib import ExitStack, contextmanager, redirect_stdout
-from dataclasses import dataclass
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from time import perf_counter
 
@@ -24,11 +23,13 @@ from ...core.faces.lens_points import LensPoint, blur_refusal, lens_points
 from ...core.faces.resample import FINER, resampled
 from ...core.memory import of_pixels, require
 from ...core.records import InputError
-from ..cycles.renderer import changed, only_engine
-from ..process.opening import reported
+from ..cycles.renderer import EnginePicture, only_engine
+from ..process.opening import refused_as_input
 from ..process.signals import raise_if_stopping
 from ..read.camera_fields import camera_record, view_names
+from ..read.changes import changed
 from ..read.scene_reader import evaluated_camera
+from ..read.texels import pixels_of_file
 from .driver import check_driver
 
 EEVEE, WORKBENCH = "EEVEE", "WORKBENCH"
@@ -42,24 +43,10 @@ IMAGE = {
     "color_management": "FOLLOW_SCENE", "exr_codec": "NONE",
 }  # fmt: skip
 """Settings of the files of faces, in the order in which they can be set; Blender before 5.0 has no media_type."""
-FAILED = "{} did not render a face: {}"
+FAILED = "{} did not render a face: "
 MATCAP = "A MatCap turns with each face of the picture, so that brightness jumps: choose Studio or Flat lighting"
 NO_BLUR = "Depth of field is left out: {}"
 ONE_SAMPLE = "with 1 sample every ray passes through the center of the aperture; raise Samples of the Ray Caster"
-
-
-@dataclass(frozen=True)
-class FacesPicture:
-    """The combined pass of every view layer and view."""
-
-    pixels: Mapping[tuple[str, str], np.ndarray]
-    """Pixels (rows, columns, 4) float32 of the render window, row 0 at the bottom, by names of view layer and view."""
-    made_by: Mapping[str, object]
-    """Engine and faces, for the report."""
-    seconds: float
-    warnings: tuple[str, ...] = ()
-    step = "faces"
-    """Name of its seconds in the report."""
 
 
 def engine_name(engine: str) -> str:
@@ -67,7 +54,7 @@ def engine_name(engine: str) -> str:
     return NAMES[engine][-1 if bpy.app.version >= (5, 0) else 0]
 
 
-def picture_of(scene, engine: str, samples: int = 0) -> FacesPicture:
+def picture_of(scene, engine: str, samples: int = 0) -> EnginePicture:
     """Render a scene's current frame with EEVEE or WORKBENCH, with the file's settings and the rays of its camera.
 
     samples: of EEVEE for each texel; 0 for the file's. Raises InputError for a camera that cannot be cast or whose
@@ -99,7 +86,7 @@ def picture_of(scene, engine: str, samples: int = 0) -> FacesPicture:
     made_by: dict[str, object] = {"engine": engine, "faces": len(sizes), "texels": texels}
     if engine == EEVEE:
         made_by["samples"] = samples or scene.eevee.taa_render_samples
-    return FacesPicture(pixels, made_by, perf_counter() - started, tuple(dict.fromkeys(warnings)))
+    return EnginePicture("faces", pixels, made_by, perf_counter() - started, tuple(dict.fromkeys(warnings)))
 
 
 def _eye(scene, view: str, engine: str) -> tuple[bpy.types.Object, Camera]:
@@ -168,11 +155,8 @@ def _rendered(scene, active, camera: Camera, face: Face, point, layer, engine: s
         scene.camera, scene.render.filepath = item, str(path)
         scene.render.resolution_x, scene.render.resolution_y = width, height
         scene.render.pixel_aspect_x, scene.render.pixel_aspect_y = max(across / up, 1.0), max(up / across, 1.0)
-        try:
-            with redirect_stdout(None):
-                bpy.ops.render.render(scene=scene.name, write_still=True)
-        except RuntimeError as error:
-            raise InputError(FAILED.format(engine, reported(error))) from error
+        with refused_as_input(FAILED.format(engine)):
+            bpy.ops.render.render(scene=scene.name, write_still=True)
     raise_if_stopping()
     return _read(path, face, engine)
 
@@ -205,16 +189,12 @@ def _camera_of(stack: ExitStack, scene, active, camera: Camera, face: Face, poin
 def _read(path: Path, face: Face, engine: str) -> np.ndarray:
     """Return the pixels of a file, which is removed."""
     if not path.is_file():
-        raise InputError(FAILED.format(engine, "see Blender's messages"))
-    image = bpy.data.images.load(str(path))
+        raise InputError(FAILED.format(engine) + "see Blender's messages")
     try:
-        image.colorspace_settings.is_data = True
-        width, height = image.size
-        pixels = np.empty(width * height * 4, np.float32)
-        image.pixels.foreach_get(pixels)
+        pixels = pixels_of_file(path)
     finally:
-        bpy.data.images.remove(image)
         path.unlink()
+    height, width, _ = pixels.shape
     if (width, height) != face.size:
         raise InputError(f"Blender rendered {width} x {height} pixels in place of {face.size}")
-    return pixels.reshape(height, width, 4)
+    return pixels

@@ -34,9 +34,8 @@ def save(
     """
     layers = entry_names({layer for layer, _ in images})
     for view in dict.fromkeys(view for _, view in images):
-        with zipfile.ZipFile(
-            path.with_stem(path.stem + suffixes.get(view, "")), "w", zipfile.ZIP_DEFLATED, compresslevel=LEVEL
-        ) as file:
+        of_view = path.with_stem(path.stem + suffixes.get(view, ""))
+        with zipfile.ZipFile(of_view, "w", zipfile.ZIP_DEFLATED, compresslevel=LEVEL) as file:
             for layer in sorted(layers):
                 for key, image in images[layer, view].items():
                     raise_if_stopping()

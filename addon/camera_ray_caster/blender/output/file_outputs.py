@@ -3,9 +3,10 @@
 import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
+from ..read import changes
 from ..read.compositor import compositor_nodes
 
 
@@ -17,13 +18,10 @@ def writing(scene) -> list:
 @contextmanager
 def muted(nodes: Sequence) -> Iterator[None]:
     """Mute nodes inside the context."""
-    for node in nodes:
-        node.mute = True
-    try:
-        yield
-    finally:
+    with ExitStack() as stack:
         for node in nodes:
-            node.mute = False
+            changes.changed(stack, node, mute=True)
+        yield
 
 
 def files(scene, nodes: Sequence) -> dict[Path, tuple]:

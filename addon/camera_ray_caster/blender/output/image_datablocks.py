@@ -8,6 +8,7 @@ from bpy.app.handlers import persistent
 
 from ...core.report.display import displayed
 from ..properties.pass_properties import PASSES, stored
+from ..read.texels import pixels_of
 
 PREFIX = "Ray Caster "
 VIEW = "Ray Caster: Shown"
@@ -55,18 +56,13 @@ def _datablock(name: str, width: int, height: int, is_data: bool):
         image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True, is_data=is_data)
         image.use_fake_user = True  # save the image even if nothing uses it
         return image
-    if image.packed_file:
-        _unpack(image)
+    if image.packed_file:  # its pixels are then in memory
+        image.source = "GENERATED"
+        if image.packed_file:
+            image.unpack(method="REMOVE")
     if (image.generated_width, image.generated_height) != (width, height):
         image.generated_width, image.generated_height = width, height
     return image
-
-
-def _unpack(image) -> None:
-    """Turn a packed image into a generated image with its pixels in memory."""
-    image.source = "GENERATED"
-    if image.packed_file:
-        image.unpack(method="REMOVE")
 
 
 def results() -> dict[str, str]:
@@ -88,15 +84,13 @@ def show_in_colors(name: str) -> tuple[bpy.types.Image, str]:
     result, key = bpy.data.images[name], results()[name]
     if key == "combined":
         return result, "as it is"
-    (width, height), pixels = result.size, np.empty(len(result.pixels), np.float32)
-    result.pixels.foreach_get(pixels)
     channels = next(len(entry.channels) for entry in PASSES if entry.key == key)
-    colors, description = displayed(key, pixels.reshape(height, width, 4)[..., :channels])
+    colors, description = displayed(key, pixels_of(result)[..., :channels])
     image = bpy.data.images.get(VIEW)
     if image is None:
-        image = bpy.data.images.new(VIEW, width, height)
+        image = bpy.data.images.new(VIEW, *result.size)
         image.colorspace_settings.name = "Non-Color"  # numbers, not light
-    image.scale(width, height)
+    image.scale(*result.size)
     image.pixels.foreach_set(_rgba(colors.reshape(-1, 3)).ravel())
     image.update()
     image[OF] = name
@@ -119,9 +113,7 @@ def hold(*_) -> None:
     for name, key in results().items():
         image = bpy.data.images[name]
         if image.has_data:
-            pixels = np.empty(len(image.pixels), np.float32)
-            image.pixels.foreach_get(pixels)
-            _held[name] = key, tuple(image.size), pixels
+            _held[name] = key, tuple(image.size), pixels_of(image).ravel()
     _editors[:] = [(space, space.image.name) for space in editors() if space.image and space.image.name in _held]
 
 
@@ -163,10 +155,10 @@ def forget(*_) -> None:
 
 
 def register(undo) -> None:
-    undo.add_handlers([
-        ("save_pre", pack), ("load_pre", forget), ("undo_pre", hold), ("redo_pre", hold),
-        ("undo_post", give_back), ("redo_post", give_back),
-    ])  # fmt: skip
+    undo.add_handlers(pack, "save_pre")
+    undo.add_handlers(forget, "load_pre")
+    undo.add_handlers(hold, "undo_pre", "redo_pre")
+    undo.add_handlers(give_back, "undo_post", "redo_post")
 
 
 def _rgba(pixels: np.ndarray, lent: np.ndarray | None = None) -> np.ndarray:

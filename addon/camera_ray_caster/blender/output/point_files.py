@@ -1,15 +1,13 @@
 """The points of pictures in files of scanners' formats: a cloud for each picture, and sequences of a run."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil
 from argparse import ArgumentTypeError
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import bpy
 
@@ -24,6 +22,8 @@ from ...core.sets.shared_facts import dataset_of
 from ..read.unique import find_unique
 from .annotations import CATEGORY
 
+ERRORS = "noise", "dropout", "quantum", "seed"
+"""Arguments of ``scan`` that add errors to ranges."""
 SEQUENCES = "sequences"
 """Folder of sequences, one for each camera."""
 
@@ -58,35 +58,25 @@ class PointFiles:
     """How points are made and written."""
 
     format: str
-    axes: str = SENSOR
-    noise: float = 0.0
-    dropout: float = 0.0
-    quantum: float | str = 0.0
-    seed: int = 0
+    axes: str
+    errors: Mapping[str, Any]
+    """Errors of ranges, by the names of ERRORS."""
 
     @classmethod
-    def of(cls, options) -> PointFiles | None:
+    def of(cls, options) -> Self | None:
         """Return what a command line asks for; None for no points. Raises InputError for errors without points."""
-        if options.points is None:
-            if options.noise or options.dropout or options.quantum or options.seed:
-                raise InputError("--noise, --dropout, --quantum and --seed belong to points: add --points FORMAT")
-            return None
-        return cls(
-            options.points, options.points_axes, options.noise, options.dropout, options.quantum, options.seed
-        )  # fmt: skip
+        errors = {name: getattr(options, name) for name in ERRORS}
+        if options.points is not None:
+            return cls(options.points, options.points_axes, errors)
+        if any(errors.values()):
+            raise InputError("--noise, --dropout, --quantum and --seed belong to points: add --points FORMAT")
+        return None
 
     def write(self, stem: Path, images: Images) -> None:
         """Write the points of a picture: files with this path and endings. The points are cast anew, in float64."""
-        how: dict[str, Any] = {name: getattr(self, name) for name in ("noise", "dropout", "quantum", "seed")}
-        cloud = scan(images.camera, images.shapes, categories=categories_of(images.shapes.names), **how)
+        cloud = scan(images.camera, images.shapes, categories=categories_of(images.shapes.names), **self.errors)
         for ending, content in files_of(cloud, self.format, self.axes):
             stem.with_name(stem.name + ending).write_bytes(content)
-
-
-def check_points(scene) -> None:
-    """Raise InputError if a frame has several views: points belong to one picture."""
-    if scene.render.use_multiview:
-        raise InputError("--points supports a single view only: disable Stereoscopy (Output properties)")
 
 
 def categories_of(names: Sequence[str]) -> dict[str, int]:

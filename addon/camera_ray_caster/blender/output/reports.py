@@ -1,11 +1,9 @@
 """The reports of the latest render and verification of each scene, and the text datablock that shows a report."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from textwrap import shorten
-from typing import Any
+from typing import Any, Self
 
 import bpy
 from bpy.app.handlers import persistent
@@ -31,7 +29,7 @@ class Source:
     """Facts of the scene's own camera, which is neither eye of a stereo scene; {} if it cannot be cast."""
 
     @classmethod
-    def read(cls, scene, depsgraph) -> Source:
+    def read(cls, scene, depsgraph) -> Self:
         """Read the source at the depsgraph's frame."""
         try:
             camera = camera_facts(camera_at(scene.camera, depsgraph)[1])
@@ -135,5 +133,4 @@ def forget(*_):
 
 def register(undo) -> None:
     undo.callback(forget)
-    bpy.app.handlers.load_pre.append(forget)
-    undo.callback(bpy.app.handlers.load_pre.remove, forget)
+    undo.add_handlers(forget, "load_pre")

@@ -65,7 +65,8 @@ def check_space(folder: Path) -> None:
 
 def check_whole(path: Path) -> None:
     """Raise OSError if a PNG file or a .blend is truncated."""
-    if not (_is_whole_png(path) if path.suffix == ".png" else _is_whole_blend(path)):
+    is_whole = _tail(path, len(END_OF_PNG)) == END_OF_PNG if path.suffix == ".png" else _is_whole_blend(path)
+    if not is_whole:
         check_space(path.parent)
         raise OSError(0, "the file is truncated")
 
@@ -97,10 +98,6 @@ def save_copy(path: Path) -> None:
         for left in (draft, of_blender):
             with suppress(OSError):
                 left.unlink(missing_ok=True)
-
-
-def _is_whole_png(path: Path) -> bool:
-    return _tail(path, len(END_OF_PNG)) == END_OF_PNG
 
 
 def _is_whole_blend(path: Path) -> bool:

@@ -50,14 +50,23 @@ def open_file(path: Path, enable_autoexec: bool = False) -> None:
         is_file = False
     if not is_file:
         raise InputError(f"there is no file {str(path)!r}: give the path of a .blend file")
-    try:
-        with redirect_stdout(None):  # Python prints a copy of the error there
-            bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), use_scripts=enable_autoexec)
-    except RuntimeError as error:
-        raise InputError(f"{str(path)!r} is not a .blend file that this Blender can open: {reported(error)}") from error
+    with refused_as_input(f"{str(path)!r} is not a .blend file that this Blender can open: "):
+        bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), use_scripts=enable_autoexec)
     _withheld.clear()
     if not enable_autoexec:
         withhold_style_modules()
+
+
+@contextmanager
+def refused_as_input(words: str = "") -> Iterator[None]:
+    """Raise InputError, with these words and Blender's, if an operator fails inside the context. What is printed on
+    standard output, such as Python's copy of the error, is dropped.
+    """
+    try:
+        with redirect_stdout(None):
+            yield
+    except RuntimeError as error:
+        raise InputError(words + reported(error)) from error
 
 
 def reported(error: Exception) -> str:

@@ -74,12 +74,8 @@ def set_lens(camera, lens: Lens) -> None:
 
 def settings_in(camera, lens: Lens) -> list[tuple[Any, str]]:
     """Return the owner and the name of each number of a camera's data that ``set_lens`` sets."""
-    settings = [setting for setting in model_of(lens).SETTINGS if setting.owner in (OWN, CAMERA)]
-    return [
-        (owner_of(setting, camera, None), setting.name)
-        for setting in settings
-        if setting.kind in ("FLOAT", "INT", "VECTOR")
-    ]
+    numbers = [setting for setting in model_of(lens).SETTINGS if setting.kind in ("FLOAT", "INT", "VECTOR")]
+    return [(owner_of(setting, camera, None), setting.name) for setting in numbers if setting.owner in (OWN, CAMERA)]
 
 
 def cameras_in(camera, path: str) -> list[str]:

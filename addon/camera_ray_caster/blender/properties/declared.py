@@ -24,14 +24,10 @@ BLENDERS_OWN = "BLENDER"
 
 def _models() -> list[Item]:
     models = sorted(MODELS, key=lambda model: GROUPS.index(model.group))
-    return [
-        Item(BLENDERS_OWN, "Blender's Own", "Model of the camera's Type in Blender, as in Cycles", 0, GROUPS[0]),
-        *(
-            Item(model.key, model.label, model.description, model.number, model.group)
-            for model in models
-            if model.number is not None
-        ),
-    ]
+    numbered = [model for model in models if model.number is not None]
+    items = [Item(model.key, model.label, model.description, model.number, model.group) for model in numbered]
+    text = "Model of the camera's Type in Blender, as in Cycles"
+    return [Item(BLENDERS_OWN, "Blender's Own", text, 0, GROUPS[0]), *items]
 
 
 def _of_cameras() -> list[Setting]:

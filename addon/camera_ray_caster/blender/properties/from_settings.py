@@ -32,17 +32,9 @@ def _float(setting, named):
     return props.FloatProperty(**named, **shown, default=setting.default, **_range(setting, low, LARGEST))
 
 
-def _int(setting, named):
-    return props.IntProperty(**named, default=setting.default, **_range(setting, setting.low, LARGEST_INT))
-
-
 def _range(setting, low, largest) -> dict[str, float]:
     ends = {"min": low, "max": setting.high, "soft_max": min(setting.high, setting.soft_high)}
     return {name: min(max(end, -largest), largest) for name, end in ends.items()}
-
-
-def _boolean(setting, named):
-    return props.BoolProperty(**named, default=setting.default)
 
 
 def _enum(setting, named):
@@ -53,29 +45,23 @@ def _enum(setting, named):
     return props.EnumProperty(**named, default=setting.default, items=items)
 
 
-def _vector(setting, named):
-    return props.FloatVectorProperty(**named, default=setting.default, size=len(setting.default))
-
-
-def _text(setting, named):
-    return props.StringProperty(**named, default=setting.default)
-
-
-def _file(setting, named):
-    shown = {"subtype": "FILE_PATH", "options": {"PATH_SUPPORTS_BLEND_RELATIVE"}}
-    return props.StringProperty(**named, **shown, default=setting.default)
-
-
-def _object(setting, named):
-    return props.PointerProperty(**named, type=bpy.types.Object, poll=lambda group, item: item.type in setting.types)
-
-
-def _image(setting, named):
-    return props.PointerProperty(**named, type=bpy.types.Image)
-
-
 PROPERTY_MAKERS = {
-    "FLOAT": _float, "INT": _int, "BOOLEAN": _boolean, "ENUM": _enum, "VECTOR": _vector, "TEXT": _text,
-    "FILE": _file, "OBJECT": _object, "IMAGE": _image,
-}  # fmt: skip
+    "FLOAT": _float,
+    "INT": lambda setting, named: props.IntProperty(
+        **named, default=setting.default, **_range(setting, setting.low, LARGEST_INT)
+    ),
+    "BOOLEAN": lambda setting, named: props.BoolProperty(**named, default=setting.default),
+    "ENUM": _enum,
+    "VECTOR": lambda setting, named: props.FloatVectorProperty(
+        **named, default=setting.default, size=len(setting.default)
+    ),
+    "TEXT": lambda setting, named: props.StringProperty(**named, default=setting.default),
+    "FILE": lambda setting, named: props.StringProperty(
+        **named, default=setting.default, subtype="FILE_PATH", options={"PATH_SUPPORTS_BLEND_RELATIVE"}
+    ),
+    "OBJECT": lambda setting, named: props.PointerProperty(
+        **named, type=bpy.types.Object, poll=lambda group, item: item.type in setting.types
+    ),
+    "IMAGE": lambda setting, named: props.PointerProperty(**named, type=bpy.types.Image),
+}
 """Functions that make the property, by kind of setting."""

@@ -77,10 +77,7 @@ def remap_appended(context, *_):
             _remap(_relative([item.id]), before, _folder(bpy.data.filepath))
 
 
-HANDLERS = (
-    ("save_pre", remap), ("save_post", restore), ("save_post_fail", restore), ("blend_import_post", remap_appended),
-)  # fmt: skip
-
-
 def register(undo) -> None:
-    undo.add_handlers(HANDLERS)
+    undo.add_handlers(remap, "save_pre")
+    undo.add_handlers(restore, "save_post", "save_post_fail")
+    undo.add_handlers(remap_appended, "blend_import_post")

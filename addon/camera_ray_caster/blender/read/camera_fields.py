@@ -25,6 +25,7 @@ from .frames import frame_of
 from .lengths import meters_of
 from .slits_and_paths import line_record
 from .stored import own_value
+from .texels import pixels_of
 from .unique import by_name, named, unique_name
 
 CAMERA = (
@@ -205,11 +206,7 @@ def is_removed(item) -> bool:
 def check_camera(scene, camera_object) -> None:
     """Raise InputError unless the object is a camera of this file. Blender itself accepts any object as a camera."""
     if camera_object is None:
-        others = [
-            other_scene.name
-            for other_scene in bpy.data.scenes
-            if other_scene != scene and other_scene.camera is not None
-        ]
+        others = [other.name for other in bpy.data.scenes if other != scene and other.camera is not None]
         raise InputError(
             f"scene {scene.name!r} has no active camera: add a camera, or set a camera in the Scene properties, or "
             "name a camera (--camera NAME)" + (f"; scene {others[0]!r} has one (--scene)" if others else "")
@@ -242,10 +239,7 @@ def _gray(image):
     """
     if not isinstance(image, bpy.types.Image):  # a file may store anything there
         return None
-    width, height = image.size
-    if not width * height:
+    if not (image.size[0] and image.size[1]):
         path = bpy.path.abspath(image.filepath, library=image.library)
         raise InputError(f"image {image.name!r} cannot be read from {path!r}: find its file, or choose another image")
-    pixels = np.empty(width * height * image.channels, np.float32)
-    image.pixels.foreach_get(pixels)
-    return pixels.reshape(height, width, image.channels)[..., :3].mean(axis=-1, dtype=np.float64)
+    return pixels_of(image)[..., :3].mean(axis=-1, dtype=np.float64)

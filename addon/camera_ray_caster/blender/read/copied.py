@@ -25,7 +25,6 @@ def copied(window) -> Iterator[bpy.types.Scene]:
         try:
             yield copy
         finally:
-            shape_cache.copies.clear()
             shape_cache.forget_copy()
             bpy.data.scenes.remove(copy)
             for other in bpy.context.window_manager.windows:
@@ -38,8 +37,8 @@ def _without_handlers() -> Iterator[None]:
     before = {name: list(getattr(bpy.app.handlers, name)) for name in EVENTS}
     try:
         for name, handlers in before.items():
-            handlers_kept = [handler for handler in handlers if (name, handler) in shape_cache.HANDLERS]
-            getattr(bpy.app.handlers, name)[:] = handlers_kept
+            of_shapes = [handler for handler in handlers if handler in (shape_cache.watch, shape_cache.tag)]
+            getattr(bpy.app.handlers, name)[:] = of_shapes
         yield
     finally:
         for name, handlers in before.items():

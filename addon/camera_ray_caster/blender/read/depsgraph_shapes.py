@@ -153,11 +153,12 @@ class _Scene:
         for item in self.visibility.unlisted(self.listed, self.instanced):
             if _may_have_surface(item) or item.instance_type == "COLLECTION":
                 self.left_out[unique_name(item, bpy.data.objects), HIDDEN] += 1
-        self.left_out.update(self.looks.left_out)
+        looks = self.looks
+        self.left_out.update(looks.lines("left_out"))
         shapes = gathered(list(self.groups.values()), self.left_out, self.world)
         lights = replace(shapes.lights, left_out=listed(dark))
-        looks, notes = self.looks, (*shapes.notes, *self.looks.notes)
-        return replace(shapes, lights=lights, materials=looks.materials, unread=tuple(looks.unread), notes=notes)
+        unread, notes = tuple(looks.lines("unread")), (*shapes.notes, *looks.lines("notes"))
+        return replace(shapes, lights=lights, materials=looks.materials, unread=unread, notes=notes)
 
 
 def _may_have_surface(item) -> bool:

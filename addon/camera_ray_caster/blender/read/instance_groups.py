@@ -107,6 +107,7 @@ def gathered(groups: list[Group], left_out: Counter, world: World) -> Shapes:
 
     parts = list(_castable(list(_with_volume(there, is_shared, notes)), left_out))
     cast, placings = zip(*parts, strict=True) if parts else ((), ())
+    notes |= {(group.name, note): None for group in cast for note in (group.primitive.note, *group.notes) if note}
     counts = [len(placed) * len(group.primitive) for group, placed in parts]
     ends = np.cumsum(counts, dtype=int)
     center, axes = np.empty((sum(counts), 3)), np.empty((sum(counts), 3, 3))
@@ -147,7 +148,7 @@ def gathered(groups: list[Group], left_out: Counter, world: World) -> Shapes:
         shared=column([is_shared(group) for group in cast], bool) if meshes else np.zeros(0, bool),
         slots=_slots(cast, column, numbers_of),
         uv=np.array([group.primitive.uv for group in cast], np.float64).reshape(-1, 2, 3),
-        notes=tuple(notes | _notes(cast)),
+        notes=tuple(notes),
         surfaces=tuple(surfaces),
         surface=column(numbers_of(looks), np.int32) if surfaces else np.zeros(0, np.int32),
         identity=np.concatenate([np.zeros(0, np.int64), *(placed.all_of(group.primitive) for group, placed in parts)]),
@@ -203,12 +204,6 @@ def _slots(groups, column, surfaces_of) -> Slots | None:
         color=np.array([look.color for look in looks], np.float32),
         surface=np.array(surfaces_of(looks), np.int32),
     )
-
-
-def _notes(groups: Iterable[Group]) -> dict[tuple[str, str], None]:
-    """Return the notes on the groups, each with the name of its object, once."""
-    named_notes = ((group.name, note) for group in groups for note in (group.primitive.note, *group.notes) if note)
-    return dict.fromkeys(named_notes)
 
 
 def listed(left_out: Counter) -> tuple[tuple[str, str], ...]:

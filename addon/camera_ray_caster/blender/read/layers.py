@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core.shapes.instances import Primitive
 from ...core.shapes.recognize import MeshArrays
-from .mesh_reading import mesh_arrays, triangle_loops
+from .mesh_reading import faces, fetched, mesh_arrays, triangle_loops
 from .value_nodes import GENERATED
 
 
@@ -52,23 +52,18 @@ def _color(mesh, arrays: MeshArrays, label: str) -> np.ndarray | None:
         values[:, 3] = 1
     elif attribute.data_type in {"FLOAT", "INT", "BOOLEAN", "INT8"}:
         kind = {"FLOAT": np.float32, "BOOLEAN": bool}.get(attribute.data_type, np.int32)
-        value = np.empty(len(attribute.data), kind)
-        attribute.data.foreach_get("value", value)
+        value = fetched(attribute.data, "value", kind)
         values = np.repeat(value.astype(np.float32)[:, None], 4, axis=1)
         values[:, 3] = 1
     else:
         return None
-    return np.nan_to_num(CORNERS[attribute.domain](mesh, arrays, values))
-
-
-def _of_faces(mesh, arrays: MeshArrays, values: np.ndarray) -> np.ndarray:
-    return np.repeat(values, np.diff(arrays.loop_starts, append=len(arrays.loop_vertices)), axis=0)
+    return np.nan_to_num(CORNERS[attribute.domain](arrays, values))
 
 
 CORNERS = {
-    "CORNER": lambda mesh, arrays, values: values,
-    "POINT": lambda mesh, arrays, values: values[arrays.loop_vertices],
-    "FACE": _of_faces,
+    "CORNER": lambda arrays, values: values,
+    "POINT": lambda arrays, values: values[arrays.loop_vertices],
+    "FACE": lambda arrays, values: values[faces(arrays)],
 }
 """The values at the corners of values by domain."""
 
@@ -88,6 +83,4 @@ def _generated(mesh, original) -> np.ndarray:
 
 
 def _values(collection, name: str, width: int) -> np.ndarray:
-    values = np.empty(len(collection) * width, np.float32)
-    collection.foreach_get(name, values)
-    return values.reshape(-1, width)
+    return fetched(collection, name, np.float32, width).reshape(-1, width)

@@ -1,7 +1,7 @@
 """Looks of materials, which are what passes show of them: colors, transparent points and pass indices."""
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -11,10 +11,11 @@ import numpy as np
 from ...core.materials.surface import Surface
 from ...core.materials.values import Constant, Value, constant, function_of
 from ...core.shapes.mesh.displaced import Displacement
-from .nodes import Output, Unread, output_of
+from .nodes import Nodes, Output, Unread, output_of
 from .outputs import displacement_of, has_bump, is_volume_alone
-from .shader_nodes import ShaderParts, alpha_of, colors, material_nodes, transparency
+from .shader_nodes import ShaderParts, alpha_of, colors, transparency
 from .unique import unique_name
+from .value_nodes import READ
 
 ALWAYS_NODES = bpy.app.version >= (5, 0, 0)
 """Whether materials and worlds always use nodes."""
@@ -90,23 +91,9 @@ class LayerLooks:
         """Pass index and name of each material that has been looked up."""
         return tuple((look.index, _name(material)) for material, look in self._known.items())
 
-    @property
-    def unread(self) -> Iterator[tuple[str, str]]:
-        """Yield what is not read of materials, with their names."""
-        for material, look in self._known.items():
-            yield from ((_name(material), reason) for reason in look.unread)
-
-    @property
-    def left_out(self) -> Iterator[tuple[str, str]]:
-        """Yield why not all surfaces of materials are cast, with their names."""
-        for material, look in self._known.items():
-            yield from ((_name(material), reason) for reason in look.left_out)
-
-    @property
-    def notes(self) -> Iterator[tuple[str, str]]:
-        """Yield the notes on materials, with their names."""
-        for material, look in self._known.items():
-            yield from ((_name(material), note) for note in look.notes)
+    def lines(self, field: str) -> list[tuple[str, str]]:
+        """Return the lines in a field of ``Look``, such as "unread", with the names of their materials."""
+        return [(_name(material), line) for material, look in self._known.items() for line in getattr(look, field)]
 
     def of_item(self, item) -> tuple[Look, ...]:
         """Return the looks of all slots of an evaluated object."""
@@ -178,7 +165,7 @@ def _look(material, threshold: float, has_colors: bool = True) -> Look:
 def _colored(material, output: Output, plain: Look, threshold: float, has_colors: bool) -> Look:
     """Return a look with the color and the transparent points that the nodes of a surface say."""
     *viewport, opacity = material.diffuse_color
-    nodes, (socket, groups), unread = material_nodes(), output["Surface"], []
+    nodes, (socket, groups), unread = Nodes(READ), output["Surface"], []
     left_out = plain.left_out
     alpha = through = None
     try:
@@ -192,7 +179,7 @@ def _colored(material, output: Output, plain: Look, threshold: float, has_colors
     lit: Value = constant(*viewport)
     emission = glow = None
     try:
-        painted = nodes if has_colors else material_nodes(reads_images=False)
+        painted = nodes if has_colors else Nodes(READ, reads_images=False)
         parts = _divided(colors(painted, socket, groups, through is not None), through, alpha)
         needs |= painted.needs
         base, emission, glow = (color and as_color(color) for color in parts)

@@ -106,7 +106,7 @@ def _normals(mesh, arrays: MeshArrays, by_vertex: bool) -> np.ndarray | None:
         return normals
     normals = normals[arrays.loop_vertices]
     if free is not None and not is_smooth(mesh):  # they count for nothing on flat faces
-        face = _faces(arrays)
+        face = faces(arrays)
         flat = _flat(mesh)[face]
         if flat.all():
             return None
@@ -120,11 +120,11 @@ def _sharp(mesh, arrays: MeshArrays) -> np.ndarray:
     sharp = mesh.attributes.get("sharp_edge")
     edges = np.zeros(len(mesh.edges), bool) if sharp is None else fetched(sharp.data, "value", bool)
     if not is_smooth(mesh):
-        edges[arrays.loop_edges[_flat(mesh)[_faces(arrays)]]] = True
+        edges[arrays.loop_edges[_flat(mesh)[faces(arrays)]]] = True
     return edges
 
 
-def _faces(arrays: MeshArrays) -> np.ndarray:
+def faces(arrays: MeshArrays) -> np.ndarray:
     """Return the face of each corner, (l,)."""
     counts = np.diff(arrays.loop_starts, append=len(arrays.loop_vertices))
     return np.repeat(np.arange(len(arrays.loop_starts)), counts)

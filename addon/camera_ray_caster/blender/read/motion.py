@@ -67,9 +67,8 @@ def motion_of(camera: Camera, depsgraph, camera_object, visit: Callable, read: R
 
     first, last = pixel_time.first, pixel_time.last
     prepare(depsgraph, (first, last))
-    motion = resolve(
-        evaluate, first, last, pixel_time.tolerance, pixel_time.max_evaluations, keyed_frames(depsgraph.scene)
-    )
+    keys = keyed_frames(depsgraph.scene)
+    motion = resolve(evaluate, first, last, pixel_time.tolerance, pixel_time.max_evaluations, keys)
     return measured(motion, evaluate, np.random.default_rng(0).uniform(first, last, CHECKS))
 
 

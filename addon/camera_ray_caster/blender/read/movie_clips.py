@@ -6,8 +6,6 @@ r / (1 + k1 r^2 + k2 r^4), with r in halves of the longer side: that is OCam's, 
 References: Blender manual, Movie Clip Editor, Lens; libmv, distortion models.
 """
 
-from collections.abc import Iterator
-
 from ...core.programs.parts.lens import Lens, matrix
 from ...core.records import InputError
 
@@ -24,7 +22,7 @@ def notes(scene, camera_object, group: str) -> tuple[tuple[str, str], ...]:
     """Return the clips with distortion of a scene and a camera, each with a note; none for a model of a ``group`` that
     has distortion itself.
     """
-    distorted = {clip.name: distortion for clip in _clips(scene, camera_object) if (distortion := _distortion(clip))}
+    distorted = {clip.name: distortion for clip in clips_of(scene, camera_object) if (distortion := _distortion(clip))}
     return tuple(
         (name, f"this movie clip is tracked with lens distortion ({distortion}), and camera {camera_object.name!r} "
                "casts without: rays do not fit the clip's pictures. Use Lens of Movie Clip, or undistort the clip")
@@ -32,16 +30,11 @@ def notes(scene, camera_object, group: str) -> tuple[tuple[str, str], ...]:
     )  # fmt: skip
 
 
-def _clips(scene, camera_object) -> Iterator:
-    """Yield the clips of the scene, of the camera's background images and of its solvers."""
+def clips_of(scene, camera_object) -> list:
+    """Return the clips of the scene, of the camera's background images and of its solvers, each once."""
     shown = [background for background in camera_object.data.background_images if background.source == "MOVIE_CLIP"]
     solvers = [constraint for constraint in camera_object.constraints if constraint.type == "CAMERA_SOLVER"]
-    yield from (clip for clip in (scene.active_clip, *(user.clip for user in (*shown, *solvers))) if clip is not None)
-
-
-def clips_of(scene, camera_object) -> list:
-    """Return the clips of a scene and a camera, each once."""
-    return list(dict.fromkeys(_clips(scene, camera_object)))
+    return list(dict.fromkeys(filter(None, (scene.active_clip, *(user.clip for user in (*shown, *solvers))))))
 
 
 def lens_of(clip) -> Lens:
@@ -54,7 +47,8 @@ def lens_of(clip) -> Lens:
     x, y = camera.principal_point_pixels
     settings = {"calibration_width": float(width), "calibration_height": float(height)}
     settings |= matrix(focal, focal * aspect, x, height - y, 0.5)
-    k1, k2, k3, k4, p1, p2 = _coefficients(camera)
+    terms = _terms(camera)
+    k1, k2, k3, k4, p1, p2 = (terms.get(name, 0.0) for name in ("k1", "k2", "k3", "k4", "p1", "p2"))
     if camera.distortion_model == "DIVISION":
         return Lens(clip.name, "OPENCV_PINHOLE", settings | {"k4": k1, "k5": k2})
     if camera.distortion_model == "NUKE":
@@ -65,26 +59,22 @@ def lens_of(clip) -> Lens:
         center = {name: value for name, value in settings.items() if name not in ("fx", "fy")}
         return Lens(clip.name, "OCAM", center | {"ocam_polynomial": polynomial})
     if not k4:
-        terms = {"k1": k1, "k2": k2, "k3": k3, "p1": -p2, "p2": p1}  # p1 and p2 have other names in OpenCV, y down
-        return Lens(clip.name, "OPENCV_PINHOLE", settings | terms)
+        settings |= {"k1": k1, "k2": k2, "k3": k3, "p1": -p2, "p2": p1}  # p1 and p2 have other names in OpenCV, y down
+        return Lens(clip.name, "OPENCV_PINHOLE", settings)
     if p1 or p2:
         raise InputError(f"movie clip {clip.name!r} has k4 and tangential distortion, which no model has: refine fewer")
     polynomial = f"0 1 0 {k1!r} 0 {k2!r} 0 {k3!r} 0 {k4!r}"
     return Lens(clip.name, "RADIAL_POLYNOMIAL", settings | {"radial_polynomial": polynomial})
 
 
-def _coefficients(camera) -> list[float]:
-    """Return k1, k2, k3, k4, p1 and p2 of a clip's camera; 0 for those that its model does not have."""
-    names = {name.rpartition("_")[2]: name for name in COEFFICIENTS.get(camera.distortion_model, ())}
-    return [
-        float(getattr(camera, names[term])) if term in names else 0.0 for term in ("k1", "k2", "k3", "k4", "p1", "p2")
-    ]
+def _terms(camera) -> dict[str, float]:
+    """Return the coefficients of a clip's camera that are not 0, without the names of their models: k1, p2."""
+    values = {name: float(getattr(camera, name)) for name in COEFFICIENTS.get(camera.distortion_model, ())}
+    return {name.rpartition("_")[2]: value for name, value in values.items() if value}
 
 
 def _distortion(clip) -> str:
     """Return the distortion of a clip in words; "" if it has none."""
-    lens = clip.tracking.camera
-    names = COEFFICIENTS.get(lens.distortion_model, ())
-    values = {name.rpartition("_")[2]: getattr(lens, name) for name in names if getattr(lens, name)}
-    words = [lens.distortion_model.title(), *(f"{name} = {value:.6g}" for name, value in values.items())]
-    return ", ".join(words) if values else ""
+    camera, terms = clip.tracking.camera, _terms(clip.tracking.camera)
+    words = [camera.distortion_model.title(), *(f"{name} = {value:.6g}" for name, value in terms.items())]
+    return ", ".join(words) if terms else ""

@@ -70,9 +70,8 @@ def _has_output(tree, known: dict[int, bool]) -> bool:
     if key not in known:
         known[key] = False
         inner = (node.node_tree for node in tree.nodes if node.type == "GROUP" and node.node_tree is not None)
-        known[key] = any(node.bl_idname in OUTPUTS for node in tree.nodes) or any(
-            _has_output(group, known) for group in inner
-        )
+        is_around = any(node.bl_idname in OUTPUTS for node in tree.nodes)
+        known[key] = is_around or any(_has_output(group, known) for group in inner)
     return known[key]
 
 

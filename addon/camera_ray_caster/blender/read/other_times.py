@@ -15,7 +15,6 @@ from ...core.motion.evaluations import Motion, resolving
 from ...core.motion.interpolation import State
 from ...core.motion.unfinished import linear
 from ...core.records import InputError
-from ..properties.declared import ENGINE
 from ..properties.setting_labels import in_labels
 from .camera_fields import has_pixel_times
 from .copied import copied
@@ -23,7 +22,7 @@ from .evaluated import camera_at, scene_at
 from .frames import frame_of
 from .motion import keyed_frames
 from .physics import prepare
-from .view import views_3d
+from .view import shows_cast, views_3d
 
 PERIOD, SHORT, SETTLED = 0.2, 0.03, 0.3
 """Seconds between two looks, between two readings, and without a change before the first one."""
@@ -83,7 +82,7 @@ def sentences(scene, layer) -> Iterator[str]:
 
 def read_on() -> float | None:
     """Evaluate further frames if nothing changes; called by a timer while a view shows the camera's picture."""
-    window = next((window for window, area in views_3d() if _shows(area.spaces.active, window.scene)), None)
+    window = next((window for window, area in views_3d() if shows_cast(area.spaces.active, window.scene)), None)
     if window is None:
         forget()
         return None
@@ -161,12 +160,6 @@ def _owners(scene, layer) -> tuple:
     return scene.as_pointer(), layer.as_pointer(), scene.camera and scene.camera.as_pointer()
 
 
-def _shows(space, scene) -> bool:
-    """Return whether a 3D View shows the picture of a scene's camera by this engine."""
-    is_ours = scene.render.engine == ENGINE and space.shading.type == "RENDERED"
-    return is_ours and space.region_3d is not None and space.region_3d.view_perspective == "CAMERA"
-
-
 @persistent
 def changed(*_) -> None:
     """Forget all frames: something has changed."""
@@ -188,4 +181,4 @@ def stop() -> None:
 
 def register(undo) -> None:
     undo.callback(stop)
-    undo.add_handlers([(name, changed) for name in ("depsgraph_update_post", "undo_post", "redo_post", "load_pre")])
+    undo.add_handlers(changed, "depsgraph_update_post", "undo_post", "redo_post", "load_pre")

@@ -45,11 +45,8 @@ def displacement_of(material, output: Output) -> tuple[Displacement | None, froz
 def has_bump(material, output: Output) -> bool:
     """Return whether a material changes the normals of its surface: by its nodes, or by a displacement that is bump."""
     bumps = material.displacement_method != "DISPLACEMENT" and output["Displacement"][0].is_linked
-    return bumps or any(_in_use(node) for node in _nodes(material.node_tree, set()))
-
-
-def _in_use(node) -> bool:
-    return node.bl_idname in BUMPS and not node.mute and any(socket.is_linked for socket in node.outputs)
+    nodes = (node for node in _nodes(material.node_tree, set()) if node.bl_idname in BUMPS and not node.mute)
+    return bumps or any(socket.is_linked for node in nodes for socket in node.outputs)
 
 
 def _nodes(tree, known: set) -> Iterator:

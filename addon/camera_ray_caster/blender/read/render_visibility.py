@@ -31,9 +31,8 @@ class ItemVisibility:
             return False
         if owner.instance_type == "COLLECTION":
             collection = owner.instance_collection
-            return source in set(_of_collection(collection)) or source not in set(
-                _of_collection(collection, every=True)
-            )
+            shown, every = (set(_of_collection(collection, is_all)) for is_all in (False, True))
+            return source in shown or source not in every
         return owner.instance_type == "NONE" or source in self.rendered
 
     def objection(self, instance) -> str:
@@ -60,11 +59,8 @@ class ItemVisibility:
     def strands(self, item) -> list[str]:
         """Return the names of the particle systems whose hair a render draws on an evaluated object."""
         systems = () if self.in_viewport and item.original not in self.rendered else item.particle_systems
-        return [
-            system.name
-            for system in systems
-            if system.settings.type == "HAIR" and system.settings.render_type == "PATH"
-        ]
+        kinds = {system.name: (system.settings.type, system.settings.render_type) for system in systems}
+        return [name for name, kind in kinds.items() if kind == ("HAIR", "PATH")]
 
     def unlisted(self, listed: set, instanced: set) -> list:
         """Return the objects that a render shows and the viewport has not evaluated, by name.

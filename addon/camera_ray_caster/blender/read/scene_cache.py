@@ -64,17 +64,12 @@ def differences(camera: Camera | None, scene) -> Iterator[str]:
         return
     if camera.pixel_time is not None:
         now, first, last = frame_of(scene), camera.pixel_time.first, camera.pixel_time.last
-        yield (
-            f"{TIMES} {now:g}; in a render, each pixel has its own time, from frame {first:.4g} "
-            f"to {last:.4g}"
-        )
+        yield f"{TIMES} {now:g}; in a render, each pixel has its own time, from frame {first:.4g} to {last:.4g}"
     if camera.aperture is not None:
         samples = scene.camera_ray_caster.samples
         blurred = f"; a render with {samples} samples has depth of field"
-        yield (
-            "Only rays through the center of the lens are "
-            f"shown{blurred if samples > 1 else ', as in a render with 1 sample'}"
-        )
+        rendered = blurred if samples > 1 else ", as in a render with 1 sample"
+        yield f"Only rays through the center of the lens are shown{rendered}"
 
 
 @persistent
@@ -102,15 +97,8 @@ def forget(*_):
     tag_all()
 
 
-HANDLERS = (
-    ("depsgraph_update_post", tag),
-    ("frame_change_post", tag_all),
-    ("undo_post", tag_all),
-    ("redo_post", tag_all),
-    ("load_pre", forget),
-)
-
-
 def register(undo) -> None:
     undo.callback(forget)
-    undo.add_handlers(HANDLERS)
+    undo.add_handlers(tag, "depsgraph_update_post")
+    undo.add_handlers(tag_all, "frame_change_post", "undo_post", "redo_post")
+    undo.add_handlers(forget, "load_pre")

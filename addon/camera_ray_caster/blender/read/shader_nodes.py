@@ -10,7 +10,6 @@ from typing import NamedTuple
 from ...core.materials.operations import saturated
 from ...core.materials.values import Constant, Value, constant, function_of, mean
 from .nodes import Node, Nodes, Unread
-from .value_nodes import READ
 
 COLORS = {
     "ShaderNodeBsdfDiffuse": "Color",
@@ -128,8 +127,3 @@ def _combined(node: Node, first: Value | None, second: Value | None) -> Value:
 def alpha_of(through: Value) -> Value:
     """Return the alpha of a surface that lets this part of the light through."""
     return mean(function_of(lambda values: saturated(1 - values), through))
-
-
-def material_nodes(reads_images: bool = True) -> Nodes:
-    """Return the reader of a material's nodes."""
-    return Nodes(READ, reads_images)

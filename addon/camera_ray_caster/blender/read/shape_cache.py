@@ -104,6 +104,7 @@ def _mode(depsgraph) -> str:
 
 def forget_copy() -> None:
     """Discard the entries of a copy, whose evaluated data is freed."""
+    copies.clear()
     _entries.pop(COPY, None)
 
 
@@ -157,18 +158,10 @@ def forget(*_):
     _entries.clear()
 
 
-HANDLERS = (
-    ("depsgraph_update_pre", watch),
-    ("depsgraph_update_post", tag),
-    ("frame_change_pre", watch),
-    ("frame_change_post", tag),
-    ("undo_post", mark_all),
-    ("redo_post", mark_all),
-    ("load_pre", forget),
-    ("load_pre", texels.forget),
-)
-
-
 def register(undo) -> None:
     undo.callback(forget)
-    undo.add_handlers(HANDLERS)
+    undo.add_handlers(watch, "depsgraph_update_pre", "frame_change_pre")
+    undo.add_handlers(tag, "depsgraph_update_post", "frame_change_post")
+    undo.add_handlers(mark_all, "undo_post", "redo_post")
+    undo.add_handlers(forget, "load_pre")
+    undo.add_handlers(texels.forget, "load_pre")

@@ -1,9 +1,10 @@
 """The size of a camera's own pictures: a custom property of the camera object, in place of the scene's resolution."""
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 
 from ...core.records import InputError
+from .changes import changed
 
 SIZE = "resolution"
 """Name of the custom property: width and height in pixels."""
@@ -32,19 +33,18 @@ def size_of(scene) -> tuple[int, int]:
 @contextmanager
 def sized(scene, size: tuple[int, int] | None) -> Iterator[None]:
     """Give a scene's pictures a size inside the context; without one they keep the scene's own."""
-    render = scene.render
-    names = "resolution_x", "resolution_y", "resolution_percentage"
-    before = [getattr(render, name) for name in names]
-    try:
-        set_size(scene, size)
+    with ExitStack() as stack:
+        if size is not None:
+            changed(stack, scene.render, **settings_of(size))
         yield
-    finally:
-        for name, value in zip(names, before, strict=True):
-            setattr(render, name, value)
 
 
-def set_size(scene, size: tuple[int, int] | None) -> None:
-    """Give a scene's pictures a size, unless it is None."""
-    if size is not None:
-        scene.render.resolution_x, scene.render.resolution_y = size
-        scene.render.resolution_percentage = 100
+def set_size(scene, size: tuple[int, int]) -> None:
+    """Give a scene's pictures a size."""
+    for name, value in settings_of(size).items():
+        setattr(scene.render, name, value)
+
+
+def settings_of(size: tuple[int, int]) -> dict[str, int]:
+    """Return the render settings of pictures of a size."""
+    return {"resolution_x": size[0], "resolution_y": size[1], "resolution_percentage": 100}

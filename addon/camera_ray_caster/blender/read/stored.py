@@ -53,22 +53,15 @@ def _raw(owner, setting: Setting):
 
 def _stored(owner, setting: Setting):
     value = _raw(owner, setting)
-    return CONVERSIONS.get(setting.kind, _same)(setting, setting.default if value is None else value)
-
-
-def _same(setting, value):
-    return value
-
-
-def _word(setting, value) -> str:
-    return {item.number: item.key for item in setting.items}.get(value, str(value))
+    value = setting.default if value is None else value
+    return CONVERSIONS[setting.kind](setting, value) if setting.kind in CONVERSIONS else value
 
 
 CONVERSIONS = {
     "FLOAT": lambda setting, value: float(np.float32(value)),
     "VECTOR": lambda setting, value: tuple(np.array(value, np.float32).tolist()),
     "BOOLEAN": lambda setting, value: bool(value),
-    "ENUM": _word,
+    "ENUM": lambda setting, value: {item.number: item.key for item in setting.items}.get(value, str(value)),
 }
 """Conversions of a stored or default value to the value that the property would have: its numbers are float32."""
 

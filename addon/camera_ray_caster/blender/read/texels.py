@@ -1,7 +1,7 @@
 """The texels of Blender's images, read once and shared between materials."""
 
 import os
-from collections.abc import Iterator
+from pathlib import Path
 from zlib import crc32
 
 import bpy
@@ -53,6 +53,24 @@ def image_of(image) -> Texels | None:
     return texels
 
 
+def pixels_of(image) -> np.ndarray:
+    """Return an image's pixels as Blender has them, (rows, columns, channels) float32, row 0 at the bottom."""
+    (wide, high), channels = image.size, image.channels
+    values = np.empty(wide * high * channels, np.float32)
+    image.pixels.foreach_get(values)
+    return values.reshape(high, wide, channels)
+
+
+def pixels_of_file(path: Path) -> np.ndarray:
+    """Return the numbers in an image file, without conversion of colors: see ``pixels_of``."""
+    image = bpy.data.images.load(str(path))
+    try:
+        image.colorspace_settings.is_data = True
+        return pixels_of(image)
+    finally:
+        bpy.data.images.remove(image)
+
+
 def _kind(image) -> str:
     return {"TILED": "set of UDIM tiles", "MOVIE": "movie", "SEQUENCE": "sequence"}.get(image.source, "render result")
 
@@ -93,7 +111,8 @@ def _read(image) -> Texels:
     stored = (_loaded(image) if is_file else None) if wide * high else None
     if stored is None:
         stored = _fetched(image)
-    for strip in _strips(stored):
+    for first in range(0, len(stored), STRIP):
+        strip = stored[first : first + STRIP]
         if image.alpha_mode == "NONE":
             strip[:, 3] = 1 if image.is_float else 255
         if not (is_data or image.is_float):  # colors of bytes are multiplied by alpha, as Cycles stores them
@@ -143,10 +162,6 @@ def _four(rows: np.ndarray) -> np.ndarray:
     else:
         texels[:, : rows.shape[1]] = rows
     return texels
-
-
-def _strips(texels: np.ndarray) -> Iterator[np.ndarray]:
-    return (texels[first : first + STRIP] for first in range(0, len(texels), STRIP))
 
 
 def _same(first: Texels | None, second: Texels | None) -> bool:

@@ -21,10 +21,6 @@ ENVIRONMENT = "environment"
 """What is noted in ``Nodes.needs`` of an environment image."""
 
 
-def _own(nodes: Nodes, node: Node, output) -> Value:
-    return own_value(output)
-
-
 def _image(nodes: Nodes, node: Node, output) -> Value:
     if node.projection != "FLAT":
         raise node.unread(f"projection {node.projection.lower()}")
@@ -67,15 +63,11 @@ def _coordinates(nodes: Nodes, node: Node, output) -> Value:
     if output.name == "UV":
         return Coordinates(UV)
     if output.name == "Generated":
-        return _generated(nodes)
+        return _layer(nodes, GENERATED, 3)
     if output.name == "Object" and node.object is None:
         nodes.needs.add(OBJECT)
         return Coordinates(OBJECT)
     raise node.unread(f"output {output.name}")
-
-
-def _generated(nodes: Nodes) -> Value:
-    return _layer(nodes, GENERATED, 3)
 
 
 def _world_coordinates(nodes: Nodes, node: Node, output) -> Value:
@@ -88,10 +80,6 @@ def _map(nodes: Nodes, node: Node, output) -> Value:
     if node.from_instancer:
         raise node.unread("From Instancer")
     return _layer(nodes, f"uv:{node.uv_map}", 3) if node.uv_map else Coordinates(UV)
-
-
-def _vertex_color(nodes: Nodes, node: Node, output) -> Value:
-    return _color_layer(nodes, node.layer_name, output.name)
 
 
 def _attribute(nodes: Nodes, node: Node, output) -> Value:
@@ -157,7 +145,7 @@ def _ramp(nodes: Nodes, node: Node, output) -> Value:
 
 
 def _checker(nodes: Nodes, node: Node, output) -> Value:
-    position = node.input("Vector") if node.is_linked("Vector") else _generated(nodes)
+    position = node.input("Vector") if node.is_linked("Vector") else _layer(nodes, GENERATED, 3)
     first = function_of(do.checker, position, node.input("Scale"))
     if output.name != "Color":
         return first
@@ -243,13 +231,13 @@ def _curve(nodes: Nodes, node: Node, output) -> Value:
 
 
 READ = {
-    "ShaderNodeRGB": _own,
-    "ShaderNodeValue": _own,
+    "ShaderNodeRGB": lambda nodes, node, output: own_value(output),
+    "ShaderNodeValue": lambda nodes, node, output: own_value(output),
     "ShaderNodeTexImage": _image,
     "ShaderNodeTexChecker": _checker,
     "ShaderNodeTexCoord": _coordinates,
     "ShaderNodeUVMap": _map,
-    "ShaderNodeVertexColor": _vertex_color,
+    "ShaderNodeVertexColor": lambda nodes, node, output: _color_layer(nodes, node.layer_name, output.name),
     "ShaderNodeAttribute": _attribute,
     "ShaderNodeLightPath": _light_path,
     "ShaderNodeMix": _mix,

@@ -5,6 +5,11 @@ from collections.abc import Iterator
 import bpy
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 
+from ..properties.declared import ENGINE
+
+SEEN = "CAMERA", "RENDERED"
+"""Perspective and shading of a view that shows the picture of a cast."""
+
 
 def views_3d() -> Iterator[tuple]:
     """Yield each window and area of a 3D View."""
@@ -12,6 +17,12 @@ def views_3d() -> Iterator[tuple]:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
                 yield window, area
+
+
+def shows_cast(space, scene) -> bool:
+    """Return whether a 3D View shows the picture of a scene's camera by a cast."""
+    view = space.region_3d
+    return view is not None and (view.view_perspective, space.shading.type) == SEEN and scene.render.engine == ENGINE
 
 
 def camera_frame(context) -> tuple[float, float, float, float] | None:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import bpy
 
-from ...core.memory import exhausted
+from ...core.memory import limits_as_input
 from ...core.records import Cancelled, InputError
 from ..process import opening, signals
 from ..process.standard_output import keep_output
@@ -32,14 +32,10 @@ def main(command: str, arguments: Sequence[str], prog: str) -> int:
     try:
         if command not in COMMANDS:
             raise InputError(f"there is no command {command!r}: choose from {', '.join(COMMANDS)}")
-        return COMMANDS[command](arguments, prog)
+        with limits_as_input():
+            return COMMANDS[command](arguments, prog)
     except InputError as error:
         print(f"{prog}: {error}", file=sys.stderr)
-        return 2
-    except (MemoryError, RuntimeError, OSError) as error:
-        if not (problem := exhausted(error)):
-            raise
-        print(f"{prog}: {problem}", file=sys.stderr)
         return 2
     except (Cancelled, KeyboardInterrupt):
         print(f"{prog}: {signals.STOPPED}", file=sys.stderr)

@@ -18,26 +18,35 @@ from typing import Any
 
 import bpy
 
+from ...core.annotations.object_poses import object_poses
 from ...core.clouds.formats import SEQUENCED
 from ...core.exports.file_writer import write
 from ...core.file_set import Taken, atomic_folder, clear_up
 from ...core.records import InputError
+from ...core.report.indices import indices_of
+from ...core.report.report import Report, as_data, uncolored
 from ...core.sets import companions, shares
 from ...core.sets.run import Run
 from ...core.sets.shared_facts import DATASET
 from ...core.text_forms.json_text import as_text
-from ..output.annotations import merged_files
+from ..engine.job import host_of
+from ..output.annotations import category_of, merged_files
 from ..output.point_files import collect_sequences
 from ..output.stamps import differing, finished
 from ..read.camera_fields import check_camera, check_markers
+from ..read.scene_reader import read_shapes
 from ..read.unique import unique_name
-from .dataset_facts import common_of
+from ..verification.check import verify_camera
 from .jobs import Jobs, PictureJob, RayMap, first_jobs
 from .picture_jobs import Pictures, of_job
 from .ray_maps import made_map
 
 ABOUT = "run", "common", "objects"
 """What dataset.json has beside the stamp: see ``core.sets.run`` and ``core.sets.shared_facts``."""
+ENTRIES = "version", "conventions", "layers", "passes", "findings", "left_out", "notes", "exact", "host", "indices"
+"""Entries of reports that are the same for all pictures of a scene that stands still. The camera and its record, which
+``camera_from_json`` takes, are in every report.
+"""
 MOST_NAMES = 10
 """Number of missing pictures that are named."""
 
@@ -52,6 +61,25 @@ def fill_in(options: Namespace, pictures: Pictures) -> None:
     if options.frames is None and options.frame is None:
         options.frames = range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
     options.pictures = any("combined" in keys for keys in pictures.passes.values())
+
+
+def common_of(pictures: Pictures, first: PictureJob) -> dict[str, Any]:
+    """Return ``common`` and ``objects`` of dataset.json. A picture that differs in an entry has its own."""
+    camera, scene = pictures.camera_at(first), pictures.scene
+    shapes = read_shapes(scene)
+    layers = [layer.name for layer in scene.view_layers if layer.use]
+    passes = pictures.passes[layers[0]]
+    report = Report(
+        camera={}, frame=0.0, layers=tuple(layers), passes=tuple(passes), findings=tuple(verify_camera(scene)),
+        left_out=(*shapes.left_out, *uncolored(shapes, passes)), notes=shapes.notes,
+        exact=tuple(dict.fromkeys(shapes.exact)), indices={layers[0]: indices_of(shapes)},
+        host=host_of(scene),
+    )  # fmt: skip
+    data = as_data(report)
+    common: dict[str, Any] = {"common": {key: data[key] for key in ENTRIES}}
+    if pictures.keypoints is not None and camera.pixel_time is None:
+        common["objects"] = [{"image_id": 1, **pose} for pose in object_poses(shapes, category_of)]
+    return common
 
 
 @contextmanager

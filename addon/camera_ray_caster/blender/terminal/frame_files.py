@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import ExitStack, redirect_stdout
+from contextlib import ExitStack
 from dataclasses import replace
 from math import ceil
 from pathlib import Path
@@ -19,20 +19,20 @@ from ...core.memory import of_pixels, require
 from ...core.names import folded
 from ...core.records import Cancelled, InputError
 from ...core.report.report import Report, as_json
-from ..cycles.cycles_picture import CyclesPicture
-from ..cycles.renderer import changed
+from ..cycles.renderer import EnginePicture
 from ..engine.engine import RenderCall
-from ..faces.engine_picture import FacesPicture
 from ..output import arrays, file_outputs
 from ..output.annotations import ENDING, annotated
 from ..output.point_files import PointFiles
 from ..output.saving import LAYERS, PICTURE, blender_writes, check_whole
 from ..output.stamps import made, short
 from ..process import signals
-from ..process.opening import not_run, reported
+from ..process.opening import not_run, refused_as_input
 from ..properties.pass_properties import ticked
 from ..read.camera_fields import views_of
+from ..read.changes import changed
 from ..read.frames import check_layers
+from ..read.size import size_of
 
 EXR, NPZ = "EXR", "NPZ"
 PASS_FORMATS = EXR, NPZ
@@ -51,7 +51,7 @@ def render(
     half: bool = False,
     shown: bool = True,
     file_output: bool = False,
-    picture: CyclesPicture | FacesPicture | None = None,
+    picture: EnginePicture | None = None,
     stamp: Mapping[str, Any] | None = None,
     keypoints: Sequence[str] | None = None,
     points: PointFiles | None = None,
@@ -106,9 +106,8 @@ def render(
         if stamp is not None:
             stamp = stamp if dataset is None else short(stamp)
             report = replace(report, made=made(stamp, sorted(temporary.iterdir()), folder, beside))
-        (temporary / f"{report_name}.json").write_text(
-            as_json(report, dataset and dataset.get("common", {})), encoding="utf-8"
-        )
+        report_text = as_json(report, dataset and dataset.get("common", {}))
+        (temporary / f"{report_name}.json").write_text(report_text, encoding="utf-8")
         names = sorted(os.listdir(temporary))
         signals.raise_if_stopping()
     return report, [folder / name for name in names]
@@ -148,11 +147,8 @@ def _rendered(scene, call: RenderCall) -> Report:
         if call.picture is not None:
             changed(stack, scene.camera_ray_caster, exact_shapes=False)
         stack.enter_context(call.handed())
-        stack.enter_context(redirect_stdout(None))  # warnings go into the report, errors into the exception
-        try:
-            bpy.ops.render.render(scene=scene.name)
-        except RuntimeError as error:
-            raise InputError(reported(error)) from error
+        stack.enter_context(refused_as_input())  # warnings go into the report
+        bpy.ops.render.render(scene=scene.name)
     elapsed = perf_counter() - started
     if call.stopped:
         raise Cancelled
@@ -164,6 +160,7 @@ def _rendered(scene, call: RenderCall) -> Report:
 def _save(scene, path: Path, settings) -> None:
     """Let Blender write the render result to a file."""
     signals.raise_if_stopping()
+    views = [path.with_stem(path.stem + view.file_suffix) for view in views_of(scene)]
     for name, value in settings.items():
         if hasattr(scene.render.image_settings, name):  # media_type: since 5.0; use_exr_interleave: in some versions
             setattr(scene.render.image_settings, name, value)
@@ -171,23 +168,22 @@ def _save(scene, path: Path, settings) -> None:
         with blender_writes(path.parent):
             bpy.data.images["Render Result"].save_render(str(path), scene=scene)
     except OSError:
-        if not _views_written(scene, path):
+        if not (views and all(file.is_file() for file in views)):  # with several, Blender raises an error all the same
             raise
     if path.suffix == ".png":
-        for written in _views(scene, path) or [path]:
+        for written in views or [path]:
             check_whole(written)
 
 
 def _check_memory(scene) -> None:
     """Raise InputError if there is not enough memory for Blender's copy of the passes, which it allocates first."""
-    render = scene.render
-    shape = [side * render.resolution_percentage // 100 for side in (render.resolution_y, render.resolution_x)]
+    render, shape = scene.render, size_of(scene)[::-1]
     if render.use_border and render.use_crop_to_border:
         borders = (render.border_min_y, render.border_max_y), (render.border_min_x, render.border_max_x)
-        shape = [ceil(side * (high - low)) for side, (low, high) in zip(shape, borders, strict=True)]
+        shape = tuple(ceil(side * (high - low)) for side, (low, high) in zip(shape, borders, strict=True))
     layers = (layer for layer in scene.view_layers if layer.use)
     asked = [entry.key for layer in layers for entry in ticked(scene, layer)]
-    require(image_bytes(tuple(shape), asked, np.float32), of_pixels("the passes", tuple(shape)))
+    require(image_bytes(shape, asked, np.float32), of_pixels("the passes", shape))
 
 
 def _check_suffixes(scene) -> None:
@@ -205,14 +201,3 @@ def _check_suffixes(scene) -> None:
                 f"the file suffix {view.file_suffix!r} of view {view.name!r} leads to another folder: remove its "
                 "slashes (Output properties, Stereoscopy)"
             )
-
-
-def _views_written(scene, path: Path) -> bool:
-    """Return whether all views' files exist. With several views, Blender raises an error although it wrote them."""
-    files = _views(scene, path)
-    return bool(files) and all(file.is_file() for file in files)
-
-
-def _views(scene, path: Path) -> list[Path]:
-    """Return the files of the views of a multi-view scene."""
-    return [path.with_stem(path.stem + view.file_suffix) for view in views_of(scene)]

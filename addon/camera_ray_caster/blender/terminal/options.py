@@ -14,16 +14,16 @@ from ...core.camera.calibration_file import FRAMES_SIZE
 from ...core.programs import READ
 from ...core.records import InputError
 from ...core.report.report import WIDTH, Report, as_json, as_lines
-from ..engine.engine import CameraRayCaster
 from ..process import signals
 from ..process.opening import open_file, withhold_style_modules
 from ..properties.calibration_choice import READING, set_calibration
+from ..properties.declared import ENGINE
 from ..read import frames
 from ..read.camera_fields import ALL, check_camera, eye_object, find_camera, find_cameras, has_pixel_times, view_names
 from ..read.evaluated import camera_at
 from ..read.frames import frame_of, layer_of
 from ..read.physics import simulate
-from ..read.size import size_of
+from ..read.size import set_size, size_of
 from ..read.unique import find_unique, unique_name
 from ..rig import add_rig, frames_of, shows
 from .words import Parser, frame_number, picture_size, unstamped
@@ -90,10 +90,9 @@ def open_scene(options, say: Callable[[str], object] | None = None):
         withhold_style_modules()
     signals.raise_if_stopping()
     scene = scene_of(options)
-    scene.render.engine = CameraRayCaster.bl_idname
+    scene.render.engine = ENGINE
     if options.resolution:
-        scene.render.resolution_x, scene.render.resolution_y = options.resolution
-        scene.render.resolution_percentage = 100
+        set_size(scene, options.resolution)
     if options.camera is not None:
         use_camera(scene, find_camera(scene, options.camera))
     say = say or partial(warn, options.prog)

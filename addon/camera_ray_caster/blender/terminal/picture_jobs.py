@@ -14,21 +14,22 @@ from ...core.casting.pass_needs import check_passes
 from ...core.casting.passes import PASSES
 from ...core.casting.request import SHADINGS
 from ...core.file_set import CannotWrite
-from ...core.memory import exhausted
+from ...core.memory import limits_as_input
 from ...core.names import file_names, frame_digits
 from ...core.records import InputError
 from ...core.report.report import Report
 from ...core.sets.run import Run
 from ...core.sets.shared_facts import dataset_of
-from ..cycles.cycles_picture import CyclesPicture, picture_of
+from ..cycles.cycles_picture import picture_of
 from ..cycles.device import device_notes, use_device
+from ..cycles.renderer import EnginePicture
 from ..cycles.shader import check_cycles
-from ..engine.engine import CameraRayCaster
-from ..faces.engine_picture import EEVEE, WORKBENCH, FacesPicture
+from ..faces.engine_picture import EEVEE, WORKBENCH
 from ..faces.engine_picture import picture_of as faces_picture
-from ..output.point_files import PointFiles, add_points, check_points
+from ..output.point_files import PointFiles, add_points
 from ..output.stamps import file_hash, finished, stamp_of
 from ..process import signals
+from ..properties.declared import ENGINE
 from ..properties.pass_properties import tick, ticked
 from ..read.camera_fields import ALL, find_camera, find_cameras, views_of
 from ..read.frames import frame_of
@@ -43,8 +44,7 @@ from .options import go_to, open_scene, stem, use_camera
 from .words import Parser, add_cameras, check_cameras, pass_names, sample_count, unstamped
 
 CYCLES = "CYCLES"
-OWN = CameraRayCaster.bl_idname
-ENGINES = OWN, CYCLES, EEVEE, WORKBENCH
+ENGINES = ENGINE, CYCLES, EEVEE, WORKBENCH
 
 DEFAULT_PASSES = ("combined", "depth", "normal", "position", "object_index")
 """Passes that are cast if a view layer has only the combined pass enabled."""
@@ -118,9 +118,8 @@ class Pictures:
         self.warnings: list[str] = []
         self.spare: dict[tuple[str, str], Images] = {}
         self.scene = scene = open_scene(options, self.warnings.append)
-        scene.render.engine = CameraRayCaster.bl_idname
-        if PointFiles.of(options) is not None:
-            check_points(scene)
+        if PointFiles.of(options) is not None and scene.render.use_multiview:  # points belong to one picture
+            raise InputError("--points supports a single view only: disable Stereoscopy (Output properties)")
         if self.keypoints is not None:
             check_key_points(scene, self.keypoints)
         if by_cycles:
@@ -184,15 +183,12 @@ class Pictures:
         failure = ""
         for _ in range(1 + self.options.retries):
             try:
-                return self.make(job, *arguments)
+                with limits_as_input():
+                    return self.make(job, *arguments)
             except CannotWrite:
                 raise
             except InputError as error:
                 failure = str(error)
-            except (MemoryError, RuntimeError, OSError) as error:
-                failure = exhausted(error)
-                if not failure:
-                    raise
         return Outcome(False, failure=f"{job.name}: {failure}")
 
     def make(self, job: PictureJob, stamp: dict[str, Any], prog: str, ray_map: RayMap | None = None) -> Outcome:
@@ -207,7 +203,7 @@ class Pictures:
         if ray_map is not None and ray_maps.digest_of(camera) == ray_map.digest:
             left_out, beside = ray_maps.PASSES, [self.options.output / ray_map.file]
         self.tick(lambda key: key not in left_out)
-        picture = self._by_engine(prog) if self.options.engine != OWN else None
+        picture = self._by_engine(prog) if self.options.engine != ENGINE else None
         of = of_job(stamp, job, ray_map)
         report, paths = self.render(
             job, of, shown=self.options.pictures, picture=picture, beside=beside, keypoints=self.keypoints,
@@ -254,7 +250,7 @@ class Pictures:
             tick(self.scene, layer, wanted_keys)
             layer.use_freestyle = name in self.drawn and "combined" in wanted_keys
 
-    def _by_engine(self, prog: str) -> CyclesPicture | FacesPicture:
+    def _by_engine(self, prog: str) -> EnginePicture:
         """Render the current frame with another engine, which a Python signal handler cannot interrupt."""
         frame_files.check(self.scene)
         with signals.leaving(f"{prog}: {signals.STOPPED}"):

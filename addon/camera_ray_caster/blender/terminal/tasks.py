@@ -76,7 +76,9 @@ class Tasks:
                 seen, gone = time.monotonic(), 0 if self.client.nthreads() else gone + 1
                 if gone > 1:
                     raise InputError(f"all workers have ended; finished pictures are kept; {FEWER}")
-            for _ in range(TASKS_AT_ONCE + TASKS_PER_THREAD * _threads(self.client) - len(self.waiting)):
+            workers = self.client.scheduler_info()["workers"].values()  # as the client was last told
+            threads = sum(worker["nthreads"] for worker in workers)
+            for _ in range(TASKS_AT_ONCE + TASKS_PER_THREAD * threads - len(self.waiting)):
                 chunk = yield from self._chunk()
                 if not chunk:
                     break
@@ -138,8 +140,3 @@ class Tasks:
                 self.client = self.connect()
                 return True
         return False
-
-
-def _threads(client) -> int:
-    """Return the number of the workers' threads, as the client was last told."""
-    return sum(worker["nthreads"] for worker in client.scheduler_info()["workers"].values())

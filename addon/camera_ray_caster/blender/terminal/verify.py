@@ -31,11 +31,5 @@ def run(arguments: Sequence[str], prog: str) -> int:
     signals.raise_if_stopping()
     for line in report.warnings:
         warn(prog, line)
-    show(
-        report,
-        options.json,
-        "All reference checks passed"
-        if report.passed
-        else "A reference check failed: the rays differ by more than its error bound",
-    )
+    show(report, options.json, report.verdict)
     return int(not report.passed)

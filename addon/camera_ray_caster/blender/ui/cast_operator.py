@@ -1,7 +1,5 @@
 """The Cast operator: it casts the passes of the view layer into images without blocking the window."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass, field
@@ -29,11 +27,6 @@ INTERVAL = 0.1
 STORING = 0.05
 """Seconds of each interval spent on storing images, at least one image; the rest is for drawing the window."""
 
-_running: list[RunningCast] = []
-_shown: list[str | None] = []
-"""The latest text in the status bar; empty before the first."""
-
-
 @dataclass(frozen=True)
 class RunningCast:
     """The running cast, and the timer that polls it."""
@@ -57,6 +50,11 @@ class RunningCast:
     def _storing(self) -> Iterator[str]:
         passes, _ = self.worker.result()
         return image_datablocks.store(passes)
+
+
+_running: list[RunningCast] = []
+_shown: list[str | None] = []
+"""The latest text in the status bar; empty before the first."""
 
 
 def fraction() -> float | None:

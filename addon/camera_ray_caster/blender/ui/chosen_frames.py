@@ -24,9 +24,9 @@ def chosen(scene, choice: str, cameras: Sequence) -> tuple[Sequence[float], Call
     Raises InputError if there are none.
     """
     if choice == CURRENT[0]:
-        return [frame_of(scene)], _always
+        return [frame_of(scene)], lambda *_: True
     if choice == RANGE[0]:
-        return range(scene.frame_start, scene.frame_end + 1, scene.frame_step), _always
+        return range(scene.frame_start, scene.frame_end + 1, scene.frame_step), lambda *_: True
     frames = frames_of(cameras)
     if not frames:
         raise InputError("no camera has poses from a file: choose Range or Current")
@@ -61,7 +61,3 @@ def in_words(scene, choice: str, seconds: float = 0.0) -> str:
 
 def _counted(count: int, noun: str) -> str:
     return f"{count:,} {noun}{'' if count == 1 else 's'}"
-
-
-def _always(camera, frame: float) -> bool:
-    return True

@@ -10,7 +10,7 @@ from bpy_extras.io_utils import ExportHelper
 from ...core.clouds.cloud import AXES, OF_DEVICE, PointCloud, scan
 from ...core.clouds.formats import POINT_FORMATS
 from ...core.library.clouds import save_points
-from ..output.point_files import categories_of
+from ..output.point_files import ERRORS, categories_of
 from ..read.scene_reader import read_scene
 from .drawing import Sidebar
 from .needs import OfScene, select_alone
@@ -42,7 +42,7 @@ class OfPoints(OfScene):
     def points(self, context) -> PointCloud:
         """Return the points of the current frame. Raises InputError if the camera cannot be cast."""
         scene = read_scene(context.scene)
-        how = {name: getattr(self, name) for name in ("noise", "dropout", "quantum", "seed")}
+        how = {name: getattr(self, name) for name in ERRORS}
         if self.as_device:
             how["quantum"] = OF_DEVICE
         return scan(scene, categories=categories_of(scene.shapes.names), **how)

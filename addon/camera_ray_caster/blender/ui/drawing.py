@@ -1,7 +1,9 @@
 """Helpers for drawing panels: wrapped sentences, table rows."""
 
+from collections.abc import Collection, Iterable, Iterator
 from functools import lru_cache
 from textwrap import wrap
+from typing import Any
 
 import blf
 
@@ -17,6 +19,8 @@ ICON = 24.0
 """Width of an icon, or of a popover's arrow, in pixels at interface scale 1."""
 FEWEST = 16
 """Letters of a line in the narrowest region."""
+LINES = 15
+"""Number of lines in a column of a menu."""
 NARROW = 280
 """Region width up to which a label next to its field would be cut off, in pixels at interface scale 1."""
 
@@ -100,6 +104,17 @@ def lines_of(text: str, width: float, max_lines: int | None = None) -> list[str]
 def capital(text: str) -> str:
     """Return a sentence with a capital first letter; a formula as it is."""
     return text if text[1:4] == " = " else text[:1].upper() + text[1:]
+
+
+def in_columns(layout, groups: Iterable[tuple[str, Collection]]) -> Iterator[tuple[Any, Collection]]:
+    """Yield the column of a menu in which each group is drawn, below its title, with the group's entries."""
+    row, free = layout.row(), 0
+    for title, entries in groups:
+        if len(entries) >= free:
+            column, free = row.column(), LINES
+        free -= len(entries) + 1
+        column.label(text=title)
+        yield column, entries
 
 
 def draw_row(layout, name: str, cells, factor: float) -> None:

@@ -25,14 +25,6 @@ CHOSEN = {
 """Functions that return the camera objects, by item of ``Export.cameras``."""
 
 
-def said_of(remarks: list[str], paths: list[Path], folder: Path, fits: bool) -> list[str]:
-    """Return the remarks of an export and the number of its files; last, what the status bar keeps: the number of
-    files, or the errors of a fit.
-    """
-    wrote = f"Wrote {len(paths)} {'file' if len(paths) == 1 else 'files'} into {folder}"
-    return [wrote, *remarks] if fits else [*remarks, wrote]
-
-
 class Export(OfScene, ExportHelper, bpy.types.Operator):
     """Write cameras, at one or more frames, to a folder, as files for another program"""
 
@@ -142,8 +134,9 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
             in_process.begin("export", [*words, *chosen_frames.as_options(scene, self.frames, cameras)], folder)
             return
         fit = self.fit_within if self.fit else None
-        written = exports.write(scene, self.format, cameras, frames, folder, target, fit=fit, shown=shown)
-        for line in said_of(*written, folder, self.fit):
+        remarks, paths = exports.write(scene, self.format, cameras, frames, folder, target, fit=fit, shown=shown)
+        wrote = f"Wrote {len(paths)} {'file' if len(paths) == 1 else 'files'} into {folder}"
+        for line in (wrote, *remarks) if self.fit else (*remarks, wrote):  # the status bar keeps the last one
             self.report({"INFO"}, line)
 
 
@@ -194,8 +187,7 @@ def _draw_in_file_menu(menu, context) -> None:
 
 
 def register(undo) -> None:
-    bpy.types.TOPBAR_MT_file_export.append(_draw_in_file_menu)
-    undo.callback(bpy.types.TOPBAR_MT_file_export.remove, _draw_in_file_menu)
+    undo.append(bpy.types.TOPBAR_MT_file_export, _draw_in_file_menu)
 
 
 CLASSES = (Export, ExportMenu, CopyK, CopyWorldToCamera)

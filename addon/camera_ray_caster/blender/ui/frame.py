@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import partial
 
 import bpy
 
@@ -95,11 +94,7 @@ def frame_note(context, item) -> Note | None:
     if wanted is None:
         return None
     text = f"Set Frame to {wanted.width} × {wanted.height}"
-    return Note(wanted.sentence, partial(_draw_button, text=text))
-
-
-def _draw_button(row, text: str) -> None:
-    row.operator(SetFrame.bl_idname, text=text, icon="FULLSCREEN_ENTER")
+    return Note(wanted.sentence, lambda row: row.operator(SetFrame.bl_idname, text=text, icon="FULLSCREEN_ENTER"))
 
 
 CLASSES = (SetFrame,)

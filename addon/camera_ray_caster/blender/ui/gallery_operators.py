@@ -8,14 +8,13 @@ from mathutils import Matrix
 from ...core.records import InputError
 from .. import gallery
 from . import see_through
+from .drawing import in_columns
 from .needs import Action, select_alone
 
 _opening: list[str] = []
 """The name of the example that is being opened."""
 CAMERA = "Camera"
 """Name of the camera object in every scene of the gallery."""
-LINES = 15
-"""Number of lines in a column of the menus."""
 
 
 class OfGallery(Action):
@@ -99,12 +98,7 @@ class GalleryMenu:
     """Base of the menus of the gallery's scenes, in groups."""
 
     def draw(self, context):
-        row, free = self.layout.row(), 0
-        for group, entries in gallery.groups().items():
-            if len(entries) >= free:
-                column, free = row.column(), LINES
-            free -= len(entries) + 1
-            column.label(text=group)
+        for column, entries in in_columns(self.layout, gallery.groups().items()):
             for label, name in entries.items():
                 column.operator(self.operator, text=label, icon_value=gallery.icon(name)).name = name
 
@@ -135,6 +129,5 @@ CLASSES = (OpenExample, AppendCamera, ExamplesMenu, CamerasMenu)
 
 
 def register(undo) -> None:
-    bpy.types.VIEW3D_MT_camera_add.append(draw_menu)
-    undo.callback(bpy.types.VIEW3D_MT_camera_add.remove, draw_menu)
-    undo.add_handlers([("load_post", look_through)])
+    undo.append(bpy.types.VIEW3D_MT_camera_add, draw_menu)
+    undo.add_handlers(look_through, "load_post")

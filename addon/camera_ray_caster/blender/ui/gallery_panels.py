@@ -14,11 +14,10 @@ from ...core.records import InputError
 from .. import gallery
 from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
 from ..properties.setting_labels import label_of
+from .drawing import in_columns
 from .model_settings import key_of
 from .needs import OfCamera, camera_object_of, objection
 
-LINES = 15
-"""Number of lines in a column of the menu."""
 SCALE = 4.5
 """Size of a picture in the gallery, in interface units: of eight in a row, as Blender draws them, all fit a window."""
 GALLERY = "camera_ray_caster_gallery"
@@ -122,12 +121,7 @@ class ModelMenu(bpy.types.Menu):
     def draw(self, context):
         item = camera_object_of(context)
         chosen = () if objection(context, item) else (key_of(item.data), getattr(item.data, GROUP).time_mode)
-        row, free = self.layout.row(), 0
-        for group, entries in by_group():
-            if len(entries) >= free:
-                column, free = row.column(), LINES
-            free -= len(entries) + 1
-            column.label(text=group)
+        for column, entries in in_columns(self.layout, by_group()):
             for entry in entries:
                 icon = "CHECKMARK" if entry.key in chosen else "BLANK1"
                 column.operator(ChooseModel.bl_idname, text=entry.label, icon=icon).key = entry.key

@@ -147,6 +147,6 @@ def stop() -> None:
 
 def register(undo) -> None:
     undo.callback(stop)
-    undo.add_handlers([("save_pre", restore_all), ("load_pre", restore_all), ("load_post", restore_marked)])
-    handle = bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_PIXEL")
-    undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")
+    undo.add_handlers(restore_all, "save_pre", "load_pre")
+    undo.add_handlers(restore_marked, "load_post")
+    undo.add_drawing(bpy.types.SpaceView3D, draw, "POST_PIXEL")

@@ -194,5 +194,5 @@ CLASSES = (StopAll,)
 
 def register(undo) -> None:
     undo.callback(_ended.clear)
-    undo.add_handlers([("load_post", forget_result)])
+    undo.add_handlers(forget_result, "load_post")
     undo.callback(forget)

@@ -56,5 +56,4 @@ CLASSES = (RayCasterMenu,)
 
 
 def register(undo) -> None:
-    bpy.types.TOPBAR_MT_render.append(draw_menu)
-    undo.callback(bpy.types.TOPBAR_MT_render.remove, draw_menu)
+    undo.append(bpy.types.TOPBAR_MT_render, draw_menu)

@@ -40,12 +40,13 @@ def objection(context, item, is_changed: bool = False) -> str:
 
 
 def select_alone(context, *items) -> None:
-    """Select these objects and no others, and make the first one active."""
+    """Select these objects and no others, and make the first one active, if there is one."""
     for item in context.selected_objects:
         item.select_set(False)
     for item in items:
         item.select_set(True)
-    context.view_layer.objects.active = items[0]
+    if items:
+        context.view_layer.objects.active = items[0]
 
 
 class Action:

@@ -35,11 +35,7 @@ class Verify(OfScene, bpy.types.Operator):
     bl_label = "Verify"
     bl_options = {"REGISTER"}
 
-    with_cycles: BoolProperty(
-        name="With Cycles",
-        description=WITH_CYCLES,
-        options={"SKIP_SAVE"},
-    )
+    with_cycles: BoolProperty(name="With Cycles", description=WITH_CYCLES, options={"SKIP_SAVE"})
 
     @classmethod
     def description(cls, context, properties):
@@ -50,11 +46,9 @@ class Verify(OfScene, bpy.types.Operator):
         report = verified(context.scene, self.with_cycles)
         reports.keep_verified(report, context.scene)
         if report.passed:
-            self.report({"INFO"}, "All reference checks passed")
+            self.report({"INFO"}, report.verdict)
         else:
-            self.report(
-                {"WARNING"}, "A reference check failed: the rays differ by more than its error bound. See the sidebar"
-            )
+            self.report({"WARNING"}, f"{report.verdict}. See the sidebar")
 
 
 class CopyFacts(OfScene, bpy.types.Operator):

@@ -115,4 +115,5 @@ CLASSES = (UseThisEngine,)
 
 
 def register(undo) -> None:
-    undo.add_handlers([("render_init", begin), ("render_complete", end), ("render_cancel", end)])
+    undo.add_handlers(begin, "render_init")
+    undo.add_handlers(end, "render_complete", "render_cancel")

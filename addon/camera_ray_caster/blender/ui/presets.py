@@ -9,6 +9,7 @@ from bpy.props import BoolProperty, StringProperty
 
 from ...core.cameras.parts.settings import CAMERA, OWN
 from ...core.records import InputError
+from ..process.opening import reported
 from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
 from .frame import SET_FRAME, framed
 from .model_drawing import PRESETS
@@ -41,9 +42,8 @@ class ExecutePreset(OfCamera, bpy.types.Operator):
         with framed(context, item, is_set) as remarks, context.temp_override(camera=item.data):
             try:
                 done = bpy.ops.script.execute_preset(filepath=self.filepath, menu_idname=ModelPresets.bl_idname)
-            except RuntimeError as error:  # what Blender's operator reports
-                reason = str(error).partition("\n")[0].removeprefix("Error: ")
-                raise InputError(f"preset {self.filepath!r} cannot be used: {reason}") from error
+            except RuntimeError as error:
+                raise InputError(f"preset {self.filepath!r} cannot be used: {reported(error)}") from error
         for line in remarks:
             self.report({"INFO"}, line)
         return done
@@ -82,10 +82,9 @@ class AddModelPreset(AddPresetBase, bpy.types.Operator):
         """The values to store: the model, Blender's camera type for its own models, and the settings of the model."""
         camera = bpy.context.camera
         types = ["camera.type", "camera.panorama_type"] if getattr(camera, GROUP).model == BLENDERS_OWN else []
-        kept = [
-            setting for setting in (*settings_of(camera), *port_settings(camera)) if setting.kind in KINDS_IN_PRESETS
-        ]
-        stored = (f"{OWNERS[setting.owner]}.{setting.name}" for setting in kept if setting.owner in OWNERS)
+        settings = [setting for setting in (*settings_of(camera), *port_settings(camera)) if setting.owner in OWNERS]
+        kept = (setting for setting in settings if setting.kind in KINDS_IN_PRESETS)
+        stored = (f"{OWNERS[setting.owner]}.{setting.name}" for setting in kept)
         return [f"settings.{MODEL.name}", *types, *stored]
 
 

@@ -4,16 +4,14 @@ from collections.abc import Iterator
 
 import bpy
 
-from ..engine.engine import CameraRayCaster
 from ..output import reports
+from ..properties.declared import ENGINE
 from ..properties.pass_properties import PASSES
 from .camera_notes import sample_note
 from .cast_panels import summary
 from .drawing import draw_message
 from .facts_panels import camera_of
 from .notes import draw_notes
-
-ENGINE = CameraRayCaster.bl_idname
 
 
 class EnginePanel:

@@ -52,8 +52,7 @@ def _draw_in_file_menu(menu, context) -> None:
 
 
 def register(undo) -> None:
-    bpy.types.TOPBAR_MT_file_import.append(_draw_in_file_menu)
-    undo.callback(bpy.types.TOPBAR_MT_file_import.remove, _draw_in_file_menu)
+    undo.append(bpy.types.TOPBAR_MT_file_import, _draw_in_file_menu)
 
 
 CLASSES = (AddCameras,)

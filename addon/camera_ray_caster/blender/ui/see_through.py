@@ -14,14 +14,12 @@ from bpy.app.handlers import persistent
 from mathutils import Quaternion
 
 from ..properties.declared import ENGINE
-from ..read.view import views_3d
+from ..read.view import SEEN, shows_cast, views_3d
 from ..view3d import live, notice, overlay, pixel_lessons
 from ..view3d.live_picture import why_not
 from ..view3d.shown import can_show, is_live
 from .needs import OfScene
 
-SEEN = "CAMERA", "RENDERED"
-"""Perspective and shading of a view that shows the picture of a cast."""
 _views: dict[int, tuple[str, str, Quaternion]] = {}
 """Perspective, shading and rotation before See Through, by the pointer of the 3D View: one that looks through a camera
 gets its rotation from Blender.
@@ -194,12 +192,6 @@ def shows_live(space, scene) -> bool:
     return is_shown and view is not None and view.view_perspective == "CAMERA"
 
 
-def shows_cast(space, scene) -> bool:
-    """Return whether a 3D View shows the picture of a scene's camera by a cast."""
-    view = space.region_3d
-    return view is not None and (view.view_perspective, space.shading.type) == SEEN and scene.render.engine == ENGINE
-
-
 @persistent
 def give_back(*_) -> None:
     """Restore shadings and engines, while a file is saved or for good."""
@@ -248,7 +240,8 @@ CLASSES = (SeeThrough,)
 
 def register(undo) -> None:
     undo.callback(stop)
-    undo.add_handlers([
-        ("load_pre", forget), ("save_pre", give_back), ("save_post", show_again), ("load_post", restore_saved),
-        ("undo_post", restore_engines), ("redo_post", restore_engines),
-    ])  # fmt: skip
+    undo.add_handlers(forget, "load_pre")
+    undo.add_handlers(give_back, "save_pre")
+    undo.add_handlers(show_again, "save_post")
+    undo.add_handlers(restore_saved, "load_post")
+    undo.add_handlers(restore_engines, "undo_post", "redo_post")

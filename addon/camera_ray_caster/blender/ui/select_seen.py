@@ -7,7 +7,7 @@ from ..read.scene_cache import cached_scene
 from ..read.unique import named
 from .hide_overlays import misleads
 from .lesson_operators import pixel_at
-from .needs import Action
+from .needs import Action, select_alone
 
 TOOLS = "builtin.select", "builtin.select_box", "builtin.select_circle", "builtin.select_lasso"
 """Tools with which a click selects: Tweak, and the three kinds of Select."""
@@ -59,11 +59,7 @@ class SelectSeen(Action, bpy.types.Operator):
 
     def execute(self, context):
         """Select this object and no others; none, if nothing is under the mouse."""
-        for item in context.selected_objects:
-            item.select_set(False)
-        if self.item is not None:
-            self.item.select_set(True)
-            context.view_layer.objects.active = self.item
+        select_alone(context, *([] if self.item is None else [self.item]))
 
 
 def object_at(context, pixel: tuple[int, int]):

@@ -4,10 +4,10 @@ from contextlib import ExitStack
 
 import bpy
 
-from ..cycles.renderer import changed
 from ..engine.engine import RenderCall
 from ..faces.engine_picture import EEVEE, NAMES, WORKBENCH, picture_of
 from ..properties.declared import ENGINE
+from ..read.changes import changed
 from .model_settings import model_of
 from .needs import OfScene
 

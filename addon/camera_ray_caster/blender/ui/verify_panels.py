@@ -7,14 +7,8 @@ from .drawing import Sidebar, draw_message, draw_row
 from .facts_panels import facts_of
 from .notes import Popover, draw_line, widen
 
-WITNESSES = {
-    "view_frame": "View Frame",
-    "calc_matrix_camera": "Camera Matrix",
-    "world_to_camera_view": "View Position",
-    "round trip": "Round Trip",
-    "Cycles": "Cycles",
-}
-"""Labels of the independent references, by name in the report."""
+WITNESSES = {"calc_matrix_camera": "Camera Matrix", "world_to_camera_view": "View Position"}
+"""Labels of the references whose names in the report are no titles."""
 
 
 class SidebarVerify(Sidebar, bpy.types.Panel):
@@ -37,7 +31,7 @@ def verdict(context, report) -> tuple[str, str]:
     """Return what a verification found, in words, and an icon."""
     if report.camera != facts_of(context, context.scene.camera)[0]:
         return "Camera has changed since", "INFO"
-    return ("All reference checks passed", "CHECKMARK") if report.passed else ("A reference check failed", "ERROR")
+    return report.verdict.partition(":")[0], "CHECKMARK" if report.passed else "ERROR"
 
 
 class VerifyErrors(Popover, bpy.types.Panel):
@@ -64,7 +58,8 @@ def draw_findings(layout, findings) -> None:
             errors = ["not compared"]
         row = box.row()
         row.alert = not finding.passed
-        draw_row(row, WITNESSES.get(finding.witness, finding.witness), errors, 0.46)
+        title = WITNESSES.get(finding.witness, finding.witness.replace("_", " ").title())
+        draw_row(row, title, errors, 0.46)
 
 
 CLASSES = (SidebarVerify, VerifyErrors)

@@ -22,6 +22,7 @@ from ...core.report.sample import angles_between, finding, length_of, not_compar
 from ...core.shaders.camera_shader import CameraShader, camera_shader
 from ...core.shaders.shader_accuracy import ray_bounds
 from ..cycles.shader import check_cycles, set_shader, texture_folder
+from ..read.texels import pixels_of_file
 
 CYCLES = "Cycles"
 
@@ -99,7 +100,10 @@ def _ends(camera: Camera, shader: CameraShader, shift, center, half: float, size
     with _witness_scene(camera, shader, shift, center, half, size) as scene, TemporaryDirectory() as folder:
         scene.render.filepath = str(Path(folder) / "witness.exr")
         bpy.ops.render.render(write_still=True, scene=scene.name)
-        values = _pixels(Path(scene.render.filepath))
+        path = Path(scene.render.filepath)
+        if not path.exists():
+            raise InputError("Cycles returned no pixels: render the scene with Cycles to see the reason")
+        values = pixels_of_file(path)[..., :3].astype(np.float64)
     values[(values == 0).all(axis=-1)] = np.nan
     return center + (values - 0.5) * (4 * half)
 
@@ -118,7 +122,7 @@ def _witness_scene(camera: Camera, shader: CameraShader, shift, center, half: fl
         data, parent = new(bpy.data.cameras, "Witness"), new(bpy.data.objects, "Witness", None)
         item = new(bpy.data.objects, "Witness", data)
         item.parent = parent
-        item.matrix_parent_inverse = Matrix(_matrix(camera).tolist())  # the matrix may be sheared
+        item.matrix_parent_inverse = Matrix(camera.world_from_camera.tolist())  # the matrix may be sheared
         mesh, material = new(bpy.data.meshes, "Witness"), new(bpy.data.materials, "Witness")
         mesh.from_pydata((center + half * CORNERS).tolist(), [], FACES)
         mesh.materials.append(material)
@@ -140,12 +144,6 @@ def _witness_scene(camera: Camera, shader: CameraShader, shift, center, half: fl
 
 CORNERS = np.array([(x, y, z) for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
 FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
-
-
-def _matrix(camera: Camera) -> np.ndarray:
-    matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = camera.pose.basis, camera.pose.eye
-    return matrix
 
 
 def _emit_position(material, center, half: float) -> None:
@@ -176,17 +174,3 @@ def _set_up(scene, size) -> None:
     cycles.device = "CPU"
     cycles.samples, cycles.max_bounces, cycles.filter_width = 1, 0, 0.01
     cycles.use_adaptive_sampling = cycles.use_denoising = False
-
-
-def _pixels(path: Path) -> np.ndarray:
-    """Return the pixels of an EXR file, (height, width, 3) float64, the bottom row first."""
-    if not path.exists():
-        raise InputError("Cycles returned no pixels: render the scene with Cycles to see the reason")
-    image = bpy.data.images.load(str(path))
-    try:
-        width, height = image.size
-        values = np.empty(width * height * image.channels, np.float32)
-        image.pixels.foreach_get(values)
-        return values.reshape(height, width, -1)[..., :3].astype(np.float64)
-    finally:
-        bpy.data.images.remove(image)

@@ -88,14 +88,11 @@ def _batch(scene: CachedScene, by: str, seconds: float | None):
     if cloud is not None and _drawn[1][0] != (by, seconds):
         is_seen = points_by_now(cloud, camera, seconds)
         content = {"pos": cloud.world[is_seen].astype(np.float32), "color": colors_of(cloud, by)[is_seen]}
-        batch = (
-            batch_for_shader(gpu.shader.from_builtin("POINT_FLAT_COLOR"), "POINTS", content) if is_seen.any() else None
-        )
-        _drawn[1] = (by, seconds), batch
+        shader = gpu.shader.from_builtin("POINT_FLAT_COLOR")
+        _drawn[1] = (by, seconds), batch_for_shader(shader, "POINTS", content) if is_seen.any() else None
     return _drawn[1][1]
 
 
 def register(undo) -> None:
     undo.callback(_drawn.clear)
-    handle = bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW")
-    undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")
+    undo.add_drawing(bpy.types.SpaceView3D, draw, "POST_VIEW")

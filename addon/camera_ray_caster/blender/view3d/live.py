@@ -47,8 +47,9 @@ def end(space) -> None:
         stop()
 
 
-def stop() -> None:
-    """End all live views."""
+@persistent
+def stop(*_) -> None:
+    """End all live views: another file is loaded, or the add-on is disabled."""
     _live.clear()
     while _handles:
         bpy.types.SpaceView3D.draw_handler_remove(_handles.pop(), "WINDOW")
@@ -65,15 +66,9 @@ def changed(*_) -> None:
     _state["changes"] += 1
 
 
-@persistent
-def stop_all(*_) -> None:
-    """End all live views: another file is loaded."""
-    stop()
-
-
 HANDLERS = (
     ("depsgraph_update_post", changed), ("frame_change_post", changed), ("undo_post", changed), ("redo_post", changed),
-    ("load_pre", stop_all),
+    ("load_pre", stop),
 )  # fmt: skip
 
 

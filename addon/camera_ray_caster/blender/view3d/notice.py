@@ -25,9 +25,8 @@ def draw() -> None:
     sentences = list(_sentences(context))
     if sentences:
         margin, (left, right) = EDGE_DISTANCE * context.preferences.system.ui_scale, text.uncovered(context)
-        lines = [
-            ("", line) for sentence in sentences for line in text.wrapped(context, sentence, right - left - 2 * margin)
-        ]
+        width = right - left - 2 * margin
+        lines = [("", line) for sentence in sentences for line in text.wrapped(context, sentence, width)]
         text.write(context, lines, lambda width, height: ((left + right - width) / 2, height + margin))
 
 
@@ -51,5 +50,4 @@ def _sentences(context) -> Iterator[str]:
 
 
 def register(undo) -> None:
-    handle = bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_PIXEL")
-    undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")
+    undo.add_drawing(bpy.types.SpaceView3D, draw, "POST_PIXEL")

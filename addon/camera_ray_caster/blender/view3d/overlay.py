@@ -62,20 +62,14 @@ WIDE, THIN, TEXT = 2.0, 1.0, 13.0
 AXES = ((1.0, 0.2, 0.32, 1.0), (0.545, 0.863, 0.0, 1.0), (0.157, 0.565, 1.0, 1.0))
 """Colors of u, v and w: those of Blender's X, Y and Z axes."""
 STYLES = {
-    "grid": ((0.9, 0.9, 0.9, 0.3), THIN),
-    "border": ((0.95, 0.95, 0.95, 0.8), WIDE),
-    "missed_rays": ((0.6, 0.6, 0.6, 0.22), THIN),
-    "hit_rays": ((1.0, 0.72, 0.2, 0.5), THIN),
-    "normals": ((0.3, 0.9, 0.95, 0.95), WIDE),
-    "hits": ((1.0, 0.85, 0.3, 1.0), 6.0),
+    "grid": ((0.9, 0.9, 0.9, 0.3), THIN, "show_frustum"),
+    "border": ((0.95, 0.95, 0.95, 0.8), WIDE, "show_frustum"),
+    "missed_rays": ((0.6, 0.6, 0.6, 0.22), THIN, "show_rays"),
+    "hit_rays": ((1.0, 0.72, 0.2, 0.5), THIN, "show_rays"),
+    "normals": ((0.3, 0.9, 0.95, 0.95), WIDE, "show_normals"),
+    "hits": ((1.0, 0.85, 0.3, 1.0), 6.0, "show_hits"),
 }
-"""Color and width in pixels of lines or points, in drawing order."""
-
-SHOWN_BY = {
-    "grid": "show_frustum", "border": "show_frustum", "missed_rays": "show_rays", "hit_rays": "show_rays",
-    "normals": "show_normals", "hits": "show_hits",
-}  # fmt: skip
-"""Settings that show the parts."""
+"""Color and width in pixels of lines or points, and the setting that shows them, in drawing order."""
 
 _drawn: list[tuple] = []
 """The latest diagram, as (inputs, diagram, batches in space and in the picture)."""
@@ -105,15 +99,13 @@ def draw_in_picture() -> None:
     by Blender for each 3D View.
     """
     context = bpy.context
-    scene = _shown(context)
+    settings, scene = context.scene.camera_ray_caster_overlay, _shown(context)
     frame = None if scene is None else picture_frame(context)
     if frame is None:
-        if scene is not None and context.scene.camera_ray_caster_overlay.show_frustum:
+        if scene is not None and settings.show_frustum:
             _name_axes(context, scene.camera)
         return
-    batches = _batches(
-        scene, context.scene.camera.data.display_size, context.scene.camera_ray_caster_overlay.rays, in_picture=True
-    )
+    batches = _batches(scene, context.scene.camera.data.display_size, settings.rays, in_picture=True)
     gpu.state.blend_set("ALPHA")
     with in_pixels(frame, scene.camera.raster):
         _draw(context, batches, batches)
@@ -148,8 +140,8 @@ def _draw(context, batches: dict, names) -> None:
     """Draw the batches of these names that the settings show."""
     settings, scale = context.scene.camera_ray_caster_overlay, context.preferences.system.ui_scale
     for name in names:
-        color, width = STYLES[name]
-        if getattr(settings, SHOWN_BY[name]):
+        color, width, setting = STYLES[name]
+        if getattr(settings, setting):
             draw_batch(batches[name], "POINT" if name == "hits" else "POLYLINE", color, width * scale)
 
 
@@ -218,6 +210,5 @@ def register(undo) -> None:
     undo.callback(_drawn.clear)
     bpy.types.Scene.camera_ray_caster_overlay = PointerProperty(type=OverlayProperties)
     undo.callback(delattr, bpy.types.Scene, "camera_ray_caster_overlay")
-    for function, when in ((draw, "POST_VIEW"), (draw_in_picture, "POST_PIXEL")):
-        handle = bpy.types.SpaceView3D.draw_handler_add(function, (), "WINDOW", when)
-        undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")
+    undo.add_drawing(bpy.types.SpaceView3D, draw, "POST_VIEW")
+    undo.add_drawing(bpy.types.SpaceView3D, draw_in_picture, "POST_PIXEL")

@@ -170,14 +170,10 @@ def forget(*_):
 
 def register(undo) -> None:
     undo.callback(forget)
-    undo.add_handlers([("load_pre", forget)])
-    for space, function, when in (
-        (bpy.types.SpaceView3D, draw_glass, "POST_VIEW"),
-        (bpy.types.SpaceView3D, draw, "POST_VIEW"),
-        (bpy.types.SpaceView3D, draw_marks, "POST_PIXEL"),
-        (bpy.types.SpaceImageEditor, draw_marks, "POST_PIXEL"),
-    ):
-        handle = space.draw_handler_add(function, (), "WINDOW", when)
-        undo.callback(space.draw_handler_remove, handle, "WINDOW")
+    undo.add_handlers(forget, "load_pre")
+    undo.add_drawing(bpy.types.SpaceView3D, draw_glass, "POST_VIEW")
+    undo.add_drawing(bpy.types.SpaceView3D, draw, "POST_VIEW")
+    undo.add_drawing(bpy.types.SpaceView3D, draw_marks, "POST_PIXEL")
+    undo.add_drawing(bpy.types.SpaceImageEditor, draw_marks, "POST_PIXEL")
     cursor = bpy.types.WindowManager.draw_cursor_add(draw_held, (), "VIEW_3D", "WINDOW")
     undo.callback(bpy.types.WindowManager.draw_cursor_remove, cursor)

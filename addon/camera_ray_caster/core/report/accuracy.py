@@ -1,9 +1,8 @@
 """Accuracy of the hits of a cast: error bounds at an even sample of its pixels, computed in milliseconds."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 from math import isqrt
+from typing import Self
 
 import numpy as np
 
@@ -101,7 +100,7 @@ class Accuracy:
     def _column(self, quantity: str) -> np.ndarray:
         return self.bounds[:, list(QUANTITIES).index(quantity)]
 
-    def __add__(self, other: Accuracy) -> Accuracy:
+    def __add__(self, other: Self) -> Self:
         """Return both samples as one."""
         return replace(
             self,

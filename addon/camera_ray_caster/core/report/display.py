@@ -55,8 +55,9 @@ def _range(values: np.ndarray, is_distance: bool) -> tuple[np.ndarray, str]:
     counted = np.isfinite(values) & (np.abs(values) < NOTHING) & (values.shape[-1] > 1 or values != 0)
     if not counted.any():
         return np.zeros_like(values), "no pixel has a value"
-    low, high = (np.array([end(column[mask]) if mask.any() else 0.0 for column, mask in _columns(values, counted)])
-                 for end in (np.min, np.max))  # fmt: skip
+    low = values.min(axis=(0, 1), where=counted, initial=np.inf)
+    high = values.max(axis=(0, 1), where=counted, initial=-np.inf)
+    low, high = (np.where(counted.any(axis=(0, 1)), end, 0.0) for end in (low, high))
     may_bend, scale = values.shape[-1] == 1 and low[0] > 0, ""
     caption = ", ".join(f"{a:.4g} to {b:.4g}" for a, b in zip(low, high, strict=True))
     if may_bend and is_distance and high[0] > DEEP * low[0]:
@@ -68,7 +69,3 @@ def _range(values: np.ndarray, is_distance: bool) -> tuple[np.ndarray, str]:
     if values.shape[-1] == 1:
         return np.where(counted, 1 - 0.9 * share, 0.0), f"white to dark: {caption}{scale}"
     return np.where(counted, share, 0.0), f"black to white by component: {caption}"
-
-
-def _columns(values: np.ndarray, counted: np.ndarray):
-    return ((values[..., k], counted[..., k]) for k in range(values.shape[-1]))

@@ -1,12 +1,10 @@
 """The report of a run: errors with their bounds, seconds of each step, omissions. One record, three output forms."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from textwrap import shorten, wrap
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -97,11 +95,17 @@ class Report:
         """Whether all comparisons with references have passed."""
         return all(finding.passed for finding in self.findings)
 
-    def with_seconds(self, **seconds: float) -> Report:
+    @property
+    def verdict(self) -> str:
+        """Whether all comparisons with references have passed, in words."""
+        failed = "A reference check failed: the rays differ by more than its error bound"
+        return "All reference checks passed" if self.passed else failed
+
+    def with_seconds(self, **seconds: float) -> Self:
         """Return the report with these steps added; the seconds of a step that it already has are summed."""
         return replace(self, seconds=_sum(self.seconds, seconds))
 
-    def __add__(self, other: Report) -> Report:
+    def __add__(self, other: Self) -> Self:
         """Return the report of both: another view layer or eye of the same frame. The camera is that of ``self``; eyes
         see the same shapes.
         """

@@ -1,9 +1,7 @@
 """Basis of a camera's verification: a sample of its rays, and the finding that a comparison results in."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Protocol, Self
 
 import numpy as np
 
@@ -48,7 +46,7 @@ class Sample:
     """Distance of the points along the rays: the largest coordinate of the rays' origins, at which float32 is best."""
 
     @classmethod
-    def of(cls, camera: CameraRays, grid: int) -> Sample:
+    def of(cls, camera: CameraRays, grid: int) -> Self:
         raster = camera.raster
         height, width = raster.shape
         i, j = _spread(width, grid), _spread(height, grid)

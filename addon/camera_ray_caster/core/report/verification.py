@@ -37,8 +37,7 @@ PART = 0.38
 def verify(camera: CameraRays, witness: Witness | None = None, grid: int = GRID_PIXELS) -> list[Finding]:
     """Return one finding per reference on the camera's rays, at ``grid`` x ``grid`` pixels of the render window.
 
-    ``witness`` has Blender's answers, or is None if Blender has none: an object with ``size``, ``matrix_world``,
-    ``frame``, ``matrix`` and ``view_coordinates(points)``. The round trip needs no reference.
+    ``witness`` has Blender's answers, or is None if Blender has none. The round trip needs no reference.
     Errors in radians are angles between directions in the world; errors in pixels are distances to the place in the
     frame where the reference sees the ray. A pixel without a ray fails (NaN) if there is a reference, and is left out
     of the round trip.

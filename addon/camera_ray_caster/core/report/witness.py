@@ -19,10 +19,8 @@ number.
 Reference for the operations: Blender's camera.cc, mathutils and bpy_extras; see Higham (conventions.gamma) for sums.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, Self
 
 import numpy as np
 
@@ -82,7 +80,7 @@ class _Local:
     """Largest offset of the frame's edges from the axis, (2,)."""
 
     @classmethod
-    def of(cls, witness) -> _Local:
+    def of(cls, witness) -> Self:
         linear = witness.matrix_world[:3, :3]
         linear = linear / np.abs(linear).max(axis=0)
         size = np.array(witness.size, np.float64)
