@@ -24,7 +24,7 @@ from ...maths.polynomials import horner, with_slope
 from ...maths.recording import is_recorded, least_root, loop, roundoff, stop_gradient
 from ...maths.recording.scalars import hypot, least
 from .edge import Edge
-from .silhouette import angular_radius, radial_intervals
+from .silhouette import Sectors
 
 STEEPEST = tan(radians(89.9))
 """Largest undistorted radius of a picture without an end."""
@@ -122,15 +122,13 @@ class RadialTangential:
         """Return the intervals in x and y that spheres cover in the distorted picture, whose radii are up to ``reach``;
         ``radius`` and ``widest`` are those of ``radial_intervals``, of the undistorted picture.
         """
-        across = np.hypot(centers[:, 0], centers[:, 1])
-        far = np.arctan2(across, -centers[:, 2]) + angular_radius(np.hypot(across, centers[:, 2]), radii)
-        spread = self.off_radius(np.minimum(radius(np.minimum(far, widest)), reach))
-
-        def distorted(theta):
-            r = radius(theta)
-            return r * self.gain(r * r)[0]
-
-        return [(low - spread, high + spread) for low, high in radial_intervals(centers, radii, distorted, widest)]
+        sectors = Sectors.of(centers, radii, widest)
+        inner, outer = radius(sectors.inner), radius(sectors.outer)
+        if not self.bends:
+            return sectors.intervals(inner, outer)
+        spread = self.off_radius(np.minimum(outer, reach))
+        intervals = sectors.intervals(*(r * self.gain(r * r)[0] for r in (inner, outer)))
+        return tuple((low - spread, high + spread) for low, high in intervals)
 
     @cached_property
     def limit(self) -> float:

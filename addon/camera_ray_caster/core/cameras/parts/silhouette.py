@@ -3,6 +3,10 @@
 Bounds are intervals on the image plane: (-inf, inf) if a sphere may be seen everywhere, NaN if it is seen nowhere.
 """
 
+from __future__ import annotations
+
+from typing import NamedTuple
+
 import numpy as np
 
 from ...maths.vector import components
@@ -44,41 +48,64 @@ def pinhole_interval(x, depth, radius, through=False):
     return np.where(behind, np.nan, low), np.where(behind, np.nan, high)
 
 
-def radial_intervals(centers, radii, radius, widest):
-    """Return the intervals in x and y that spheres cover in an image whose radius is a function of the angle theta.
+class Sectors(NamedTuple):
+    """The sectors in which spheres are seen in an image whose radius grows with the angle theta from the axis, up to
+    the angle ``widest``, where the image ends; azimuth is kept.
 
-    theta is the angle from the axis; ``radius(theta)`` grows up to the angle ``widest``, where the image ends; azimuth
-    is kept. A sphere with its center at theta and the half angle alpha lies in the sector between the radii of theta -
-    alpha and theta + alpha, within asin(sin alpha / sin theta) of its azimuth, or all around if it holds the axis or
-    the opposite point. An image wider than a full turn repeats: it has the angles from 2 pi - widest twice. The
-    intervals are endless for a sphere that reaches these, and for one that holds the eye.
+    A sphere with its center at theta and the half angle alpha lies between the angles theta - alpha and theta + alpha,
+    within asin(sin alpha / sin theta) of its azimuth, or all around if it holds the axis or the opposite point. An
+    image wider than a full turn repeats: it has the angles from 2 pi - widest twice. A sphere that reaches these, or
+    that holds the eye, may be seen everywhere.
     """
-    x, y, z = components(centers)
-    across = np.hypot(x, y)
-    distance = np.hypot(across, z)
-    theta, phi = np.arctan2(across, -z), np.arctan2(y, x)
-    alpha = angular_radius(distance, radii)
-    everywhere = radii >= distance
-    if widest > np.pi:  # 180 degrees in float32 are more
-        everywhere |= theta + alpha >= 2 * np.pi - widest
-        widest = np.pi
-    nowhere = ~everywhere & (theta - alpha > widest)
-    inner = radius(np.clip(theta - alpha, 0, widest))
-    outer = radius(np.minimum(theta + alpha, widest))
-    around = (theta <= alpha) | (theta + alpha >= np.pi)
-    half = np.where(around, np.pi, np.arcsin(np.minimum(np.sin(alpha) / np.maximum(np.sin(theta), 1e-300), 1)))
-    return tuple(
-        _mark(everywhere, nowhere, _product((inner, outer), cosine_range(phi - turn - half, phi - turn + half)))
-        for turn in (0, np.pi / 2)
-    )
+
+    inner: np.ndarray
+    """(n,): the least angle of each sphere, 0 to ``widest``; then the largest."""
+    outer: np.ndarray
+    azimuths: tuple[tuple[np.ndarray, ...], ...]
+    """The least and the largest cosine of the azimuth, and those of its sine."""
+    everywhere: np.ndarray
+    nowhere: np.ndarray
+
+    @classmethod
+    def of(cls, centers: np.ndarray, radii: np.ndarray, widest: float) -> Sectors:
+        """Return the sectors of spheres with their centers at (n, 3)."""
+        x, y, z = components(centers)
+        across = np.hypot(x, y)
+        distance = np.hypot(across, z)
+        theta, alpha = np.arctan2(across, -z), angular_radius(distance, radii)
+        inner, outer = theta - alpha, theta + alpha
+        everywhere = radii >= distance
+        if widest > np.pi:  # 180 degrees in float32 are more
+            everywhere |= outer >= 2 * np.pi - widest
+            widest = np.pi
+        nowhere = ~everywhere & (inner > widest)
+        around = (inner <= 0) | (outer >= np.pi)
+        across = np.maximum(across, np.finfo(float).tiny)
+        sine = np.minimum(radii / across, 1.0)  # of half the sector
+        cosine = np.where(around, -1.0, np.sqrt((1 - sine) * (1 + sine)))
+        middle = x / across, y / across
+        azimuths = [
+            tuple(
+                sign * np.where(sign * side >= cosine, 1.0, sign * side * cosine + np.abs(other) * sine)
+                for sign in (-1, 1)
+            )
+            for side, other in (middle, middle[::-1])
+        ]
+        return cls(np.clip(inner, 0, widest), np.minimum(outer, widest), tuple(azimuths), everywhere, nowhere)
+
+    def intervals(self, inner: np.ndarray, outer: np.ndarray) -> tuple:
+        """Return the intervals in x and y between the radii of ``inner`` and ``outer``."""
+        return tuple(
+            _mark(self.everywhere, self.nowhere, _product((inner, outer), azimuth)) for azimuth in self.azimuths
+        )
 
 
-def cosine_range(low, high):
-    """Return the least and greatest cosine of the angles from low to high."""
-    ends = np.cos(low), np.cos(high)
-    holds_top = np.floor(high / (2 * np.pi)) >= np.ceil(low / (2 * np.pi))
-    holds_bottom = np.floor((high - np.pi) / (2 * np.pi)) >= np.ceil((low - np.pi) / (2 * np.pi))
-    return np.where(holds_bottom, -1.0, np.minimum(*ends)), np.where(holds_top, 1.0, np.maximum(*ends))
+def radial_intervals(centers, radii, radius, widest):
+    """Return the intervals in x and y that spheres cover in an image with this function from theta to the radius: see
+    ``Sectors``.
+    """
+    sectors = Sectors.of(centers, radii, widest)
+    return sectors.intervals(radius(sectors.inner), radius(sectors.outer))
 
 
 def _product(lengths, factors):
