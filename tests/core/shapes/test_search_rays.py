@@ -41,13 +41,16 @@ def test_the_spans_of_cells_are_hits_and_leave_few_pixels_open(spread, monkeypat
     origin = spread * np.array([np.cos(3 * x), np.sin(3 * x), y])
     moment = np.cross(origin, direction, axis=0) if spread else None
     corners = random.normal(size=(3, 1, 300)) + random.uniform(0, 0.5, 300) * random.normal(size=(3, 3, 300))
+    along = 0.7 * corners[0] + 0.3 * corners[1] + 10.0 ** random.uniform(-14, -2, 300) * corners[2]
+    corners[2, :, ::10] = along[:, ::10]  # slivers, whose edges are nearly parallel
     turned = (np.cross(corners[0], corners[1], axis=0) * corners[2]).sum(axis=0) < 0
     corners[1:, :, turned] = corners[:0:-1, :, turned]  # seen from the eye, all volumes of a hit are positive
     ends = [np.sort(random.integers(0, size + 1, (2, 300)), axis=0) for size in x.shape[::-1]]
     bounds = np.concatenate(ends).T
     edges, doubt = edge_vectors(corners, from_eye=not spread), np.full(300, 1e-14)
     turns = np.arange(300 if spread else 0)
-    met, opened = RayCells(direction, moment, x.shape, 8).spans(edges, doubt, bounds, turns)
+    runs = RayCells(direction, moment, x.shape, 8).spans(edges, doubt, bounds, turns)
+    met, opened = (np.concatenate([*each.pieces(limit=1000)], axis=-1) for each in runs)
     at, windows = RayCells(direction, moment, x.shape, 32).windows(edges, doubt, bounds, turns)
     asked, undecided, looked_at, bounded = 0, 0, 0, 0
     for k, (x0, x1, y0, y1) in enumerate(bounds.tolist()):
@@ -57,7 +60,7 @@ def test_the_spans_of_cells_are_hits_and_leave_few_pixels_open(spread, monkeypat
         within = np.zeros(x.shape, bool)
         within[y0:y1, x0:x1] = True
         certain, left = (
-            np.bincount(each.pixel[each.at == k], minlength=x.size).reshape(x.shape) for each in (met, opened)
+            np.bincount(pixel[triangle == k], minlength=x.size).reshape(x.shape) for triangle, pixel in (met, opened)
         )
         assert (certain + left).max() <= 1 + bool(spread)  # a triangle may be seen from both sides
         assert not (certain + left)[~within].any()

@@ -9,7 +9,9 @@ Reference: M. Olano and T. Greer, Triangle Scan Conversion using 2D Homogeneous 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,6 +28,12 @@ that, and its doubt is raised by what this adds in a cell.
 LEAST_DOUBT = 1e-280
 """Least doubt of a volume: divisions by it do not overflow."""
 
+ALONG, ROW_MARGIN = 2.0**-20, 2.0**-10
+"""Where the lines of two edges meet counts if the sine of their angle is above ALONG, and if it is at most 1 / (ALONG
+ROW_MARGIN) pixels away, over that sine: rounding moves it by at most 1e-6 pixels then, and ROW_MARGIN, in pixels, holds
+that.
+"""
+
 
 class Pixels(NamedTuple):
     """Triangles and pixels of a tile, (m,) each."""
@@ -33,9 +41,27 @@ class Pixels(NamedTuple):
     at: np.ndarray
     pixel: np.ndarray
 
-    def only(self, indices: np.ndarray | slice) -> Pixels:
-        """Return some of them, by a mask or a slice."""
-        return Pixels(self.at[indices], self.pixel[indices])
+    def only(self, mask: np.ndarray) -> Pixels:
+        """Return some of them."""
+        return Pixels(self.at[mask], self.pixel[mask])
+
+
+class Runs(NamedTuple):
+    """Triangles and pixels of a tile that follow one another in a row, (r,) each."""
+
+    at: np.ndarray
+    first: np.ndarray
+    """The first pixel of each run."""
+    length: np.ndarray
+
+    def pieces(self, limit: int) -> Iterator[Pixels]:
+        """Yield their triangles and pixels, about ``limit`` at once."""
+        done = np.cumsum(self.length)
+        cuts = np.searchsorted(done, np.arange(limit, done[-1] if len(done) else 0, limit))
+        for piece in (slice(*ends) for ends in pairwise((0, *cuts.tolist(), len(done)))):
+            run, pixel = counted(self.length[piece], self.first[piece])
+            if len(run):
+                yield Pixels(taken(self.at[piece], run), pixel)
 
 
 class RayCells:
@@ -50,9 +76,7 @@ class RayCells:
         self._terms = np.array(whole).swapaxes(0, 1).copy()
         """(4, c, cells): the value at the first pixel, its changes by column and row, and the largest deviation."""
 
-    def spans(
-        self, edges: np.ndarray, doubt: np.ndarray, bounds: np.ndarray, turns: np.ndarray
-    ) -> tuple[Pixels, Pixels]:
+    def spans(self, edges: np.ndarray, doubt: np.ndarray, bounds: np.ndarray, turns: np.ndarray) -> tuple[Runs, Runs]:
         """Return the triangles and pixels of hits, and those that have to be tested, within bounds (k, 4).
 
         edges: (3, c, k), the vectors whose products with a ray's direction and moment are the three ``volumes`` of a
@@ -62,8 +86,9 @@ class RayCells:
         whole, turning = self._parts(edges, doubt, bounds, turns)
         each = [cells.only(np.flatnonzero(cells.meets())) for cells in (whole, whole.only(turning).turned())]
         parts = _Parts(*(np.concatenate(values, -1) for values in zip(*each, strict=True))) if turning.size else each[0]
+        parts = parts.narrowed()
         rows = _rows(parts)
-        return self._pixels(parts, rows.at, rows.row, rows.first, rows.last), self._open(parts, rows)
+        return self._runs(parts, rows.at, rows.row, rows.first, rows.last), self._open(parts, rows)
 
     def windows(
         self, edges: np.ndarray, doubt: np.ndarray, bounds: np.ndarray, turns: np.ndarray
@@ -100,21 +125,19 @@ class RayCells:
         may_turn[turns] = True
         return _Parts(at, pixel, volumes, x0, x1, y0, y1), np.flatnonzero(taken(may_turn, at))
 
-    def _open(self, parts: _Parts, rows: _Rows) -> Pixels:
+    def _open(self, parts: _Parts, rows: _Rows) -> Runs:
         """Return the pixels of rows that may be hit and are not certainly."""
         none = rows.last < rows.first
         left = np.where(none, rows.largest, rows.first - 1)
         ends = (rows.least, left), (np.where(none, rows.largest + 1, rows.last + 1), rows.largest)
-        pixels = []
-        for first, last in ends:
-            filled = np.flatnonzero(first <= last)
-            pixels.append(self._pixels(parts, *(taken(each, filled) for each in (rows.at, rows.row, first, last))))
-        return Pixels(*map(np.concatenate, zip(*pixels, strict=True)))
+        runs = (self._runs(parts, rows.at, rows.row, first, last) for first, last in ends)
+        return Runs(*map(np.concatenate, zip(*runs, strict=True)))
 
-    def _pixels(self, parts: _Parts, at: np.ndarray, row: np.ndarray, first: np.ndarray, last: np.ndarray) -> Pixels:
+    def _runs(self, parts: _Parts, at: np.ndarray, row: np.ndarray, first: np.ndarray, last: np.ndarray) -> Runs:
         """Return the pixels from the first to the last column of rows of parts."""
-        run, column = counted(np.maximum(last - first + 1, 0), first + taken(parts.pixel, at) + row * self._width)
-        return Pixels(taken(taken(parts.at, at), run), column)
+        filled = np.flatnonzero(first <= last)
+        at, row, first, last = (taken(each, filled) for each in (at, row, first, last))
+        return Runs(taken(parts.at, at), first + taken(parts.pixel, at) + row * self._width, last - first + 1)
 
 
 class _Parts(NamedTuple):
@@ -146,6 +169,24 @@ class _Parts(NamedTuple):
         largest += np.maximum(up * self.y0, up * self.y1)
         return (largest >= 0).all(axis=0)
 
+    def narrowed(self) -> _Parts:
+        """Return the parts in fewer rows: the edges, moved outwards by their doubt, meet at the corners of a triangle,
+        unless two are nearly parallel; no ray above or below these corners hits.
+        """
+        volume, across, up, doubt = self.volumes.swapaxes(0, 1)
+        largest = volume + doubt
+        next_across, next_up, next_largest = (each[[1, 2, 0]] for each in (across, up, largest))
+        right, left = across * next_up, next_across * up
+        turn, limit = right - left, ALONG * (np.abs(right) + np.abs(left))
+        right, left = next_across * largest, across * next_largest
+        limit = np.maximum(limit, ALONG * ROW_MARGIN * (np.abs(right) + np.abs(left)) + LEAST_DOUBT)
+        is_triangle = (turn > limit).all(axis=0) | (turn < -limit).all(axis=0)
+        corner = (right - left) / np.where(is_triangle, turn, 1.0)
+        low = np.where(is_triangle, np.ceil(corner.min(axis=0) - ROW_MARGIN), -np.inf)
+        high = np.where(is_triangle, np.floor(corner.max(axis=0) + ROW_MARGIN), np.inf)
+        y0 = np.clip(low, self.y0, self.y1 + 1).astype(np.intp)
+        return self._replace(y0=y0, y1=np.clip(high, y0 - 1, self.y1).astype(np.intp))
+
 
 @dataclass(frozen=True, eq=False)
 class _Rows:
@@ -170,18 +211,22 @@ def _rows(parts: _Parts) -> _Rows:
     at, row = counted(parts.y1 - parts.y0 + 1, parts.y0)
     moved = taken(-up * inverse, at) * row
     start, wide, begins = -volume * inverse, doubt * np.abs(inverse), inverse > 0
-    least, first = ((taken(np.where(begins, start + sign * wide, -np.inf), at) + moved).max(axis=0) for sign in (-1, 1))
-    largest, last = ((taken(np.where(begins, np.inf, start + sign * wide), at) + moved).min(axis=0) for sign in (1, -1))
-    x0, x1 = taken(parts.x0, at), taken(parts.x1, at)
-    least, largest = np.maximum(np.ceil(least), x0), np.minimum(np.floor(largest), x1)
+
+    def latest(sign: int) -> np.ndarray:
+        return (taken(np.where(begins, start + sign * wide, -np.inf), at) + moved).max(axis=0)
+
+    def earliest(sign: int) -> np.ndarray:
+        return (taken(np.where(begins, np.inf, start + sign * wide), at) + moved).min(axis=0)
+
+    least = np.maximum(np.ceil(latest(-1)), taken(parts.x0, at))
+    largest = np.minimum(np.floor(earliest(1)), taken(parts.x1, at))
     met = np.flatnonzero(least <= largest)
-    first, last = np.ceil(taken(first, met)), np.floor(taken(last, met))
-    least, largest = taken(least, met), taken(largest, met)
-    first, last = np.maximum(first, least), np.minimum(last, largest)
+    at, row, moved, least, largest = (taken(each, met) for each in (at, row, moved, least, largest))
+    first, last = np.maximum(np.ceil(latest(1)), least), np.minimum(np.floor(earliest(-1)), largest)
     none = last < first
     first[none], last[none] = 0, -1
     ends = (each.astype(np.intp) for each in (least, largest, first, last))
-    return _Rows(taken(at, met), taken(row, met), *ends)
+    return _Rows(at, row, *ends)
 
 
 def _linear(component: Any, side: int) -> tuple[Any, Any, Any, Any]:

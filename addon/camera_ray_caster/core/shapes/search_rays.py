@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -94,13 +95,14 @@ class SearchRays:
         return self._at((*self.direction, *(self.moment or ())), pixel)
 
     def _at(self, components: Any, pixel: np.ndarray) -> np.ndarray:
-        row, column = np.divmod(pixel, self.shape[1])
-        values = np.empty((len(components), len(pixel)))
+        whole, values = math.prod(self.shape), np.empty((len(components), len(pixel)))
+        row = column = pixel
+        if any(1 < np.size(component) < whole for component in components):
+            row, column = np.divmod(pixel, self.shape[1])  # two or three times as long as a lookup
         for out, component in zip(values, components, strict=True):
-            rows, columns = np.shape(component) or (1, 1)
-            if rows == columns == 1:
+            if np.size(component) == 1:
                 out[...] = component
             else:
-                entry = row if columns == 1 else column if rows == 1 else pixel
+                entry = pixel if component.size == whole else row if component.shape[1] == 1 else column
                 out[...] = taken(component.reshape(-1), entry)
         return values

@@ -17,6 +17,7 @@ from ...maths.vector import difference, dot, norm
 from ...records import MESH
 from ..cutouts import Cutouts, crossings
 from ..kind import Candidates, PixelBounds, ShapeSet
+from ..ray_cells import Pixels
 from ..search_rays import SearchRays
 from ..shape_frames import BOUNDS_FACTOR
 from ..windows import banded, in_tile, pixels_in, union
@@ -25,7 +26,7 @@ from .mesh_surface import TRIANGLES, HitTriangles
 from .nearest import NONE, Nearest, SeenTriangles
 from .order import nearest_first, pieces, slabs
 from .spans import RayLattice, spans
-from .triangles import VOLUME_ROUNDING, crossing, crossings_of, edge_vectors, from_origin, plane, signs, volumes
+from .triangles import VOLUME_ROUNDING, Planes, crossing, edge_vectors, from_origin, plane, signs, volumes
 
 CELLS_ROUNDING = 8
 """Doubt of the volumes of a cell's linear functions over that of the volumes of single rays: their terms have up to
@@ -199,18 +200,22 @@ class MeshSet(ShapeSet):
             triangles = triangles.only(meets)
         edges, doubt = edge_vectors(corners, rays.origin is None), _doubt(corners, reach)
         met, open_ = rays.cells.spans(edges, CELLS_ROUNDING * doubt, triangles.bounds, turns)
-        hits, left = [met], []
-        for first in range(0, len(open_.at), tuning.TRACED_PIXELS):
-            piece = open_.only(slice(first, first + tuning.TRACED_PIXELS))
+        planes = Planes(corners, rays.origin is None, reach[0])
+
+        def keep(hits: Pixels) -> None:
+            t = planes.crossings(hits.at, *rays.at(hits.pixel))
+            self._keep(rays, nearest, hits.pixel, t, taken(triangles.index, hits.at))
+
+        for hits in met.pieces(tuning.TRACED_PIXELS):
+            keep(hits)
+        left = [Pixels(*np.zeros((2, 0), np.intp))]
+        for piece in open_.pieces(tuning.TRACED_PIXELS):
             vectors = rays.factors(piece.pixel)
             volumes = tuple(np.einsum("ij,ij->j", taken(edge, piece.at), vectors) for edge in edges)
             inner, limit = _inside(volumes, is_turned=rays.origin is None), taken(doubt, piece.at)
-            hits.append(piece.only(inner > limit))
+            keep(piece.only(inner > limit))
             left.append(piece.only(np.abs(inner) <= limit))
-        at, pixel = map(np.concatenate, zip(*hits, strict=True))
-        t = crossings_of(corners, at, *rays.at(pixel), reach[0])
-        self._keep(rays, nearest, pixel, t, taken(triangles.index, at))
-        at, pixel = map(np.concatenate, zip(*left, strict=True)) if left else (met.at[:0], met.pixel[:0])
+        at, pixel = map(np.concatenate, zip(*left, strict=True))
         return Open.of(triangles, at, pixel)
 
     def _span(self, rays: SearchRays, lattice: RayLattice, reach: Reach, triangles: Triangles, hits: Nearest) -> Open:

@@ -122,21 +122,26 @@ def crossing(corners: Any, origin: Any, d: Any) -> np.ndarray:
     return t
 
 
-def crossings_of(corners: np.ndarray, at: np.ndarray, origin: Any, d: np.ndarray, longest: float) -> np.ndarray:
-    """Return ``crossing`` of rays, (m,), with those of k triangles, ``at``: what depends on a triangle is computed once
-    for all its rays. ``longest`` is an upper bound of the lengths of the directions.
-    """
-    area, product = plane(corners)
-    terms = np.array((*area, STEEP * longest * product, *((dot(area, corners[0]),) if origin is None else corners[0])))
-    first, second, third, steep, *places = taken(terms, at)
-    normal = first, second, third
-    slope = dot(normal, d)
-    t = (places[0] if origin is None else dot(normal, difference(places, origin))) / slope
-    poor = np.flatnonzero(~(np.abs(slope) > steep))
-    if poor.size:
-        start = None if origin is None else taken(origin, poor)
-        t[poor] = crossing(taken(corners, taken(at, poor)), start, taken(d, poor))
-    return t
+class Planes:
+    """The planes of k triangles, (3, 3, k), whose ``crossing`` many rays ask for: terms of each are computed once."""
+
+    def __init__(self, corners: np.ndarray, from_eye: bool, longest: float):
+        """``longest`` is an upper bound of the lengths of the rays' directions."""
+        area, product = plane(corners)
+        places = (dot(area, corners[0]),) if from_eye else corners[0]
+        self._corners, self._terms = corners, np.array((*area, STEEP * longest * product, *places))
+
+    def crossings(self, at: np.ndarray, origin: Any, d: np.ndarray) -> np.ndarray:
+        """Return ``crossing`` of rays, (m,), with the triangles of these indices."""
+        first, second, third, steep, *places = taken(self._terms, at)
+        normal = first, second, third
+        slope = dot(normal, d)
+        t = (places[0] if origin is None else dot(normal, difference(places, origin))) / slope
+        poor = np.flatnonzero(~(np.abs(slope) > steep))
+        if poor.size:
+            start = None if origin is None else taken(origin, poor)
+            t[poor] = crossing(taken(self._corners, taken(at, poor)), start, taken(d, poor))
+        return t
 
 
 def from_origin(point: Any, origin: Any) -> Any:
