@@ -19,20 +19,20 @@ class HullPoints:
     def __init__(self, pixels: PixelBounds, count: int):
         self.places = np.empty((3, count))
         self._pixels = pixels
-        self._type = np.int16 if pixels.whole.max() < 2**15 else np.int32
-        self._images = np.empty((count, 4), self._type) if pixels.has_straight_lines else None
+        self.type = np.int16 if pixels.whole.max() < 2**15 else np.int32
+        self._images = np.empty((count, 4), self.type) if pixels.has_straight_lines else None
 
     @property
     def _unknown(self) -> int:
         """Marks the x0 of a point without an image."""
-        return np.iinfo(self._type).min
+        return np.iinfo(self.type).min
 
     def write(self, at: slice | np.ndarray, places: np.ndarray) -> None:
         """Write the places, (3, m), of some points, which may be given by index, and their images."""
         self.places[:, at] = places
         if self._images is None:
             return
-        images = np.empty((places.shape[1], 4), self._type)
+        images = np.empty((places.shape[1], 4), self.type)
         others = np.flatnonzero(~self._pixels.of_points(places.T, images))
         images[others] = self._pixels.whole
         _turn_ends(images)  # the bounds of a hull are the minima over its corners then
@@ -71,7 +71,7 @@ class HullPoints:
         places = self.at(corners)
         bounds, near, seen = self._around(places, MIDPOINT_ROUNDING * np.abs(places).max(axis=(0, 1)), tuning.HALVINGS)
         at = np.flatnonzero(seen)
-        return bounds[at].astype(self._type), near[at], at
+        return bounds[at].astype(self.type), near[at], at
 
     def _around(
         self, places: np.ndarray, rounding: np.ndarray, halvings: int

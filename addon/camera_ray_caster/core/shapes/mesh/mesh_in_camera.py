@@ -24,7 +24,7 @@ from ..windows import counted
 from .blocks import BlockRows, Blocks, camera_axes, vertex_count
 from .triangles import side
 
-VERTEX_BYTES, TRIANGLE_BYTES = 40, 32
+VERTEX_BYTES, TRIANGLE_BYTES = 40, 48
 """Upper bounds of the memory of each vertex and each triangle in view."""
 
 FEWER = "show fewer instances, or reduce the subdivision"
@@ -70,7 +70,8 @@ class MeshesInView:
         total, count = sizes.sum(axis=0).tolist()
         require(VERTEX_BYTES * total + TRIANGLE_BYTES * count, f"{count:,} triangles in view", FEWER)
         self._start = np.cumsum(sizes[:, 0]) - sizes[:, 0]
-        self.chunk = tuning.CHUNK if visible.pixels.has_straight_lines else tuning.BALLS
+        self._has_straight_lines = visible.pixels.has_straight_lines
+        self.chunk = tuning.CHUNK if self._has_straight_lines else tuning.BALLS
         """Number of triangles or blocks to be bounded at once."""
         self._vertices = HullPoints(visible.pixels, total)
         self.is_planar = visible.pixels.is_planar
@@ -113,9 +114,38 @@ class MeshesInView:
             if first < last:
                 shown = self._shapes.shapes.meshes[mesh[run[first]]]
                 corners[:, first:last] += taken(shown.triangles, number[first:last])
-        bounds, near, seen = self._vertices.hulls(corners)
-        index = taken(number, seen) + taken((blocks.start[:-1] - blocks.first)[indices], taken(run, seen))
+        offset = (blocks.start[:-1] - blocks.first)[indices]
+        if self._has_straight_lines:
+            bounds, near, seen = self._vertices.hulls(corners)
+        else:
+            bounds, near, seen = self._balls(indices, run, number + taken(offset, run), corners)
+        index = taken(number, seen) + taken(offset, taken(run, seen))
         return Triangles(index, taken(corners, seen), bounds, near)
+
+    def _balls(
+        self, indices: np.ndarray, run: np.ndarray, number: np.ndarray, corners: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return ``HullPoints.hulls`` of the triangles of some blocks, which are computed once for all threads and
+        samples: balls take a tenth of each sample.
+        """
+        is_bounded, all_bounds, all_near = self._bounded
+        new = np.flatnonzero(taken(~is_bounded[indices], run))
+        if new.size:
+            bounds, near, seen = self._vertices.hulls(taken(corners, new))
+            seen = taken(number, taken(new, seen))
+            all_bounds[seen], all_near[seen] = bounds, near
+            is_bounded[indices] = True
+        bounds = all_bounds.take(number, axis=0)
+        seen = np.flatnonzero(bounds[:, 0] < bounds[:, 1])
+        return bounds.take(seen, axis=0), taken(all_near, taken(number, seen)), seen
+
+    @lazy
+    def _bounded(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Which blocks are bounded triangle by triangle so far, (b,), and of the triangles of all blocks the bounds,
+        (k, 4), 0 where no pixel sees them, and lower bounds of t, (k,).
+        """
+        count = self.blocks.start[-1]
+        return np.zeros(len(self.blocks.count), bool), np.zeros((count, 4), self._vertices.type), np.empty(count)
 
     def places(self, corners: np.ndarray) -> np.ndarray:
         """Return the places of vertices, (3, 3, m): corner, component."""
