@@ -77,3 +77,17 @@ def test_the_spans_of_cells_are_hits_and_leave_few_pixels_open(spread, monkeypat
         undecided += left[~np.isnan(direction[0])].sum()
     assert 0 < undecided < 0.15 * asked, (undecided, asked)
     assert looked_at < 0.8 * bounded, (looked_at, bounded)  # many of these triangles are as wide as the picture
+
+
+def test_cells_of_a_pinholes_rays_leave_no_pixel_open():
+    """Its directions of unit length curve in a cell; over their depth they are linear."""
+    y, x = np.mgrid[-0.3:0.3:80j, -0.5:0.5:120j]
+    direction = np.array((x, y, np.full_like(x, -1.0))) / np.sqrt(x * x + y * y + 1)
+    corners = np.random.default_rng(0).uniform(-1, 1, (3, 3, 40)) - np.array((0, 0, 2))[:, None]
+    turned = (np.cross(corners[0], corners[1], axis=0) * corners[2]).sum(axis=0) < 0
+    corners[1:, :, turned] = corners[:0:-1, :, turned]
+    bounds, doubt = np.tile((0, 120, 0, 80), (40, 1)), np.full(40, 1e-14)
+    cells = RayCells(direction, None, x.shape, tuning.RAY_CELL)
+    met, opened = cells.spans(edge_vectors(corners, from_eye=True), doubt, bounds, np.arange(0))
+    assert len(met.at) > 1000
+    assert not len(opened.at)

@@ -2,8 +2,9 @@
 
 The rays of a cell, a square of pixels, are measured once: their directions, and their moments if they have many
 origins, are linear functions of column and row up to the largest deviation of any ray of the cell. So is the volume of
-an edge, a product with these. In a row of a cell it is certainly positive up to one column and certainly negative from
-another one on; only the pixels between these two have to be tested.
+an edge, a product with these, whose sign does not depend on the length of a direction. In a row of a cell it is
+certainly positive up to one column and certainly negative from another one on; only the pixels between these two have
+to be tested.
 Reference: M. Olano and T. Greer, Triangle Scan Conversion using 2D Homogeneous Coordinates, 1997, for exact lines.
 """
 
@@ -23,6 +24,12 @@ from .windows import counted
 LEVEL = 1 / 64
 """An edge whose volume changes by less than this fraction of its doubt from column to column is taken as changing by
 that, and its doubt is raised by what this adds in a cell.
+"""
+
+LEAST_DEPTH = 1 / 4
+"""Rays are taken over their depth if all of a tile advance by more than this: those of a pinhole, or of two slits that
+meet, are linear then, and few pixels are left to be tested. Of two slits half a meter apart 40,000 pixels in place of
+553,000 are, in a street: 0.9 of the processor time of a cast.
 """
 
 LEAST_DOUBT = 1e-280
@@ -71,7 +78,12 @@ class RayCells:
         """Take components that broadcast to ``shape``, NaN where there is no ray; ``moment`` is None for the eye."""
         rows, self._wide = (-(-size // side) for size in shape)
         self._width, self._side = shape[1], side
-        parts = [_linear(component, side) for component in (*direction, *(() if moment is None else moment))]
+        depth = np.negative(direction[2])
+        scale = 1 / depth if np.ndim(depth) and np.fmin.reduce(depth, axis=None) > LEAST_DEPTH else None
+        parts = [
+            _linear(component if scale is None else component * scale, side)
+            for component in (*direction, *(() if moment is None else moment))
+        ]
         whole = [[np.broadcast_to(term, (rows, self._wide)).reshape(-1) for term in terms] for terms in parts]
         self._terms = np.array(whole).swapaxes(0, 1).copy()
         """(4, c, cells): the value at the first pixel, its changes by column and row, and the largest deviation."""

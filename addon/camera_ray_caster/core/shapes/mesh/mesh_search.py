@@ -28,9 +28,10 @@ from .order import nearest_first, pieces, slabs
 from .spans import RayLattice, spans
 from .triangles import VOLUME_ROUNDING, Planes, crossing, edge_vectors, from_origin, plane, signs, volumes
 
-CELLS_ROUNDING = 8
+CELLS_ROUNDING = 40
 """Doubt of the volumes of a cell's linear functions over that of the volumes of single rays: their terms have up to
-three times the magnitude, and two more roundings.
+three times the magnitude, and two more roundings; rays over their depth are up to four times as long (see LEAST_DEPTH),
+and rounded twice more.
 """
 
 SIDE_ROUNDING = 32 * EPS
