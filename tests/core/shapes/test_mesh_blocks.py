@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import camera_ray_caster as crc
 from camera_ray_caster.core import tuning
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.pixels import passes_at
@@ -105,6 +106,22 @@ def test_bounds_of_wide_triangles_are_those_of_their_quarters(key, monkeypatch):
         for cam in examples(key):
             assert_nearest(cam, shapes)
     assert 0 < pixels[1] < 0.9 * pixels[0], pixels
+
+
+def test_no_quarter_of_a_wide_triangle_is_left_out(monkeypatch):
+    """A narrow camera looks into the middle of each quarter's quarters: it meets the balls of few others."""
+    monkeypatch.setattr(tuning, "HALVED_PIXELS", 4)
+    monkeypatch.setattr(tuning, "HALVINGS", 2)
+    corners = np.array(((-2.0, -1.75, 0.0), (2.0, -1.5, 0.0), (0.2, 1.75, 0.0)))  # their box has its middle at 0
+    shapes = shapes_of((mesh_of(corners, np.array([[0, 1, 2]])), (0.0, 0.0, 0.0), 1.0))
+    middles = [np.array((i + third, j + third, 4 - i - j - 2 * third)) / 4 @ corners
+               for third in (1 / 3, 2 / 3) for i in range(4) for j in range(4) if i + j + 2 * third < 4]  # fmt: skip
+    assert len(middles) == 16
+    for middle in middles:
+        pose = np.eye(4)
+        pose[:3, 3] = *middle[:2], 1.0
+        cam = crc.camera("OPENCV_FISHEYE", (12, 8), pose, fx=800.0, fy=800.0)
+        assert (cast(cam, shapes, passes="shape_index")["shape_index"] == 0).all()
 
 
 @each_model
