@@ -58,6 +58,11 @@ def test_each_beam_leaves_from_where_the_scanner_is_when_it_fires(sweep):
     np.testing.assert_allclose(alone.rays_at(100.5, 7.5).directions, rays.directions[7, 100], rtol=0, atol=8 * EPS)
 
 
+def test_beams_without_a_pass_are_not_cast(sweep):
+    camera, shapes, images = sweep
+    assert (images.rays, crc.cast(camera, shapes, passes=()).rays) == (360 * 16, 0)
+
+
 def test_each_point_is_on_its_surface_at_its_time_to_the_stated_bound(sweep):
     camera, _, images = sweep
     rays, index = camera.rays(), images["shape_index"]

@@ -76,13 +76,15 @@ class BeamWork(PictureWork):
     has_previews = False
 
     def __init__(self, scene: Scene, plan: Plan, threads: int):
-        self._scene = scene
+        self._scene, self.rays = scene, int(bool(plan.request.passes))
         height, width = scene.camera.raster.shape
         super().__init__(plan, bands(slice(0, height), slice(0, width), RAYS), threads)
 
     def cast(
         self, tile: Tile, samples: range, is_last: bool, images: Images, scratch: Scratch, effort: Effort, sums
     ) -> np.ndarray:
+        if not self.rays:
+            return np.zeros(len(TIMED_STEPS))
         began, camera, shapes = perf_counter(), self._scene.camera, self._scene.shapes
         raster = replace(camera.raster, y0=camera.raster.y0 + tile.rows.start, y1=camera.raster.y0 + tile.rows.stop)
         rays = replace(camera, raster=raster).rays()
