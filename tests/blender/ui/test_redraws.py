@@ -1,10 +1,12 @@
 """What a redraw of the panels reads."""
 
 import os
+from functools import partial
 
 from camera_ray_caster.blender.read import evaluated
 from camera_ray_caster.blender.ui.camera_panels import SidebarCamera
 from camera_ray_caster.blender.ui.facts_panels import CameraData, SidebarFacts
+from camera_ray_caster.core.camera.stereo import eye_record
 
 from .test_panels import drawn
 
@@ -36,6 +38,24 @@ def test_redraws_build_a_camera_once_until_it_or_its_file_changes(blender, scene
     assert redraw()[0] == 0
     path.unlink()
     assert redraw()[1] == ""
+
+
+def test_the_cameras_that_a_window_shows_at_once_are_kept(blender, scene, monkeypatch):
+    """The active one, its two eyes, and that of a Properties editor that is pinned to another."""
+    built, build = [], evaluated.camera_from
+    monkeypatch.setattr(evaluated, "camera_from", lambda raw: built.append(raw) or build(raw))
+    pinned = blender.data.objects.new("Pinned", blender.data.cameras.new("Pinned"))
+    scene.collection.objects.link(pinned)
+    scene.render.use_multiview, scene.camera.data.stereo.pivot = True, "CENTER"
+    blender.context.view_layer.update()
+    evaluated.forget_cameras()
+    depsgraph = blender.context.evaluated_depsgraph_get()
+    eyes = [partial(eye_record, view=view) for view in ("left", "right")]
+    for count in (4, 0):
+        built.clear()
+        for camera, eye in ((scene.camera, None), *((scene.camera, eye) for eye in eyes), (pinned, None)):
+            assert evaluated.camera_or_reason(camera, depsgraph, eye)[2] == ""
+        assert len(built) == count
 
 
 def test_cameras_with_an_image_of_times_are_not_kept(blender, scene, monkeypatch):

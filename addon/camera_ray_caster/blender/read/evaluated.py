@@ -16,6 +16,9 @@ from ..properties.setting_labels import in_labels
 from .camera_fields import camera_record
 from .depsgraph_shapes import shapes_record
 
+SHOWN_AT_ONCE = 4
+"""Number of cameras that a window may show: the active one, its two eyes, and that of a pinned Properties editor."""
+
 Eye = Callable[[BlenderCamera], BlenderCamera]
 """Function from the record of a camera object to the record of the eye that is read."""
 
@@ -52,7 +55,7 @@ def camera_or_reason(
         return None, None, in_labels(str(error))
 
 
-@lru_cache(maxsize=2)
+@lru_cache(maxsize=SHOWN_AT_ONCE)
 def _kept_camera(model, pickled: bytes, stamps) -> Camera:
     """Return the camera of a pickled record: a real lens takes 65 ms, a table of 320 x 180 rays 40 ms."""
     return camera_from(pickle.loads(pickled))
