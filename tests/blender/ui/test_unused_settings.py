@@ -1,8 +1,12 @@
 """Settings in whose place a device, a file or the fit of the sensor stands."""
 
+from itertools import product
+
+import numpy as np
+
 from camera_ray_caster.blender.read.scene_reader import read_camera
 from camera_ray_caster.blender.ui.camera_panels import SidebarSettings
-from camera_ray_caster.blender.ui.model_panels import ModelPanel
+from camera_ray_caster.blender.ui.model_panels import LensPanel, ModelPanel
 
 from .test_model_panels import drawn
 
@@ -31,6 +35,27 @@ def test_settings_without_effect_are_not_shown(blender):
     shown = drawn(blender, SidebarSettings, data)[0]
     assert "sensor_height" in shown
     assert "sensor_width" not in shown
+
+
+def test_what_only_the_eyes_of_a_stereo_scene_read_is_shown(blender, camera_scene):
+    data, render = camera_scene.camera.data, camera_scene.render
+    stereo, data.stereo.pivot, data.sensor_fit = data.stereo, "CENTER", "VERTICAL"
+
+    def left_eye(name, value):
+        setattr(data, name, value)
+        blender.context.view_layer.update()
+        rays = read_camera(camera_scene, view="left" if render.use_multiview else "").rays()
+        return np.concatenate((rays.origins, rays.directions))
+
+    cases = product(("PERSP", "ORTHO"), ("OFFAXIS", "PARALLEL"), (True, False), (True, False))
+    for data.type, stereo.convergence_mode, stereo.use_spherical_stereo, render.use_multiview in cases:
+        for name in ("sensor_width",) if data.type == "PERSP" else ("sensor_width", "lens"):
+            is_read = not np.array_equal(left_eye(name, 30.0), left_eye(name, 60.0))
+            for panel, engine in (LensPanel, "CAMERA_RAY_CASTER"), (SidebarSettings, "CYCLES"), (ModelPanel, "CYCLES"):
+                assert (name in drawn(blender, panel, data, engine)[0]) == is_read, panel
+    stereo.convergence_mode, render.use_multiview, data.sensor_fit = "OFFAXIS", True, "AUTO"
+    for panel in LensPanel, ModelPanel:
+        assert "sensor_width" not in drawn(blender, panel, data)[0], "beside the panel of the sensor"
 
 
 def test_the_focal_length_is_shown_where_an_aperture_reads_it(blender, scene, tmp_path):

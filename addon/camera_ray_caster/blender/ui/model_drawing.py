@@ -16,6 +16,7 @@ from .cycles_operators import AddProjector, BackToBlender, FitLens, UseInCycles
 from .drawing import draw_field, draw_message
 from .lens_operators import draw_lens_file
 from .model_settings import (
+    eye_settings,
     is_missing,
     lacks,
     lengths_in_words,
@@ -42,6 +43,8 @@ def draw_model_settings(layout, context, camera, beside_lens: bool = True, drawn
             draw_setting(column, context, camera, setting)
             if setting == LENS_FILE:
                 draw_lens_file(column, camera)
+    for setting in eye_settings(camera, context.scene) if beside_lens and context.engine != ENGINE else ():
+        draw_setting(column, context, camera, setting)
     if UNIT in settings_of(camera):
         draw_message(layout, context, lengths_in_words(getattr(camera, GROUP)))
     if beside_lens and context.engine != ENGINE and camera.type != CUSTOM and (labels := not_used(camera)):
@@ -52,7 +55,8 @@ def draw_lens(layout, context, camera) -> None:
     """Draw Blender's camera type with its settings, and the other Blender settings that the model reads. Settings that
     the model does not read are gray.
     """
-    read, offered = read_settings(camera), of_type(camera)
+    by_eyes, offered = eye_settings(camera, context.scene), of_type(camera)
+    read = [*read_settings(camera), *by_eyes]
     column = layout.column()
     column.active = getattr(camera, GROUP).model == BLENDERS_OWN
     draw_field(column, context, camera, "type")
@@ -60,7 +64,7 @@ def draw_lens(layout, context, camera) -> None:
         draw_field(column, context, camera, "panorama_type")
     column = layout.column(align=True)
     for setting in dict.fromkeys((*offered, *read)):
-        if setting.owner == CAMERA and setting not in FILM:
+        if setting.owner == CAMERA and (setting not in FILM or setting in by_eyes):
             row = column.row()
             row.active = setting in read
             by_angle = setting == LENS and camera.lens_unit == "FOV"

@@ -4,7 +4,7 @@ from ...core.cameras import MODELS
 from ...core.cameras.behind_port import takes_port
 from ...core.cameras.model import Model
 from ...core.cameras.parts.calibration import FILE, FILE_CAMERA, MILLIMETERS, SIZE
-from ...core.cameras.parts.film import FILM, LENS
+from ...core.cameras.parts.film import FILM, LENS, SENSOR_WIDTH
 from ...core.cameras.parts.port_settings import PORT
 from ...core.cameras.parts.port_settings import SETTINGS as PORTS
 from ...core.cameras.parts.settings import CAMERA, OWN, STEREO, Setting
@@ -84,6 +84,19 @@ def read_settings(camera) -> list[Setting]:
         setting for setting in model.SETTINGS
         if setting != FILE_CAMERA and (setting in by_aperture or is_used(setting))
     ]  # fmt: skip
+
+
+def eye_settings(camera, scene) -> list[Setting]:
+    """Return the settings that the eyes of a stereo scene read with Off-Axis convergence, and that the lens does not
+    show otherwise: an orthographic camera's focal length, and the width of a sensor that is fitted by its height. See
+    ``parts.film.off_axis``.
+    """
+    render, stereo = scene.render, camera.stereo
+    if not render.use_multiview or render.views_format != "STEREO_3D" or stereo.convergence_mode != "OFFAXIS":
+        return []
+    width = [SENSOR_WIDTH] if camera.sensor_fit == "VERTICAL" else []
+    of_kind = {"ORTHO": [LENS, *width], "PERSP": [] if stereo.use_spherical_stereo else width}
+    return of_kind.get(key_of(camera), [])
 
 
 def of_type(camera) -> tuple[Setting, ...]:
