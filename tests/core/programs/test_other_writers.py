@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 
+import camera_ray_caster as crc
 from camera_ray_caster.core.programs.reading.lenses import lenses_of
 from camera_ray_caster.core.programs.reading.mounted import mounted
 from camera_ray_caster.core.records import InputError
@@ -14,6 +15,8 @@ from .test_contract import SAMPLES
 UNIT = [1, 0, 0, 0, 1, 0, 0, 0, 1]
 QUARTER = [0, -1, 0, 1, 0, 0, 0, 0, 1]
 PLACE = [1.0, 2.0, 3.0]
+TO_OPENCV = np.diag((1.0, -1.0, -1.0, 1.0))
+"""A pose by which the world is the camera's frame, x right, y down, z ahead."""
 
 
 def matrix(name, rows, numbers, space=" "):
@@ -59,14 +62,15 @@ PHOTOSCAN = """<document version="0.9.1"><chunk><sensors><sensor id="0" label="A
 <p1>0.001</p1><p2>0.002</p2></calibration></sensor></sensors><cameras><camera id="0" label="a" sensor_id="0">
 <transform>1 0 0 1 0 1 0 2 0 0 1 3 0 0 0 1</transform></camera></cameras></chunk></document>"""
 XMP = """<x:xmpmeta xmlns:x="adobe:ns:meta/"><rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#">
-<rdf:Description xmlns:xcr="http://www.capturingreality.com/ns/xcr/1.1#" xcr:DistortionModel="division"
+<rdf:Description xmlns:xcr="http://www.capturingreality.com/ns/xcr/1.1#" xcr:DistortionModel="{1}"
 xcr:FocalLength35mm="36"><xcr:Rotation>1 0 0 0 1 0 0 0 1</xcr:Rotation><xcr:Position>1 2 3</xcr:Position>
-<xcr:DistortionCoeficients>{} 0 0 0 0 0</xcr:DistortionCoeficients></rdf:Description></rdf:RDF></x:xmpmeta>"""
+<xcr:DistortionCoeficients>{0}</xcr:DistortionCoeficients></rdf:Description></rdf:RDF></x:xmpmeta>"""
 SPLAT = {"img_name": "a", "width": 400, "height": 300, "position": PLACE, "rotation": np.eye(3).tolist(),
          "fx": 310, "fy": 300, "cx": 190.5, "cy": 160.5}  # fmt: skip
 ORB = "Camera.fx: 300\nCamera.fy: 301\nCamera.cx: 200\nCamera.cy: 150\n"
 FILES = {
     "splat.json": ([SPLAT], {"fx": 310, "fy": 300, "cx": 190, "cy": 160}),
+    "fractions.json": ([SPLAT | {"cx": 0.475, "cy": 0.535}], {"fx": 310, "fy": 300, "cx": 189.5, "cy": 160}),
     "photoscan.xml": (
         PHOTOSCAN, {"fx": 310, "fy": 300, "cx": 200.5, "cy": 147.5, "skew": 0.5, "k1": -0.05, "p1": 0.001, "p2": 0.002}
     ),
@@ -82,7 +86,7 @@ FILES = {
     "turned.nvm": (
         f"NVM_V3_R9T\n\n1\na.jpg 300 {' '.join(map(str, QUARTER))} 2 -1 -3 0 0\n", {"fx": 300, "cx": 319.5}
     ),
-    "no_distortion.xmp": (XMP.format(0), {"fx": 640, "k1": 0}),
+    "no_distortion.xmp": (XMP.format("0 0 0 0 0 0", "division"), {"fx": 640, "k1": 0}),
     "semicolons.csv": ("#name;x;y;alt;heading;pitch;roll;f\na.jpg;1;2;3;0;0;0;36\n", {"fx": 640}),
     "body.yaml": (ORB + matrix("IMU.T_b_c1", 4, [1, 0, 0, 1, 0, 1, 0, 2, 0, 0, 1, 3, 0, 0, 0, 1]), {"fx": 300}),
 }  # fmt: skip
@@ -97,12 +101,15 @@ def test_lens_and_place_are_those_of_the_file(name, tmp_path):
 
 
 REFUSED = {
-    "k5.json": ([opensfm(projection_type="fisheye62", k5=0.1)], "its k5 of a fisheye62 is not 0"),
+    "k5.json": ([opensfm(projection_type="fisheye62", k5=0.1, p1=0.1)], "its k5 of a fisheye62 is not 0"),
+    "s3.json": ([opensfm(projection_type="fisheye624", k1=0.1, s3=0.1)], "its s3 of a fisheye624 is not 0"),
+    "fractions.json": ([SPLAT | {"fx": 0.8, "fy": 0.8, "cx": 0.5, "cy": 0.5}], "fx of a is 0.8: it must be in pixels"),
     "sum.sfm": (meshroom(distortionType="radialk3pt", distortionParams=["-1", "0", "0"]), "add up to 0"),
-    "division.xmp": (XMP.format(0.1), "DistortionModel is division, which is not read"),
+    "division.xmp": (XMP.format("0.1 0 0 0 0 0", "division"), "DistortionModel is division, which is not read"),
     "no_f.csv": ("#name,x,y,alt,heading,pitch,roll\na.jpg,1,2,3,0,0,0\n", "no f of a.jpg"),
     "crop.pto": ('i w400 h400 f2 v180 r0 p0 y0 C10,390,10,390 n"a.jpg"\n', "a.jpg is cropped (C)"),
     "board.json": ({"K": K(300, 200, 150), "calib_size": [9, 6]}, "9 x 6, but its center 200, 150: is the size"),
+    "left.json": ({"K": K(300, 200, 150), "left_D": [0.1, 0, 0, 0]}, "left_D may be its distortion"),
     "right.json": ({"K": K(300, 200, 150), "right_K": K(310, 200, 150)}, "two cameras, one of them named right"),
     "fusion.yaml": ('%YAML:1.0\ncam0_calib: "cam0_mei.yaml"\nnum_of_cam: 1\n', "give cam0_mei.yaml"),
 }
@@ -118,6 +125,34 @@ def test_what_is_not_read_is_named(name, tmp_path):
         refusal = raised
     assert says in str(refusal)
     assert "\n" not in str(refusal)
+
+
+@pytest.mark.parametrize("terms", [
+    {"k1": 0.1, "k4": 0.02, "k5": -0.01, "k6": 0.005}, {"p1": 0.01, "p2": -0.02, "s0": 0.03, "s1": 0.01, "s3": -0.02},
+    {"k1": 0.1, "k4": 0.02, "p1": 0.01, "p2": -0.02, "s0": 0.03, "s2": 0.01},
+], ids=["radial", "across", "both"])  # fmt: skip
+def test_fisheyes_of_opensfm_by_its_formula(terms, tmp_path):
+    """x (1 + k1 r2 + ...) + 2 p1 x y + p2 (r2 + 2 x2) + s0 r2 + s1 r4, and so on, where r is the angle."""
+    path = written(tmp_path, "a.json", [opensfm(projection_type="fisheye624", **terms)])
+    point = np.array((0.3, -0.4, 1.0))
+    angle, k = np.arctan(0.5), {name: terms.get(name, 0.0) for name in ("p1", "p2", "s0", "s1", "s2", "s3")}
+    x, y, r2 = angle * 0.6, angle * -0.8, angle**2
+    gain = 1 + sum(terms.get(f"k{n}", 0.0) * r2**n for n in range(1, 7))
+    u = x * gain + 2 * k["p1"] * x * y + k["p2"] * (r2 + 2 * x * x) + k["s0"] * r2 + k["s1"] * r2**2
+    v = y * gain + 2 * k["p2"] * x * y + k["p1"] * (r2 + 2 * y * y) + k["s2"] * r2 + k["s3"] * r2**2
+    pixel = crc.load_calibration(path, pose=TO_OPENCV).project(point, rows="top")
+    assert pixel == pytest.approx((320 * u + 199.5, 320 * v + 149.5), abs=1e-9)
+
+
+def test_tangential_terms_of_realitycapture(tmp_path):
+    """Those of x are t1 (r2 + 2 x2) + 2 t2 x y, as in Brown's formula: t1 and t2 are p2 and p1 of OpenCV."""
+    path = written(tmp_path, "a.xmp", XMP.format("0.1 -0.02 0.01 0 0.003 -0.002", "brown3t2"))
+    x, y, r2 = 0.3, -0.4, 0.25
+    gain = 1 + 0.1 * r2 - 0.02 * r2**2 + 0.01 * r2**3
+    u = x * gain + 0.003 * (r2 + 2 * x * x) - 0.002 * 2 * x * y
+    v = y * gain - 0.002 * (r2 + 2 * y * y) + 0.003 * 2 * x * y
+    pixel = crc.load_calibration(path, size=(640, 480), pose=TO_OPENCV).project((x, y, 1.0), rows="top")
+    assert pixel == pytest.approx((640 * u + 319.5, 640 * v + 239.5), abs=1e-9)
 
 
 def test_a_place_that_vins_does_not_use_is_not_read(tmp_path):

@@ -1,6 +1,7 @@
 """cameras.json of 3D Gaussian splatting: a pinhole for each picture, with its place and its rotation to the world.
 
-The center is the middle of the picture, unless cx and cy tell it from the corner. x is right, y down, z ahead.
+The center is the middle of the picture, unless cx and cy tell it from the corner, in pixels or, if both are at most 1,
+in fractions of its sides. x is right, y down, z ahead.
 Reference: 3D Gaussian Splatting for Real-Time Radiance Field Rendering, its code: camera_to_JSON.
 """
 
@@ -8,6 +9,7 @@ from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens, different, matrix, once_each
 from .parts.placed import Placed, of_rotation
+from .parts.plain import LEAST
 from .parts.program import ProgramFiles
 
 
@@ -24,8 +26,13 @@ def _pictures(document: Document) -> list[Fields]:
 def _lens(picture: Fields) -> Lens:
     width, height, fx = picture.number("width"), picture.number("height"), picture.number("fx")
     picture.document.check()
+    fy, center = picture.number("fy", fx), [picture.number(name) for name in ("cx", "cy") if picture.has(name)]
     cx, cy = picture.number("cx", width / 2), picture.number("cy", height / 2)
-    camera_matrix = matrix(fx, picture.number("fy", fx), cx, cy, 0.5)
+    if center and all(0 < fraction <= 1 for fraction in center) and min(width, height) >= LEAST:
+        if max(fx, fy) < LEAST:
+            raise picture.refusal("fx", "in pixels: multiply it by the picture's side of which it is a part")
+        cx, cy = picture.number("cx", 0.5) * width, picture.number("cy", 0.5) * height
+    camera_matrix = matrix(fx, fy, cx, cy, 0.5)
     return Lens(picture.label, "OPENCV_PINHOLE", picture.document.size(width, height) | camera_matrix)
 
 

@@ -2,7 +2,9 @@
 of the picture; and reconstruction.json: these cameras, and shots with poses.
 
 A shot's rotation is an axis times an angle, from the world to the camera, x right, y down, z ahead. The center of the
-first pixel is (0, 0), and the middle of the picture is the center unless c_x and c_y move it.
+first pixel is (0, 0), and the middle of the picture is the center unless c_x and c_y move it. The terms across the
+radius of a fisheye62 and 624 are of the angle, as those of a Thin Prism Fisheye, whose polynomial ends at k4; those of
+a Fisheye624 are of the distorted radius, which is the same where there is only one of both.
 Reference: OpenSfM documentation, Geometric Models; Reconstruction file format.
 """
 
@@ -14,11 +16,10 @@ from .parts.placed import Placed, inverted, of_rotation
 from .parts.program import ProgramFiles
 
 RADIAL, EQUIDISTANT = ("k1", "k2"), ("k1", "k2", "k3", "k4")
-FISHEYE = (*EQUIDISTANT, "p1", "p2")
-PRISM = {"s0": "s1", "s2": "s3"}
-"""Our settings for coefficients of a fisheye624."""
-BEYOND = "k5", "k6", "s1", "s3"
-"""Coefficients of a fisheye62 and 624 that no model has."""
+THIN_PRISM = {"p1": "p1", "p2": "p2", "s0": "s1", "s2": "s3"}
+"""Our settings for the coefficients of a fisheye62 and 624 after k4."""
+BEYOND = {"k5": "k5", "k6": "k6", "s1": "s2", "s3": "s4"}
+"""Our settings for their coefficients that only a Fisheye624 has."""
 MODELS = {
     "perspective": ("OPENCV_PINHOLE", RADIAL),
     "brown": ("OPENCV_PINHOLE", ("k1", "k2", "p1", "p2", "k3")),
@@ -26,8 +27,8 @@ MODELS = {
     "radial": ("OPENCV_PINHOLE", RADIAL),
     "fisheye": ("OPENCV_FISHEYE", RADIAL),
     "fisheye_opencv": ("OPENCV_FISHEYE", EQUIDISTANT),
-    "fisheye62": ("THIN_PRISM_FISHEYE", FISHEYE),
-    "fisheye624": ("THIN_PRISM_FISHEYE", FISHEYE),
+    "fisheye62": ("THIN_PRISM_FISHEYE", EQUIDISTANT),
+    "fisheye624": ("THIN_PRISM_FISHEYE", EQUIDISTANT),
     "spherical": ("EQUIRECTANGULAR", ()),
     "equirectangular": ("EQUIRECTANGULAR", ()),
 }
@@ -94,11 +95,16 @@ def _lens(camera: Fields, name: str) -> Lens:
     for axis, side in (("x", width), ("y", height)):
         settings[f"c{axis}"] = (side - 1) / 2 + camera.number(f"c_{axis}", 0.0) * unit
     settings |= {term: camera.number(term, 0.0) for term in terms}
-    if terms is FISHEYE:
-        unread = [term for term in BEYOND if camera.number(term, 0.0)]
-        if unread:
-            raise camera.document.refusal(f"its {', '.join(unread)} of a {kind} is not 0, which no model here has")
-        settings |= {setting: camera.number(term, 0.0) for term, setting in PRISM.items()}
+    if model == "THIN_PRISM_FISHEYE":
+        settings |= {setting: camera.number(term, 0.0) for term, setting in THIN_PRISM.items()}
+        if beyond := [term for term in BEYOND if camera.number(term, 0.0)]:
+            model = "FISHEYE624"
+            settings |= {setting: camera.number(term, 0.0) for term, setting in BEYOND.items()}
+            if all(any(value for name, value in settings.items() if name[0] in kinds) for kinds in ("k", "ps")):
+                raise camera.document.refusal(
+                    f"its {', '.join(beyond)} of a {kind} is not 0, and it has both radial and other terms: no model "
+                    "here has all of these"
+                )
     return Lens(name, model, size | settings)
 
 
@@ -106,6 +112,6 @@ PROGRAM = ProgramFiles(
     "OpenSfM", "camera_models.json, reconstruction.json, of ODM, too", looks,
     marks="projection_type focal focal_x width height k1",
     reads="perspective, brown, radial, fisheye, fisheye_opencv, fisheye62, fisheye624, spherical",
-    lost="k5, k6, s1 and s3 of a fisheye62 or 624, and other projections, are refused", models=MODELS,
-    read=read, poses=poses, note=note, unit=METERS,
+    lost="k5, k6, s1 and s3 of a fisheye62 or 624 with both radial and other terms, and other projections, are refused",
+    models=MODELS, read=read, poses=poses, note=note, unit=METERS,
 )  # fmt: skip

@@ -4,9 +4,11 @@ Focal lengths are those of a picture whose longer side is 36 mm; the principal p
 picture in parts of its longer side. The size of the pictures is that of the frame. The rotation of an .xmp leads by
 rows from the world to the camera, x right, y down, z ahead. Heading, pitch and roll of a .csv are in degrees: a camera
 that looks down, with its upper side to the north, is turned about its axes y by the roll, x by the pitch, and z by the
-heading, clockwise. Four radial coefficients make a Radial Polynomial. None of this is documented in full: px, py and
-the angles of a .csv are taken as other readers do, who do not agree on the order of t1 and t2, which are refused.
-Reference: RealityCapture, XMP Camera Math.
+heading, clockwise. Four radial coefficients make a Radial Polynomial. t1 and t2 are OpenCV's p2 and p1: the program's
+own files for OpenCV have them in this order. Not all is documented: px, py and the angles of a .csv are taken as other
+readers do.
+References: RealityCapture, XMP Camera Math; RealityScan, Camera Geometry, and its OpenCV-compliant Internal/External
+Camera Parameters.
 """
 
 from collections.abc import Iterable
@@ -24,14 +26,15 @@ from .parts.program import PictureFolders, ProgramFiles
 PREFIX, DESCRIPTION = "xcr:", "rdf:Description"
 SPLIT = {"Rotation", "Position", "DistortionCoeficients"}
 """Entries of an .xmp that are lists of numbers."""
-MODELS = {"perspective": 0, "division": 0, "brown3": 3, "brown3t2": 3, "brown4": 4, "brown4t2": 4}
-"""Number of radial coefficients that are read, by the distortion model."""
+MODELS = "perspective", "division", "brown3", "brown3t2", "brown4", "brown4t2"
 FILM = 36.0
 """Millimeters of a picture's longer side."""
 HEAD = ("x", "y", "alt", "heading", "pitch", "roll")
 FIRST_LINES = 9
 """Lines of a .csv among which one names the columns."""
 COEFFICIENTS = ("k1", "k2", "k3", "k4", "t1", "t2")
+TERMS = "k1", "k2", "k3", "p2", "p1"
+"""The settings of a pinhole for these coefficients without k4."""
 
 
 def looks(document: Document) -> bool:
@@ -88,29 +91,30 @@ def _lens(document: Document, picture: Fields) -> Lens:
     longer = max(width, height)
     if picture.has("heading"):
         coefficients = [picture.number(name, 0.0) for name in COEFFICIENTS]
-        focal, center, count = picture.number("f"), ("px", "py"), 4
+        focal, center = picture.number("f"), ("px", "py")
     else:
         focal, center = picture.number("FocalLength35mm"), ("PrincipalPointU", "PrincipalPointV")
-        count = MODELS[picture.word("DistortionModel", MODELS, "perspective")]
+        kind = picture.word("DistortionModel", MODELS, "perspective")
         coefficients = picture.numbers("DistortionCoeficients", 6, default=[0.0] * 6)
-        if not count:
-            if picture.text("DistortionModel") == "division" and any(coefficients):
-                raise document.refusal("its DistortionModel is division, which is not read: choose Brown3 or Brown4")
+        if kind == "division" and any(coefficients):
+            raise document.refusal("its DistortionModel is division, which is not read: choose Brown3 or Brown4")
+        if kind == "perspective":
             coefficients = [0.0] * 6
         if picture.number("Skew", 0.0) or picture.number("AspectRatio", 1.0) != 1:
             raise document.refusal("its Skew is not 0, or its AspectRatio not 1: undistort the pictures first")
-    if any(coefficients[count:]):
+    *radial, k4, t1, t2 = coefficients
+    if k4 and (t1 or t2):
         raise document.refusal(
-            f"the tangential distortion of {picture.label or 'the picture'} is not 0: choose the distortion model "
-            "Brown3 or Brown4 in RealityCapture"
+            f"k4, t1 and t2 of {picture.label or 'the picture'} are not 0, which no model here has: choose the "
+            "distortion model Brown4, or Brown3 with tangential distortion, in RealityCapture"
         )
     x, y = (side / 2 + picture.number(name, 0.0) * longer for side, name in zip((width, height), center, strict=True))
     pixels = focal / FILM * longer
     settings = FRAME_SIZE | matrix(pixels, pixels, x, y, 0.5)
-    if coefficients[3]:
-        polynomial = " 0 ".join(map(repr, coefficients[:4]))
+    if k4:
+        polynomial = " 0 ".join(map(repr, (*radial, k4)))
         return Lens(picture.label, "RADIAL_POLYNOMIAL", settings | {"radial_polynomial": f"0 1 0 {polynomial}"})
-    return Lens(picture.label, "OPENCV_PINHOLE", settings | dict(zip(COEFFICIENTS[:3], coefficients, strict=False)))
+    return Lens(picture.label, "OPENCV_PINHOLE", settings | dict(zip(TERMS, (*radial, t1, t2), strict=True)))
 
 
 def read(document: Document) -> list[Lens]:
@@ -141,7 +145,7 @@ def _pose(picture: Fields) -> np.ndarray:
 PROGRAM = ProgramFiles(
     "RealityCapture", "an .xmp for each picture; .csv of internal and external camera parameters", looks,
     marks="DistortionModel FocalLength35mm PrincipalPointU DistortionCoeficients Rotation Position",
-    reads="perspective, brown3, brown4",
-    lost="the size of the pictures; division and tangential distortion are refused",
+    reads="perspective, brown3, brown3t2, brown4",
+    lost="the size of the pictures; division, and k4 with tangential distortion, are refused",
     read=read, poses=poses, pictures=PictureFolders("*.xmp"),
 )  # fmt: skip

@@ -58,6 +58,7 @@ BEND = re.compile(r"dist(?!anc|rib)|coef|radial|tangent|kappa|aberration|barrel|
 """What names of distortions have."""
 BEND_BESIDE = re.compile(
     BEND.pattern + r"|^k?[dk]c\d?$|^k[ds]$|^rd$|^poly$|^((lens|type|extra|fisheye|rad)?param(eter)?|value)s$|^d\d?$"
+    r"|^(left|right)(d|kc)$|^(d|kc)(left|right|[lr])$"
 )
 """What they have beside a camera matrix."""
 TERM = re.compile(r"[kpsd]\d|tau[xy]|radial|tangential")
