@@ -213,8 +213,8 @@ def test_an_option_that_is_not_named_is_a_setting_of_the_pictures(registered, sc
     assert "where" not in settings
     assert settings.keys() == {
         "new", "scene", "calibration_camera", "model", "resolution", "enable_autoexec", "rig_parent", "passes",
-        "shading", "engine", "samples", "device", "format", "half", "annotations", "keypoints", "points", "points_axes",
-        "noise", "dropout", "quantum", "seed", "file_output", "calibration", "rig",
+        "shading", "engine", "samples", "device", "format", "half", "rows", "annotations", "keypoints", "points",
+        "points_axes", "noise", "dropout", "quantum", "seed", "file_output", "calibration", "rig",
     }  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""Passes as NPZ files of NumPy: one array per pass, with the rows from the bottom.
+"""Passes as NPZ files of NumPy: one array per pass, with the rows from the bottom or from the top.
 
 The arrays hold the pixels that were cast, which are those of the render border. Images and EXR files have the whole
 frame, unless it is cropped to the border.
@@ -11,6 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from ...core.casting.passes import PASSES
+from ...core.casting.top_down import top_down
+from ...core.conventions import BOTTOM, TOP
 from ...core.names import file_names
 from ...core.records import InputError
 from ..process.signals import raise_if_stopping
@@ -24,13 +26,18 @@ HALF = np.finfo(np.float16)
 
 
 def save(
-    path: Path, images: Mapping[tuple[str, str], Mapping[str, np.ndarray]], suffixes: Mapping[str, str], half: bool
+    path: Path,
+    images: Mapping[tuple[str, str], Mapping[str, np.ndarray]],
+    suffixes: Mapping[str, str],
+    half: bool,
+    rows: str = BOTTOM,
 ) -> None:
     """Write the images of each layer and view: one file per view, with the view's suffix.
 
     Arrays are named after their passes, with the layer's name in front if there are several layers: "Layer.depth"; see
     ``entry_names``.
-    ``half`` stores real numbers as float16. Raises InputError for numbers that are too large for that.
+    ``half`` stores real numbers as float16, ``rows`` TOP the passes of ``top_down``. Raises InputError for numbers that
+    are too large for float16.
     """
     layers = entry_names({layer for layer, _ in images})
     for view in dict.fromkeys(view for _, view in images):
@@ -40,6 +47,7 @@ def save(
                 for key, image in images[layer, view].items():
                     raise_if_stopping()
                     stored = _halved(key, images[layer, view]) if half and image.dtype.kind == "f" else image
+                    stored = top_down({key: stored})[key] if rows == TOP else stored
                     name = f"{layers[layer]}.{key}" if len(layers) > 1 else key
                     with file.open(f"{name}.npy", "w", force_zip64=True) as entry:
                         np.lib.format.write_array(entry, stored, allow_pickle=False)

@@ -14,6 +14,7 @@ import numpy as np
 
 from ...core.cast import Images
 from ...core.casting.pass_needs import image_bytes
+from ...core.conventions import BOTTOM
 from ...core.file_set import atomic_folder
 from ...core.memory import of_pixels, require
 from ...core.names import folded
@@ -49,6 +50,7 @@ def render(
     *,
     layers: str = EXR,
     half: bool = False,
+    rows: str = BOTTOM,
     shown: bool = True,
     file_output: bool = False,
     picture: EnginePicture | None = None,
@@ -62,7 +64,8 @@ def render(
     """Make files of the scene's current frame in ``folder``; return the report and the paths of the files.
 
     The files are NAME.png, NAME.exr (or .npz, depending on ``layers``) and REPORT_NAME.json; with several views,
-    NAME_L.png, NAME_R.png and so on, by the views' suffixes. ``half`` stores real numbers of passes with 16 bits.
+    NAME_L.png, NAME_R.png and so on, by the views' suffixes. ``half`` stores real numbers of passes with 16 bits,
+    ``rows`` is the first row of NPZ files, BOTTOM or TOP, which the report states.
     NAME.png is written only if ``shown``. The compositor's File Output nodes write only with ``file_output``.
     ``picture`` replaces the combined pass. ``stamp`` is stored in the report, with the sizes of the files and of the
     files in ``beside``; see ``stamps``. If ``keypoints`` is not None, NAME_coco.json is written for each view of the
@@ -88,7 +91,7 @@ def render(
         if layers == EXR:
             _save(scene, temporary / f"{name}.exr", LAYERS | ({"color_depth": "16"} if half else {}))
         else:
-            arrays.save(temporary / f"{name}.npz", call.images, suffixes, half)
+            arrays.save(temporary / f"{name}.npz", call.images, suffixes, half, rows)
             if half:
                 report = replace(report, accuracy=replace(report.accuracy, stored=float(arrays.HALF.eps) / 2))
         for (layer, view), images in (call.images or {}).items() if keypoints is not None else ():
@@ -105,7 +108,8 @@ def render(
         report = report.with_seconds(files=perf_counter() - started)
         if stamp is not None:
             stamp = stamp if dataset is None else short(stamp)
-            report = replace(report, made=made(stamp, sorted(temporary.iterdir()), folder, beside))
+            files = made(stamp, sorted(temporary.iterdir()), folder, beside)
+            report = replace(report, made=files | ({"rows": rows} if layers == NPZ else {}))
         report_text = as_json(report, dataset and dataset.get("common", {}))
         (temporary / f"{report_name}.json").write_text(report_text, encoding="utf-8")
         names = sorted(os.listdir(temporary))

@@ -13,6 +13,7 @@ from ...core.cast import Images
 from ...core.casting.pass_needs import check_passes
 from ...core.casting.passes import PASSES
 from ...core.casting.request import SHADINGS
+from ...core.conventions import BOTTOM, TOP
 from ...core.file_set import CannotWrite
 from ...core.memory import limits_as_input
 from ...core.names import file_names, frame_digits
@@ -73,6 +74,9 @@ def add_words(parser) -> None:
     parser.add_argument(
         "--half", action="store_true", help="write floating-point arrays, and the colors of EXR files, with 16 bits"
     )
+    parser.add_argument("--rows", type=str.lower, choices=(BOTTOM, TOP), default=BOTTOM, help=
+        "first row of the arrays in NPZ files; top: as in OpenCV, also with y of flow down; "
+        "default: %(default)s")  # fmt: skip
     parser.add_argument("--annotations", action="store_true",
                         help="write the boxes and masks of objects next to each picture, in COCO format")  # fmt: skip
     parser.add_argument("--keypoints", nargs="+", metavar="NAME", help=
@@ -102,6 +106,8 @@ def parsed(parser: Parser, arguments: Sequence[str]) -> Namespace:
     if options.retries < 0:
         raise InputError("--retries is negative: give 0 or more")
     options.format = options.format or (frame_files.NPZ if options.dataset else frame_files.EXR)
+    if options.rows == TOP and options.format != frame_files.NPZ:
+        raise InputError("--rows applies to NPZ files only, pictures have the top row first: add --format NPZ")
     options.skip_existing |= options.dataset
     return options
 
@@ -218,8 +224,8 @@ class Pictures:
         path = asked.output / job.name
         return frame_files.render(
             self.scene, path.parent, path.name, Path(job.report).name,
-            layers=asked.format, half=asked.half, file_output=asked.file_output, stamp=of, spare=self.spare,
-            dataset=dataset_of(asked.output) if asked.dataset else None, **options,
+            layers=asked.format, half=asked.half, rows=asked.rows, file_output=asked.file_output, stamp=of,
+            spare=self.spare, dataset=dataset_of(asked.output) if asked.dataset else None, **options,
         )  # fmt: skip
 
     def taken(self, job: PictureJob, stamp: dict[str, Any], ray_map: RayMap | None = None) -> Outcome | None:

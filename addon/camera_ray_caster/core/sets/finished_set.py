@@ -1,7 +1,7 @@
 """A finished data set: its views, each with camera, frame, passes, annotations and picture.
 
 The report NAME.json of each picture names its files; from it the camera is made, with the same rays. Arrays of passes
-have row 0 at the bottom, as in NPZ files; files of pictures begin at the top.
+have row 0 at the bottom, also those of NPZ files with the top row first; files of pictures begin at the top.
 """
 
 import json
@@ -18,6 +18,8 @@ import numpy as np
 
 from ..arguments import DAMAGED
 from ..camera.camera import Camera
+from ..casting.top_down import top_down
+from ..conventions import TOP
 from ..exports.camera_json import camera_from_json
 from ..exports.format import Shot
 from ..names import file_name
@@ -127,9 +129,10 @@ class View:
         if key not in self._passes:
             raise InputError(f"{self.file.name} has no pass {key}: cast the set with --passes {key},...")
         try:
-            return self._passes[key]
+            pixels = self._passes[key]
         except DAMAGED as error:
             raise InputError(f"{str(self.file)!r} is damaged: delete it, and run the same command again") from error
+        return top_down({key: pixels})[key] if self.report["made"].get("rows") == TOP else pixels
 
     @property
     def _passes(self) -> Mapping[str, np.ndarray]:

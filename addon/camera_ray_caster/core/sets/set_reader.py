@@ -1,6 +1,6 @@
 """Reads the data set in whose folder this file lies: python reader.py, or ``views()``. Needs numpy; EXR: OpenImageIO.
 
-Row 0 of the arrays is the bottom row; ``top_down(passes)`` has the top row first, as most programs.
+Row 0 of the arrays of ``views()`` is the bottom row; ``top_down(passes)`` has the top row first, as most programs.
 camera_ray_caster's ``camera_from_json`` makes the rays from a report.
 """
 
@@ -39,7 +39,9 @@ def views(folder=Path(__file__).parent):
         names = [name for stem in stems for name in (stem, f"report_{stem.rpartition('_')[2]}")]
         reports = (path.parent / f"{name}.json" for name in names)
         for report in [report for report in reports if report.is_file()][:1]:
-            yield path.stem, {**common, **json.loads(report.read_text(encoding="utf-8"))}, passes_in(path)
+            content, passes = {**common, **json.loads(report.read_text(encoding="utf-8"))}, passes_in(path)
+            is_turned = content.get("made", {}).get("rows") == "top"
+            yield path.stem, content, top_down(passes) if is_turned else passes
 
 
 if __name__ == "__main__":
