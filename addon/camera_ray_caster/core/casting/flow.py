@@ -22,7 +22,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..conventions import gamma
-from ..maths.speed import lazy
+from ..maths.speed import lazy, taken
 from ..maths.vector import norm
 from ..motion.matching import rows_in
 from ..records import Shapes
@@ -58,11 +58,11 @@ class Flow:
         self._known: tuple[np.ndarray, Moved] | None = None
 
     def at(self, shapes: Shapes, indices: np.ndarray) -> np.ndarray:
-        return self._points[:, indices].T + self._moved(shapes, indices).by.T
+        return (taken(self._points, indices) + self._moved(shapes, indices).by).T
 
     def error(self, shapes: Shapes, indices: np.ndarray) -> np.ndarray:
-        moved, points = self._moved(shapes, indices), self._points[:, indices]
-        return self._own_error[indices] * (1 + moved.spread) + moved.error + gamma(2) * (norm(points) + norm(moved.by))
+        moved, points = self._moved(shapes, indices), taken(self._points, indices)
+        return self._own_error(indices) * (1 + moved.spread) + moved.error + gamma(2) * (norm(points) + norm(moved.by))
 
     @lazy
     def pixels(self) -> np.ndarray:
@@ -99,17 +99,21 @@ class Flow:
         """Write whether something hides the points, or they are outside of the clip range, (rows, columns)."""
         hidden = np.zeros(out.size, bool)
         seen = ~np.isnan(self.pixels[:, 0])
-        hidden[self._place[seen]] = self._picture.before(self, self.pixels)[seen] != 0
+        places = np.divmod(self._place, out.shape[1])
+        hidden[self._place[seen]] = self._picture.before(self, self.pixels, places)[seen] != 0
         out[...] = hidden.reshape(out.shape)
 
     def _of_kind(self, kind: Kind, pixels: HitPixels):
         point = pixels.of(self._values.point)
         return pixels, kind.follow(self._values.target.placed, pixels, point), np.array(point)
 
-    @lazy
-    def _own_error(self) -> np.ndarray:
-        """The error bounds of the points where they are hit, (m,)."""
-        return np.concatenate([np.zeros(0), *(errors.position for _, errors in self._values.errors)])
+    def _own_error(self, indices: np.ndarray) -> np.ndarray:
+        """Return the error bounds of some of the points where they are hit."""
+        where, error = np.zeros(self._values.hits.t.shape, bool), np.zeros(self._values.hits.t.shape)
+        where.reshape(-1)[self._place[indices]] = True
+        for of_kind, errors in self._values.errors_at(where):
+            error[of_kind] = errors.position
+        return error.reshape(-1)[self._place[indices]]
 
     def _moved(self, shapes: Shapes, indices: np.ndarray) -> Moved:
         """Return how some of the points have moved; NaN if their shape is not in ``shapes``."""

@@ -236,8 +236,13 @@ class HitValues:
     @lazy
     def errors(self) -> list[tuple[np.ndarray, HitErrors]]:
         """The error bounds of the hits, kind by kind; see ``by_kind``."""
+        return self.errors_at(self.hits.seen)
+
+    def errors_at(self, where: np.ndarray) -> list[tuple[np.ndarray, HitErrors]]:
+        """Return the error bounds of the hits in some pixels, (rows, columns) bool, kind by kind; see ``by_kind``."""
         placed, unit, rays = self.target.placed, self.target.normals.unit, self.hits.rays.in_world()
-        return self.by_kind(lambda kind, pixels: HitErrors(placed, kind, pixels, rays.only(pixels.of), unit))
+        kinds = [(kind, self.pixels(pixels.where & where)) for kind, pixels in self._kinds]
+        return [(hit.where, HitErrors(placed, kind, hit, rays.only(hit.of), unit)) for kind, hit in kinds]
 
     def pixels(self, where: np.ndarray) -> HitPixels:
         """Return the pixels marked in ``where``, each of which hits something."""

@@ -66,19 +66,26 @@ class Picture:
         seen_at = pixels_of(model.rays, model.size, (points - pose.eye) @ inverse(pose.basis).T, start)
         return np.where(self._is_inside(seen_at)[:, None], seen_at, np.nan)
 
-    def before(self, points: MovingPoints, pixels: np.ndarray) -> np.ndarray:
-        """Return whether something is in front of points seen at pixels (n, 2), as numbers of ``aimed.is_before``; -1
-        if the pixel is NaN. With pixel times the time is that of the pixel's center.
+    def before(
+        self, points: MovingPoints, pixels: np.ndarray, places: tuple[np.ndarray, np.ndarray] | None = None
+    ) -> np.ndarray:
+        """Return whether something is in front of points seen at pixels (n, 2), as numbers of ``aimed.is_before``, also
+        for ``places``; -1 if the pixel is NaN. With pixel times the time is that of the pixel's center.
         """
         answer = np.full(len(pixels), -1, np.int8)
         seen = np.flatnonzero(~np.isnan(pixels[:, 0]))
         for frame, indices in self._moments(pixels, seen):
             _, shapes = self._moment(frame)
-            then = pixels[indices] if frame is None else self._project(points, frame, indices)
-            inside = self._is_inside(then)
-            indices, then = indices[inside], then[inside]
-            places, error = points.at(shapes, indices), points.error(shapes, indices)
-            answer[indices] = is_before(self._plan(frame), then, places, error)
+            then = pixels[indices]
+            if frame is not None:
+                then = self._project(points, frame, indices)
+                inside = self._is_inside(then)
+                indices, then = indices[inside], then[inside]
+            answer[indices] = is_before(
+                self._plan(frame), then, points.at(shapes, indices),
+                partial(lambda shapes, indices, at: points.error(shapes, indices[at]), shapes, indices),
+                None if places is None else (places[0][indices], places[1][indices]),
+            )  # fmt: skip
         return answer
 
     def _moments(self, pixels: np.ndarray, seen: np.ndarray) -> Iterator[tuple[float | None, np.ndarray]]:
