@@ -31,7 +31,7 @@ class Scene:
         names the function, for anything else.
         """
         if isinstance(camera, Scene) and shapes is None:
-            return camera
+            shapes, camera = camera.shapes, camera.camera
         if not (isinstance(camera, Camera) and isinstance(shapes, Shapes)):
             types = f"{type(camera).__name__} and {type(shapes).__name__}"
             several = "; make one of several shapes: join(*shapes)" if isinstance(shapes, list | tuple) else ""

@@ -210,6 +210,8 @@ def test_a_scene_is_camera_and_shapes(camera):
         crc.cast(camera, passes=("depth",))
     with pytest.raises(TypeError, match=r"not Camera and list; make one of several shapes: join\(\*shapes\)$"):
         crc.cast(camera, [shapes, shapes])
+    with pytest.raises(TypeError, match=r"not Shapes and Camera$"):
+        crc.cast(crc.Scene(shapes, camera))
     with pytest.raises(TypeError, match=r"one by one, as join\(\*shapes\), not list$"):
         crc.join([shapes, shapes])
 
@@ -222,3 +224,7 @@ def test_what_was_not_cast_and_what_is_no_number_is_named(camera):
         crc.cast_rays((0, 0, 9), (0, 0, -1), shapes, passes="distance")["uv"]
     with pytest.raises(crc.InputError, match=r"color is 'red': it must be real numbers$"):
         crc.spheres((0, 0, 1), color="red")
+    with pytest.raises(crc.InputError, match=r"color is of shape \(2, 3\): it must be \(3,\) or \(1, 3\)"):
+        crc.spheres((0, 0, 1), color=np.ones((2, 3)))
+    with pytest.raises(crc.InputError, match=r"^list has no vertices and faces: give mesh"):
+        crc.mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)])

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arguments import number, numbers, shown
+from ..arguments import number, numbers
 from ..conventions import EPS32
 from ..materials.surface import Surface
 from ..materials.textures import Texels, Texture, linear
@@ -25,7 +25,7 @@ def arrays_of(mesh: Any) -> dict[str, Any]:
     vertices, faces = getattr(mesh, "vertices", None), getattr(mesh, "faces", getattr(mesh, "triangles", None))
     if vertices is None or faces is None:
         raise InputError(
-            f"{shown(type(mesh))} has no vertices and faces: give mesh(vertices, faces), or a mesh of trimesh; "
+            f"{type(mesh).__name__} has no vertices and faces: give mesh(vertices, faces), or a mesh of trimesh; "
             "of a scene of trimesh, scene.to_mesh()"
         )
     faces = faces if isinstance(faces, list | tuple) else np.asarray(faces)

@@ -148,9 +148,9 @@ def _placed(primitive: Primitive, matrices: np.ndarray, object_index, material_i
         raise InputError(f"row {row} is not finite, or has its axes in one plane: leave it out, or give other axes")
     center, axes = np.empty((n, 3)), np.empty((n, 3, 3))
     put_in_world(primitive, matrices, center, axes)
-    color = numbers(color, "color")
-    if color.shape[-1:] == (3,):
-        color = np.concatenate((color, np.ones((*color.shape[:-1], 1))), axis=-1)
+    color, rgba = numbers(color, "color"), np.ones((n, 4), np.float32)
+    channels = 3 if color.shape[-1:] == (3,) else 4
+    rgba[:, :channels] = _per_row(color, "color", n, (channels,))
     names = (a_name(name),) if isinstance(name, str) else tuple(a_name(row_name, "one of name") for row_name in name)
     if len(names) not in (1, n):
         raise InputError(f"{len(names)} names are given for {n} shapes: give one, or as many")
@@ -160,7 +160,7 @@ def _placed(primitive: Primitive, matrices: np.ndarray, object_index, material_i
         axes=axes,
         object_index=_index(object_index, "object_index", n),
         material_index=_index(material_index, "material_index", n),
-        color=_per_row(color, "color", n, (4,)).astype(np.float32),
+        color=rgba,
         name_index=np.arange(n, dtype=np.int32) if len(names) > 1 else np.zeros(n, np.int32),
         names=names,
     )
