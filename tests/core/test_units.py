@@ -41,33 +41,35 @@ def words(content):
 
 
 @pytest.mark.one_for_each("chosen")
-@pytest.mark.parametrize("chosen", EXPORT_FORMATS, ids=lambda one: one.key)
+@pytest.mark.parametrize("chosen", EXPORT_FORMATS, ids=lambda export: export.key)
 def test_cameras_come_back_at_any_unit_scale(tmp_path, chosen):
     for meters in SCALES:
-        given = shots(meters)
-        files, remarks = export_files(chosen.key, given)
+        exported = shots(meters)
+        files, remarks = export_files(chosen.key, exported)
         files = dict(files)
         assert any("Blender units" in line for line in remarks) == (
             chosen.unit is None and chosen.rigid and meters != 1
         )
         if chosen.unit is None and chosen.key != "json":  # json states the length of the unit
             plain = dict(export_files(chosen.key, shots(1.0))[0])
-            assert {name: repr(words(one)) for name, one in files.items()} == {
-                name: repr(words(one)) for name, one in plain.items()
+            assert {name: repr(words(content)) for name, content in files.items()} == {
+                name: repr(words(content)) for name, content in plain.items()
             }
         if chosen.key in NO_POSES:
             continue
         folder = tmp_path / str(meters)
         paths = write(files.items(), folder)
-        path = folder if chosen.key == "colmap" else next(one for one in paths if "_val" not in one.name)
+        path = (
+            folder if chosen.key == "colmap" else next(candidate for candidate in paths if "_val" not in candidate.name)
+        )
         path = folder / "transforms_train.json" if chosen.key == "nerf" else path
-        (found,) = mounted(str(path), "", (64, 48), 24.0, meters)
+        (mount,) = mounted(str(path), "", (64, 48), 24.0, meters)
         first = np.eye(4)
         if chosen.key == "kalibr":  # the first camera's frame
-            first = np.linalg.inv(given[0].camera.opencv_from_world) @ np.diag((1, -1, -1, 1))
+            first = np.linalg.inv(exported[0].camera.opencv_from_world) @ np.diag((1, -1, -1, 1))
             first[:3, :3] = np.eye(3)
-        for place, shot in zip(found.poses, given, strict=False):
-            assert np.allclose(place[:3, 3] + first[:3, 3], shot.camera.pose.eye, rtol=0, atol=1e-6)
+        for placed, shot in zip(mount.poses, exported, strict=False):
+            assert np.allclose(placed[:3, 3] + first[:3, 3], shot.camera.pose.eye, rtol=0, atol=1e-6)
 
 
 def heights(key, files):
@@ -75,7 +77,7 @@ def heights(key, files):
     if key == "las":
         (content,) = files.values()
         start, count = struct.unpack_from("<I", content, 96)[0], struct.unpack_from("<Q", content, 247)[0]
-        length, scale, offset = (struct.unpack_from(*one)[0] for one in (
+        length, scale, offset = (struct.unpack_from(*field)[0] for field in (
             ("<H", content, 105), ("<d", content, 147), ("<d", content, 171)))  # fmt: skip
         return (
             np.array([struct.unpack_from("<i", content, start + k * length + 8)[0] for k in range(count)]) * scale
@@ -97,11 +99,11 @@ def test_points_are_in_the_unit_of_their_format(key):
         record = replace(cam.record, settings={**cam.record.settings, UNIT_SCALE: meters})
         cloud = crc.scan(replace(cam, record=record), floor)
         files = dict(files_of(cloud, key))
-        found = heights(key, files)
+        height = heights(key, files)
         if key in ("kitti", "nuscenes", "las"):
-            assert np.allclose(found, -1.2 * meters, rtol=1e-6, atol=1e-4 if key == "las" else 0)  # steps of 0.1 mm
-        elif found is not None:
-            assert np.allclose(found, -1.2)
+            assert np.allclose(height, -1.2 * meters, rtol=1e-6, atol=1e-4 if key == "las" else 0)  # steps of 0.1 mm
+        elif height is not None:
+            assert np.allclose(height, -1.2)
             assert np.load(BytesIO(files["_points.npz"]))["meters"] == meters
         else:
             assert f"lengths are in Blender units of {meters:g} m\n".encode() in next(iter(files.values()))[:200]
@@ -112,8 +114,8 @@ def test_poses_of_a_sequence_are_in_meters():
         crc.camera("SCANNER", (36, 16), crc.look_at((x, 0, 0), (9, 0, 0)), scanner_device="VLP_16") for x in (0, 1)
     ]
     for meters in SCALES:
-        for one in cameras:
-            one.record.settings[UNIT_SCALE] = meters
+        for cam in cameras:
+            cam.record.settings[UNIT_SCALE] = meters
         poses = dict(sequence(cameras, (0.0, 1.0)))["poses.txt"].split()
         assert np.array(poses[12:], float).reshape(3, 4)[:, 3] == pytest.approx((0, 0, meters))
 
@@ -135,12 +137,12 @@ UNITS = {
 @pytest.mark.parametrize("meters", SCALES)
 def test_every_reader_of_poses_has_the_unit_of_its_format(tmp_path, monkeypatch, meters):
     (tmp_path / "file").write_text("any")
-    place, sizes = np.eye(4), {"": 1.0, "m": 1.0 / meters, "cm": 1e-2 / meters, "mm": 1e-3 / meters}
-    place[:3, 3] = 1, 2, 3
-    for program in (one for one in PROGRAMS if one.poses is not None):
+    pose, sizes = np.eye(4), {"": 1.0, "m": 1.0 / meters, "cm": 1e-2 / meters, "mm": 1e-3 / meters}
+    pose[:3, 3] = 1, 2, 3
+    for program in (known for known in PROGRAMS if known.poses is not None):
         assert program.name in UNITS, f"UNITS of test_units.py has no entry for the lengths of {program.name}"
-        of_any = replace(program, poses=lambda document: [Placed("", "", None, place)])
+        of_any = replace(program, poses=lambda document: [Placed("", "", None, pose)])
         monkeypatch.setattr(camera_poses, "program_of", lambda document, of_any=of_any: of_any)
-        (found,) = camera_poses.placed_in(Document(str(tmp_path / "file")), meters)
-        assert np.allclose(found.pose[:3, 3], np.array((1, 2, 3)) * sizes[UNITS[program.name]], rtol=1e-12)
-        assert (found.pose[:3, :3] == np.eye(3)).all()
+        (placed,) = camera_poses.placed_in(Document(str(tmp_path / "file")), meters)
+        assert np.allclose(placed.pose[:3, 3], np.array((1, 2, 3)) * sizes[UNITS[program.name]], rtol=1e-12)
+        assert (placed.pose[:3, :3] == np.eye(3)).all()

@@ -51,11 +51,11 @@ def test_boxes_masks_and_areas_by_hand():
     assert (behind["area"], behind["area_whole"], behind["visible_fraction"]) == (160, 256, 0.625)
     assert before["bbox"] == before["bbox_whole"] == [32, 12, 16, 16]
     assert before["visible_fraction"] == 1
-    assert [one["object"] for one in annotations["hidden"]] == ["shape 2"]
+    assert [entry["object"] for entry in annotations["hidden"]] == ["shape 2"]
     assert annotations["hidden"][0]["bbox_whole"] == [28, 20, 8, 8]
     index = cast(CAMERA, WALLS, passes=("shape_index",))["shape_index"][::-1]
-    for one in annotations["annotations"]:
-        assert (unpacked(one["segmentation"]) == (index == one["shape_index"])).all()
+    for entry in annotations["annotations"]:
+        assert (unpacked(entry["segmentation"]) == (index == entry["shape_index"])).all()
     amodal = unpacked(annotations["annotations"][0]["segmentation_whole"])
     assert amodal[16:32, 24:40].all()
     assert amodal.sum() == 256
@@ -71,7 +71,7 @@ def test_objects_have_boxes_in_their_own_axes():
     assert (ball["image_id"], ball["category"], ball["instance"]) == (1, "wall", 0)
     assert square["size"] == [1, 1, 0]
     whole = merged([annotated(shapes=shapes), annotated(shapes=shapes)])
-    assert [one["image_id"] for one in whole["objects"]] == [1, 1, 2, 2]
+    assert [entry["image_id"] for entry in whole["objects"]] == [1, 1, 2, 2]
 
 
 def test_a_visible_part_has_a_box_of_its_own():
@@ -95,24 +95,24 @@ def test_a_border_is_a_part_of_the_frame_or_a_picture_of_its_own():
 def test_silhouettes_are_those_of_casts_without_the_others(key):
     camera = camera_from(raw_of(key, {"resolution_x": 64, "resolution_y": 48}))
     shapes = random_shapes(np.random.default_rng(0), 40)
-    found, index = silhouettes(camera, shapes)
-    assert len(found) > 2
-    for one in found:
+    outlines, index = silhouettes(camera, shapes)
+    assert len(outlines) > 2
+    for outline in outlines:
         far = shapes.center.copy()
-        others = np.arange(len(shapes)) != one.row
+        others = np.arange(len(shapes)) != outline.row
         far[others] = camera.pose.eye + np.array((0, 0, 1e6))
-        alone = cast(camera, replace(shapes, center=far), passes=("shape_index",))["shape_index"] == one.row
+        alone = cast(camera, replace(shapes, center=far), passes=("shape_index",))["shape_index"] == outline.row
         y, x = np.nonzero(alone)
-        assert one.whole == (x.min(), x.max() + 1, y.min(), y.max() + 1)
-        assert one.whole_pixels == alone.sum()
-        seen = index == one.row
-        assert one.visible_pixels == seen.sum()
-        assert (one.visible is None) == (not seen.any())
-        assert (one.alone == alone[slice(*one.whole[2:]), slice(*one.whole[:2])]).all()
+        assert outline.whole == (x.min(), x.max() + 1, y.min(), y.max() + 1)
+        assert outline.whole_pixels == alone.sum()
+        seen = index == outline.row
+        assert outline.visible_pixels == seen.sum()
+        assert (outline.visible is None) == (not seen.any())
+        assert (outline.alone == alone[slice(*outline.whole[2:]), slice(*outline.whole[:2])]).all()
     for passes in ("depth", "shape_index"), ("depth",):
         again, same_index = silhouettes(camera, shapes, cast(camera, shapes, passes=passes))
         assert (same_index == index).all()
-        assert [one.row for one in again] == [one.row for one in found]
+        assert [outline.row for outline in again] == [outline.row for outline in outlines]
 
 
 def test_a_shape_alone_has_the_holes_of_its_own_material():
@@ -130,10 +130,10 @@ def test_a_shape_that_moves_while_rows_are_read_has_the_box_of_its_picture():
 
     camera, shapes = evaluate(5.0)
     motion = resolve(evaluate, 4.75, 5.25, 0.01, 64)
-    (one,), index = silhouettes(*with_motion(camera, shapes, motion))
-    assert one.whole == one.visible
-    assert one.whole[1] - one.whole[0] > 16
-    assert one.whole_pixels == (index == 0).sum()
+    (outline,), index = silhouettes(*with_motion(camera, shapes, motion))
+    assert outline.whole == outline.visible
+    assert outline.whole[1] - outline.whole[0] > 16
+    assert outline.whole_pixels == (index == 0).sum()
 
 
 def timed(evaluate, first=4.75, last=5.25):
@@ -167,8 +167,8 @@ def test_key_points_of_what_moves_between_the_times_of_pixels_are_refused():
 def test_key_points_belong_to_the_object_and_not_to_its_instances():
     twice = replace(WALLS, names=("wall", "wall", "third"), instanced=(False, True, False))
     seen = seen_key_points(CAMERA, twice, [KeyPoint("corner", "wall", (-0.5, -0.5, -5.0))])
-    own, instance = annotated(shapes=twice, points=seen)["annotations"]
-    assert (own["num_keypoints"], instance["num_keypoints"]) == (1, 0)
+    original, instance = annotated(shapes=twice, points=seen)["annotations"]
+    assert (original["num_keypoints"], instance["num_keypoints"]) == (1, 0)
     assert instance["keypoints"] == [0, 0, 0]
 
 
@@ -178,9 +178,9 @@ def test_key_points_have_pixels_depths_and_are_hidden_as_they_are():
         KeyPoint("away", "shape 1", (9.0, 0.0, -5.0)), KeyPoint("free", "", (0.0, 1.0, -7.0)),
     ]  # fmt: skip
     seen = seen_key_points(CAMERA, WALLS, points)
-    assert [one.visibility.name for one in seen] == ["SEEN", "HIDDEN", "OUTSIDE", "SEEN"]
+    assert [point.visibility.name for point in seen] == ["SEEN", "HIDDEN", "OUTSIDE", "SEEN"]
     assert seen[0].pixel == pytest.approx((24, 16))
-    assert [one.depth for one in seen] == pytest.approx([5, 5, 5, 7])
+    assert [point.depth for point in seen] == pytest.approx([5, 5, 5, 7])
     annotations = annotated(points=seen)
     assert annotations["categories"][0]["keypoints"] == ["corner", "covered", "away"]
     first, second = annotations["annotations"]
@@ -196,7 +196,7 @@ def test_a_key_point_beside_the_border_is_outside_of_the_picture():
     points = [KeyPoint("left", "shape 0", (-0.5, -0.5, -5.0)), KeyPoint("right", "shape 0", (0.5, -0.5, -5.0))]
     border = timed_camera({}, use_border=True, border_min_x=0.5, border_max_x=1.0, border_min_y=0.0, border_max_y=0.5)
     seen = seen_key_points(border, WALLS, points)
-    assert [one.visibility.name for one in seen] == ["OUTSIDE", "SEEN"]
+    assert [point.visibility.name for point in seen] == ["OUTSIDE", "SEEN"]
     for sheet, right in ((SHEET, [40, 32, 2]), (Sheet(32, 24, (32, 0)), [8, 8, 2])):
         annotation = annotated(border, sheet=sheet, points=seen)["annotations"][0]
         assert annotation["keypoints"] == pytest.approx([0, 0, 0, *right])
@@ -210,8 +210,8 @@ def test_the_depth_of_a_key_point_is_that_of_the_depth_pass(key):
     rows, columns = [5, 20, 40], [9, 30, 60]
     points = [KeyPoint("", "", tuple(images["position"][at])) for at in zip(rows, columns, strict=True)]
     seen = seen_key_points(camera, shapes, points)
-    assert [one.depth for one in seen] == pytest.approx(images["depth"][rows, columns].tolist(), rel=1e-9)
-    assert {one.visibility for one in seen} == {Visibility.SEEN}
+    assert [point.depth for point in seen] == pytest.approx(images["depth"][rows, columns].tolist(), rel=1e-9)
+    assert {point.visibility for point in seen} == {Visibility.SEEN}
 
 
 def test_documents_are_merged_with_numbers_and_key_points_of_their_own():
@@ -221,12 +221,12 @@ def test_documents_are_merged_with_numbers_and_key_points_of_their_own():
     assert [image["id"] for image in both["images"]] == [1, 2, 3]
     assert [image["file_name"] for image in both["images"]] == ["a.png", "b.png", "c.png"]
     assert [category["name"] for category in both["categories"]] == ["wall", "shape 0", "shape 1", "shape 2"]
-    assert [one["id"] for one in both["annotations"]] == list(range(1, 7))
-    assert [one["category_id"] for one in both["annotations"]] == [1, 1, 1, 1, 2, 3]
-    assert [one.get("keypoints") for one in both["annotations"]] == [
+    assert [entry["id"] for entry in both["annotations"]] == list(range(1, 7))
+    assert [entry["category_id"] for entry in both["annotations"]] == [1, 1, 1, 1, 2, 3]
+    assert [entry.get("keypoints") for entry in both["annotations"]] == [
         [0, 0, 0], [0, 0, 0], pytest.approx([24, 32, 2]), [0, 0, 0], None, None,
     ]  # fmt: skip
-    assert [one["image_id"] for one in both["hidden"]] == [1, 2, 3]
+    assert [entry["image_id"] for entry in both["hidden"]] == [1, 2, 3]
     assert both["keypoints"][0]["image_id"] == 2
 
 

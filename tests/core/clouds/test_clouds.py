@@ -50,13 +50,13 @@ def test_times_are_seconds_after_the_frame():
 
 
 def test_noise_is_gaussian_and_repeats_with_its_seed():
-    one, same, other = (crc.scan(scanner(), SHAPES, noise=0.02, seed=seed) for seed in (1, 1, 2))
-    np.testing.assert_array_equal(one.range, same.range)
-    assert (one.range != other.range).all()
-    off = one.range - one.true_range
+    first, same, other = (crc.scan(scanner(), SHAPES, noise=0.02, seed=seed) for seed in (1, 1, 2))
+    np.testing.assert_array_equal(first.range, same.range)
+    assert (first.range != other.range).all()
+    off = first.range - first.true_range
     assert np.std(off) == pytest.approx(0.02, rel=4 / np.sqrt(2 * len(off)))  # four standard errors
     assert abs(off.mean()) < 4 * 0.02 / np.sqrt(len(off))
-    ahead = one.sensor - crc.scan(scanner(), SHAPES).sensor
+    ahead = first.sensor - crc.scan(scanner(), SHAPES).sensor
     np.testing.assert_allclose(np.linalg.norm(ahead, axis=1), np.abs(off), atol=1e-12)
 
 
@@ -122,25 +122,25 @@ def written(key, cloud=CLOUD, axes="sensor"):
 
 
 def test_kittis_points_and_labels():
-    found = written("kitti")
-    points = np.frombuffer(found[".bin"], "<f4").reshape(-1, 4)
+    files = written("kitti")
+    points = np.frombuffer(files[".bin"], "<f4").reshape(-1, 4)
     np.testing.assert_array_equal(points[:, :3], CLOUD.sensor.astype("f4"))
     assert 0 <= points[:, 3].min() < points[:, 3].max() <= 1
-    labels = np.frombuffer(found[".label"], "<u4")
+    labels = np.frombuffer(files[".label"], "<u4")
     np.testing.assert_array_equal(labels & 0xFFFF, CLOUD.category)
     np.testing.assert_array_equal(labels >> 16, CLOUD.instance)
 
 
 def test_the_layout_of_nuscenes():
     """x right, y ahead, z up, intensity to 255, ring; categories as bytes; 1000 category + instance."""
-    found = written("nuscenes")
-    points = np.frombuffer(found[".pcd.bin"], np.float32).reshape(-1, 5)
+    files = written("nuscenes")
+    points = np.frombuffer(files[".pcd.bin"], np.float32).reshape(-1, 5)
     np.testing.assert_array_equal(points[:, 0], -CLOUD.sensor[:, 1].astype("f4"))
     np.testing.assert_array_equal(points[:, 1], CLOUD.sensor[:, 0].astype("f4"))
     np.testing.assert_array_equal(points[:, 4], CLOUD.ring)
     assert 1 < points[:, 3].max() <= 255
-    np.testing.assert_array_equal(np.frombuffer(found["_lidarseg.bin"], np.uint8), CLOUD.category)
-    panoptic = np.load(BytesIO(found["_panoptic.npz"]))["data"]
+    np.testing.assert_array_equal(np.frombuffer(files["_lidarseg.bin"], np.uint8), CLOUD.category)
+    panoptic = np.load(BytesIO(files["_panoptic.npz"]))["data"]
     assert panoptic.dtype == np.uint16
     np.testing.assert_array_equal(panoptic, 1000 * CLOUD.category + 1)
 
@@ -194,14 +194,14 @@ def test_a_cloud_without_points_has_its_files(key):
 
 def test_a_sequence_has_the_poses_of_its_frames():
     cameras = [crc.camera("SCANNER", (8, 4), crc.look_at((x, 2.0, 1.0), (x + 1, 2.0 + x, 1.0))) for x in (0.0, 1.5)]
-    found = dict(sequence(cameras, [0.5, 0.6]))
-    poses = np.loadtxt(found["poses.txt"].splitlines()).reshape(-1, 3, 4)
+    files = dict(sequence(cameras, [0.5, 0.6]))
+    poses = np.loadtxt(files["poses.txt"].splitlines()).reshape(-1, 3, 4)
     np.testing.assert_allclose(poses[0], np.eye(4)[:3], atol=1e-12)
-    to_camera = np.vstack((np.array(found["calib.txt"].split("Tr: ")[1].split(), float).reshape(3, 4), (0, 0, 0, 1)))
+    to_camera = np.vstack((np.array(files["calib.txt"].split("Tr: ")[1].split(), float).reshape(3, 4), (0, 0, 0, 1)))
     moved = np.vstack((poses[1], (0, 0, 0, 1)))
     between = np.linalg.inv(to_camera) @ moved @ to_camera  # from the second scanner to the first
     expected = [np.eye(4), np.eye(4)]
-    for own, camera in zip(expected, cameras, strict=True):
-        own[:3, :3], own[:3, 3] = camera.pose.basis @ FROM_CAMERA.T, camera.pose.eye
+    for pose, camera in zip(expected, cameras, strict=True):
+        pose[:3, :3], pose[:3, 3] = camera.pose.basis @ FROM_CAMERA.T, camera.pose.eye
     np.testing.assert_allclose(between, np.linalg.inv(expected[0]) @ expected[1], atol=1e-12)
-    assert found["times.txt"].split() == ["0.000000000e+00", "1.000000000e-01"]
+    assert files["times.txt"].split() == ["0.000000000e+00", "1.000000000e-01"]

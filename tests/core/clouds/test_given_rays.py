@@ -48,12 +48,12 @@ def test_the_rays_of_a_camera_give_the_cloud_of_the_camera():
     """In another order; the pose gives the sensor's axes."""
     pose = crc.look_at((0, -1, 2), (5, 0, 1))
     cam = crc.camera("EQUIRECTANGULAR", (60, 30), pose)
-    right, found = crc.scan(cam, SHAPES), crc.scan(rays=cam.rays(), shapes=SHAPES, pose=pose)
-    assert found.size == right.size == (60, 30)
+    right, cloud = crc.scan(cam, SHAPES), crc.scan(rays=cam.rays(), shapes=SHAPES, pose=pose)
+    assert cloud.size == right.size == (60, 30)
     order = np.lexsort((right.column, right.row))
     for name in ("world", "sensor", "normal", "sensor_normal", "range", "row", "column", "ring", "instance"):
-        np.testing.assert_allclose(getattr(found, name), getattr(right, name)[order], rtol=0, atol=1e-12, err_msg=name)
-    np.testing.assert_allclose(found.pose, right.pose, atol=1e-15)
+        np.testing.assert_allclose(getattr(cloud, name), getattr(right, name)[order], rtol=0, atol=1e-12, err_msg=name)
+    np.testing.assert_allclose(cloud.pose, right.pose, atol=1e-15)
 
 
 @pytest.mark.parametrize(

@@ -46,7 +46,7 @@ def test_a_rotary_profile_is_a_scanner():
     assert (scanner.width, scanner.height) == (360, 3)
     assert scanner.model.limits == (0.5, 80.0)
     model = scanner.model
-    origin, direction = (np.array([np.broadcast_to(one, (3, 360)) for one in vector])
+    origin, direction = (np.array([np.broadcast_to(values, (3, 360)) for values in vector])
                          for vector in model.rays(np.arange(360) + 0.5, np.arange(3)[:, None] + 0.5))  # fmt: skip
     turned = 360 * 10 * 4e-6  # until the last emitter of a column fires
     for row, (azimuth, elevation, height) in enumerate(((0, -10, 0.01), (1.5, 0, 0), (-1.5, 12.5, -0.01))):

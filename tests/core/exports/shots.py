@@ -65,10 +65,10 @@ def pose(frame):
 
 def exported(key, name, folder, frames=FRAMES):
     """Export a camera into a folder, and return what was said."""
-    files, said = export_files(key, shots(name, frames))
+    files, remarks = export_files(key, shots(name, frames))
     for file, content in files:
         (folder / file).write_bytes(content if isinstance(content, bytes) else content.encode())
-    return said
+    return remarks
 
 
 def nearest(name, frames=FRAMES):
@@ -78,12 +78,12 @@ def nearest(name, frames=FRAMES):
 
 def views(name, count=200, frames=FRAMES):
     """For each of ``nearest``: points that it sees, (count, 3), and where, from the top left corner of its frame."""
-    found = []
+    seen = []
     for near in nearest(name, frames):
         width, height = near.raster.size
         random = np.random.default_rng(7)
         rays = near.rays_at(random.uniform(0, width, 2 * count), random.uniform(0, height, 2 * count))
         points = (rays.origins + rays.directions * random.uniform(0.5, 20, (2 * count, 1)))[rays.valid][:count]
         assert len(points) == count
-        found.append((points, near.project(points) * (1, -1) + (0, height)))
-    return found
+        seen.append((points, near.project(points) * (1, -1) + (0, height)))
+    return seen

@@ -66,8 +66,8 @@ def test_what_lets_rays_in_beside_the_chief_ray_comes_back():
     assert back.aperture == there.aperture is not None
     x, y = there.raster.columns(), there.raster.rows()
     for ours, theirs in zip(there.sample_rays(x, y, 3), back.sample_rays(x, y, 3), strict=True):
-        assert [part.tobytes() for part in map(np.asarray, ours)] == [
-            part.tobytes() for part in map(np.asarray, theirs)
+        assert [array.tobytes() for array in map(np.asarray, ours)] == [
+            array.tobytes() for array in map(np.asarray, theirs)
         ]
 
 
@@ -105,31 +105,31 @@ def test_a_time_image_comes_back():
 
 def test_cameras_and_frames_are_found_and_what_they_share_is_said_once(tmp_path):
     shot = [*shots("radtan"), *shots("perspective", [1, 2.5])]
-    ((name, text),), said = (list(part) for part in export_files("json", shot))
+    ((name, text),), remarks = (list(items) for items in export_files("json", shot))
     path = tmp_path / name
     path.write_text(text)
-    assert (name, said) == ("camera.json", [])
-    for one in shot:
-        assert_same(one.camera, crc.camera_from_json(path, frame=one.frame, camera=one.name))
-        assert_same(one.camera, crc.camera_from_json(str(path), one.frame, camera=one.name))
+    assert (name, remarks) == ("camera.json", [])
+    for view in shot:
+        assert_same(view.camera, crc.camera_from_json(path, frame=view.frame, camera=view.name))
+        assert_same(view.camera, crc.camera_from_json(str(path), view.frame, camera=view.name))
     assert_same(shot[0].camera, crc.camera_from_json(text, camera="radtan"))
     assert len(re.findall(r'"resolution_x"', text)) == len(re.findall('"formula"', text)) == 2
     document = json.loads(text, parse_constant=pytest.fail)
-    told = document["cameras"][1]["all_frames"]["camera"]
-    assert told["K"] == shot[-1].camera.K.tolist()
-    plane = np.array(told["plane_from_pixels"]) @ (12.5, 7.25, 1)
-    assert plane == pytest.approx([float(part) for part in shot[-1].camera.model.rays(12.5, 7.25)[1][:2]], rel=1e-14)
+    facts = document["cameras"][1]["all_frames"]["camera"]
+    assert facts["K"] == shot[-1].camera.K.tolist()
+    plane = np.array(facts["plane_from_pixels"]) @ (12.5, 7.25, 1)
+    assert plane == pytest.approx([float(value) for value in shot[-1].camera.model.rays(12.5, 7.25)[1][:2]], rel=1e-14)
 
 
 def test_the_zeros_of_a_matrix_keep_their_signs_and_what_is_no_number_stays_none():
     matrix = [[1.0, -0.0, 0, 0], [0, 1, 0.0, -0.0], [-0.0, 0, 1, 0], [0, 0, 0, 1]]
-    cameras = [camera("PERSP", LENS | {"use_dof": False, "aperture_ratio": math.nan, "matrix_world": one})
-               for one in (matrix, np.eye(4).tolist())]  # fmt: skip
-    ((_, text),) = export_files("json", [Shot("Camera", frame, one) for frame, one in enumerate(cameras)])[0]
+    cameras = [camera("PERSP", LENS | {"use_dof": False, "aperture_ratio": math.nan, "matrix_world": pose})
+               for pose in (matrix, np.eye(4).tolist())]  # fmt: skip
+    ((_, text),) = export_files("json", [Shot("Camera", frame, cam) for frame, cam in enumerate(cameras)])[0]
     json.loads(text, parse_constant=pytest.fail)
-    for frame, one in enumerate(cameras):
+    for frame, cam in enumerate(cameras):
         back = crc.camera_from_json(text, frame)
-        assert json.dumps(back.record.matrix_world) == json.dumps(one.record.matrix_world)
+        assert json.dumps(back.record.matrix_world) == json.dumps(cam.record.matrix_world)
         assert math.isnan(back.record.settings["aperture_ratio"])
 
 

@@ -31,8 +31,8 @@ def test_colmap_sees_points_where_we_do(tmp_path, name):
         ahead = (points @ turn.T + shift.T)[:, 2] > 0  # beside and behind itself COLMAP sees with panoramas alone
         ahead |= name == "panorama"
         assert np.count_nonzero(ahead) > 150
-        found = np.array(colmap(seen, str(tmp_path), number, points[ahead]))
-        assert np.abs(found - pixels[ahead]).max() < 1e-9
+        theirs = np.array(colmap(seen, str(tmp_path), number, points[ahead]))
+        assert np.abs(theirs - pixels[ahead]).max() < 1e-9
 
 
 @pytest.mark.parametrize("name", REFUSED)

@@ -25,8 +25,8 @@ def choices(key, made):
     """The formats that are named in place of one that refuses, and what it says before them."""
     with pytest.raises(InputError) as refusal:
         export_files(key, made)
-    said, _, names = str(refusal.value).partition(": choose one of ")
-    return said, names.removesuffix(", or Fit Nearest Lens (--fit)").split(", ")
+    reason, _, names = str(refusal.value).partition(": choose one of ")
+    return reason, names.removesuffix(", or Fit Nearest Lens (--fit)").split(", ")
 
 
 @pytest.mark.parametrize("key", ["PERSP", "CROSS_SLIT", "FISHEYE_EQUIDISTANT"])
@@ -37,9 +37,9 @@ def test_npz_has_the_rays_of_the_window(key):
     arrays = np.load(BytesIO(content))
     rays = there.rays()
     assert sorted(arrays) == ["area", "directions", "origins", "pose", "valid"]
-    for part in ("directions", "origins", "valid"):
-        assert arrays[part].dtype == getattr(rays, part).dtype
-        assert np.array_equal(arrays[part], getattr(rays, part), equal_nan=part == "directions")
+    for field in ("directions", "origins", "valid"):
+        assert arrays[field].dtype == getattr(rays, field).dtype
+        assert np.array_equal(arrays[field], getattr(rays, field), equal_nan=field == "directions")
 
 
 def test_npz_has_the_times_of_pixels():
@@ -47,15 +47,15 @@ def test_npz_has_the_times_of_pixels():
                              "time_evaluations": 4})  # fmt: skip
     arrays = np.load(BytesIO(files("npz", [Shot("Camera", 1, there)])["Camera_0001.npz"]))
     assert np.array_equal(arrays["time"], there.rays().time)
-    said, able = choices("colmap", [Shot("Camera", 1, there)])
-    assert said.endswith("each pixel of which has its own time")
+    reason, able = choices("colmap", [Shot("Camera", 1, there)])
+    assert reason.endswith("each pixel of which has its own time")
     assert {"npz", "json"} <= set(able)
     assert not {"colmap", "opencv", "ros", "stmap"} & set(able)
 
 
 @pytest.mark.parametrize("name", ["perspective", "shifted", "portrait", "pinhole"])
 def test_bop_projects_as_we_do(name):
-    made = [Shot(one.name, one.frame, one.camera, meters=0.5) for one in shots(name)]
+    made = [Shot(view.name, view.frame, view.camera, meters=0.5) for view in shots(name)]
     images = json.loads(files("bop", made)["scene_camera.json"])
     assert list(images) == ["1", "12", "10000"]
     for image, (points, pixels) in zip(images.values(), views(name), strict=True):
@@ -85,11 +85,11 @@ def test_transforms_json_projects_as_we_do(name):
         still = np.zeros(3)
         if document["camera_model"] == "OPENCV_FISHEYE":
             terms = np.array([frame[f"k{i}"] for i in (1, 2, 3, 4)])
-            found = cv2.fisheye.projectPoints(seen[:, None], still, still, K, terms)[0]
+            theirs = cv2.fisheye.projectPoints(seen[:, None], still, still, K, terms)[0]
         else:
             terms = np.array([frame[term] for term in ("k1", "k2", "p1", "p2", "k3")])
-            found = cv2.projectPoints(seen, still, still, K, terms)[0]
-        assert np.abs(found.reshape(-1, 2) - pixels).max() < 1e-9  # whose center of the first pixel is (0.5, 0.5)
+            theirs = cv2.projectPoints(seen, still, still, K, terms)[0]
+        assert np.abs(theirs.reshape(-1, 2) - pixels).max() < 1e-9  # whose center of the first pixel is (0.5, 0.5)
 
 
 def test_transforms_json_has_one_model():
@@ -100,13 +100,13 @@ def test_transforms_json_has_one_model():
 @pytest.mark.parametrize("name", CAMERAS)
 def test_each_format_writes_or_refuses_with_those_that_can(name):
     (shot,) = shots(name, [1])
-    able = {one.key for one in EXPORT_FORMATS if one.refusal(shot) is None}
+    able = {export.key for export in EXPORT_FORMATS if export.refusal(shot) is None}
     assert able >= {"npz", "json", "stmap"}
-    for one in EXPORT_FORMATS:
-        if one.key in able:
-            assert files(one.key, [shot])
+    for export in EXPORT_FORMATS:
+        if export.key in able:
+            assert files(export.key, [shot])
         else:
-            assert choices(one.key, [shot])[1] == [other.key for other in EXPORT_FORMATS if other.key in able]
+            assert choices(export.key, [shot])[1] == [other.key for other in EXPORT_FORMATS if other.key in able]
 
 
 @pytest.mark.parametrize("change", ["mirrored", "sheared"])
@@ -114,15 +114,15 @@ def test_axes_that_are_no_rotation_are_refused_where_poses_are_rotations(change)
     matrix = np.array(TURNED, float)
     matrix[:3, 0] = -matrix[:3, 0] if change == "mirrored" else matrix[:3, 0] + 0.01 * matrix[:3, 1]
     shot = Shot("Camera", 1, camera("PERSP", FRAME | {"matrix_world": matrix.tolist()}))
-    free = [one.key for one in EXPORT_FORMATS if not one.rigid]
+    free = [export.key for export in EXPORT_FORMATS if not export.rigid]
     assert {"ros", "stmap", "npz", "json"} <= set(free)
-    for one in EXPORT_FORMATS:
-        if one.rigid:
-            said, able = choices(one.key, [shot])
-            assert f"whose axes are {change}, " in said
+    for export in EXPORT_FORMATS:
+        if export.rigid:
+            reason, able = choices(export.key, [shot])
+            assert f"whose axes are {change}, " in reason
             assert able == free
         else:
-            assert files(one.key, [shot])
+            assert files(export.key, [shot])
 
 
 def test_ros_has_every_letter_of_a_name():

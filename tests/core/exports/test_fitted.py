@@ -20,17 +20,17 @@ ERROR = re.compile(r"at most ([\d.e+-]+) and in the mean ([\d.e+-]+) pixels away
 
 
 def files(key, name, fit, frames=(1, 12)):
-    made, said = export_files(key, shots(name, frames), fit)
-    return dict(made), said
+    made, remarks = export_files(key, shots(name, frames), fit)
+    return dict(made), remarks
 
 
 @pytest.mark.full
 @pytest.mark.parametrize(("name", "kind"), [("division", "FISHEYE624"), ("eucm", "FISHEYE624")])
 def test_opencv_reads_the_nearest_lens_and_errs_as_it_says(name, kind, tmp_path):
     """Each pixel's ray, projected by OpenCV with the written numbers."""
-    made, said = files("opencv", name, 1.0)
+    made, remarks = files("opencv", name, 1.0)
     (text,) = made.values()
-    remark = next(line for line in said if line.startswith(name))
+    remark = next(line for line in remarks if line.startswith(name))
     assert text.startswith(f"%YAML:1.0\n---\n# {remark}\n")
     (tmp_path / "a.yml").write_text(text)
     file = cv2.FileStorage(str(tmp_path / "a.yml"), cv2.FILE_STORAGE_READ)
@@ -52,14 +52,14 @@ def test_opencv_reads_the_nearest_lens_and_errs_as_it_says(name, kind, tmp_path)
     assert mean == pytest.approx(away.mean(), rel=0.06)
 
 
-@pytest.mark.parametrize("key", [one.key for one in EXPORT_FORMATS if isinstance(one, ProgramFormat) and one.table])
+@pytest.mark.parametrize("key", [kind.key for kind in EXPORT_FORMATS if isinstance(kind, ProgramFormat) and kind.table])
 def test_every_format_of_lenses_states_the_error(key):
     if key == "nerf":  # has one focal length, and the center in the middle
         with pytest.raises(InputError, match="no lens of NeRF can be fitted to the Field of View"):
             files(key, "fov", 0.6)
         return
-    made, said = files(key, "stereographic" if key == "kalibr" else "fov", 0.6 if key != "bop" else 0.2, (1,))
-    fits = [line for line in said if "fitted to its" in line]
+    made, remarks = files(key, "stereographic" if key == "kalibr" else "fov", 0.6 if key != "bop" else 0.2, (1,))
+    fits = [line for line in remarks if "fitted to its" in line]
     if key == "colmap":  # has this lens itself
         assert not fits
         return
@@ -72,10 +72,10 @@ def test_every_format_of_lenses_states_the_error(key):
 
 
 def test_colmap_s_text_is_read_with_its_head(tmp_path):
-    made, said = files("colmap", "omnidir", 1.0)
-    assert "omnidir: fitted to its Unified (UCM, Mei), within 57.3 degrees" in said[-1]
+    made, remarks = files("colmap", "omnidir", 1.0)
+    assert "omnidir: fitted to its Unified (UCM, Mei), within 57.3 degrees" in remarks[-1]
     for name, text in made.items():
-        assert text.startswith(f"# {said[-1]}\n")
+        assert text.startswith(f"# {remarks[-1]}\n")
         (tmp_path / name).write_text(text)
     cameras, images = colmap(read, str(tmp_path))
     assert (len(cameras), len(images)) == (1, 2)
@@ -88,12 +88,12 @@ def test_what_a_format_has_is_written_as_before():
 
 def test_what_is_far_from_all_lenses_is_refused_in_one_line(tmp_path):
     fisheye = crc.camera("MIRRORBALL", (64, 64))
-    for given, words in (
+    for arguments, words in (
         (("bop", fisheye, True), "no lens of BOP is like the Mirror Ball|can be fitted"),
         (("opencv", crc.camera("ORTHO", (64, 64)), True), "OpenCV cannot represent the Orthographic"),
         (("opencv", fisheye, 4.0), "fit is 4.0: as an angle it must be above 0, up to pi"),
     ):
-        key, camera, fit = given
+        key, camera, fit = arguments
         with pytest.raises(InputError, match=words) as caught:
             crc.export(camera, tmp_path / "out", key, fit=fit)
         assert "\n" not in str(caught.value)

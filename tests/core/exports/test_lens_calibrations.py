@@ -26,7 +26,7 @@ def pixels_of(lens, cam, points):
 
 @pytest.mark.parametrize("key", [model.key for model in MODELS])
 def test_a_calibration_of_a_camera_has_its_rays(key):
-    examples = [*EXAMPLES[key], *(settings for own, settings in CAMERAS.values() if own == key)]
+    examples = [*EXAMPLES[key], *(settings for model, settings in CAMERAS.values() if model == key)]
     for settings in examples:
         there = camera(key, {**settings, "matrix_world": IDENTITY})
         width, height = there.model.size

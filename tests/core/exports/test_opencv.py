@@ -20,13 +20,13 @@ def read(path):
     """What OpenCV reads in a file: matrices, numbers and lists of numbers."""
     file = cv2.FileStorage(str(path), cv2.FILE_STORAGE_READ)
     root = file.root()
-    found = {}
+    nodes = {}
     for name in root.keys():  # noqa: SIM118 (it is no mapping)
         node = root.getNode(name)
-        found[name] = node.mat() if node.isMap() else node.real() if not node.isSeq() else [
+        nodes[name] = node.mat() if node.isMap() else node.real() if not node.isSeq() else [
             node.at(i).real() for i in range(node.size())
         ]  # fmt: skip
-    return found
+    return nodes
 
 
 def project(file, row, points):
@@ -54,8 +54,8 @@ def test_opencv_sees_points_where_we_do(tmp_path, name):
         ahead = (points @ cv2.Rodrigues(turn)[0].T + move)[:, 2] > 0  # others OpenCV sees only with omnidir
         ahead |= "xi" in file
         assert np.count_nonzero(ahead) > 150
-        found = project(file, row, points[ahead]) + 0.5
-        assert np.abs(found - pixels[ahead]).max() < 1e-9
+        theirs = project(file, row, points[ahead]) + 0.5
+        assert np.abs(theirs - pixels[ahead]).max() < 1e-9
 
 
 @pytest.mark.parametrize("name", REFUSED)

@@ -22,14 +22,14 @@ def test_mrcal_sees_points_where_we_do(tmp_path, name):
     for frame, (points, pixels) in zip(("0001", "0012", "10000"), views(name), strict=True):
         model = mrcal.cameramodel(str(tmp_path / f"{name}_{frame}.cameramodel"))
         seen = mrcal.transform_point_rt(model.rt_cam_ref(), points)
-        found = mrcal.project(seen, *model.intrinsics()) + 0.5
+        theirs = mrcal.project(seen, *model.intrinsics()) + 0.5
         if model.intrinsics()[0] == "LENSMODEL_LONLAT":  # which is within half a turn of the middle
             turn = 2 * np.pi * model.intrinsics()[1][0]
-            found[:, 0] += turn * np.rint((pixels - found)[:, 0] / turn)
+            theirs[:, 0] += turn * np.rint((pixels - theirs)[:, 0] / turn)
         ahead = np.ones(200, bool) if CAMERAS[name][0] == "EQUIRECTANGULAR" else seen[:, 2] > 0
         assert np.count_nonzero(ahead) > 150
         assert model.imagersize().tolist() == [CAMERAS[name][1]["resolution_x"], CAMERAS[name][1]["resolution_y"]]
-        assert np.abs(found - pixels)[ahead].max() < 1e-9
+        assert np.abs(theirs - pixels)[ahead].max() < 1e-9
 
 
 @pytest.mark.parametrize("name", ROS)
@@ -37,15 +37,15 @@ def test_ros_rectifies_pixels_to_the_rays_of_points(tmp_path, name):
     image_geometry = pytest.importorskip("image_geometry")
     yaml, messages = pytest.importorskip("yaml"), pytest.importorskip("sensor_msgs.msg")
     exported("ros", name, tmp_path)
-    said = yaml.safe_load((tmp_path / f"{name}.yaml").read_text())
+    written = yaml.safe_load((tmp_path / f"{name}.yaml").read_text())
     info = messages.CameraInfo(
-        width=said["image_width"], height=said["image_height"], distortion_model=said["distortion_model"],
-        D=said["distortion_coefficients"]["data"], K=said["camera_matrix"]["data"],
-        R=said["rectification_matrix"]["data"], P=said["projection_matrix"]["data"],
+        width=written["image_width"], height=written["image_height"], distortion_model=written["distortion_model"],
+        D=written["distortion_coefficients"]["data"], K=written["camera_matrix"]["data"],
+        R=written["rectification_matrix"]["data"], P=written["projection_matrix"]["data"],
     )  # fmt: skip
     model = image_geometry.PinholeCameraModel()
     model.fromCameraInfo(info)
-    assert said["camera_name"] == name
+    assert written["camera_name"] == name
     apart = []
     for near, (points, pixels) in zip(nearest(name), views(name), strict=True):
         seen = points @ near.opencv_from_world[:3, :3].T + near.opencv_from_world[:3, 3]
@@ -67,5 +67,5 @@ def test_nerfbaselines_sees_points_where_we_do(tmp_path, name):
     path.write_text(json.dumps(document))
     cameras = load_nerfstudio_dataset(tmp_path, "train", downscale_factor=1)["cameras"]
     for row, (points, pixels) in enumerate(views(name)):
-        found = project(cameras[row : row + 1], points.astype(np.float32))
-        assert np.abs(found - pixels).max() < 640 * 4e-6  # float32, of places 20 away
+        theirs = project(cameras[row : row + 1], points.astype(np.float32))
+        assert np.abs(theirs - pixels).max() < 640 * 4e-6  # float32, of places 20 away

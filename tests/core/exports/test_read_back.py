@@ -15,10 +15,10 @@ READ = {
 }  # fmt: skip
 """The file of each format that is read, too."""
 PAIRS = [
-    (one.key, name)
-    for one in EXPORT_FORMATS
+    (export.key, name)
+    for export in EXPORT_FORMATS
     for name in CAMERAS
-    if one.key in READ and one.refusal(shots(name, [1])[0]) is None and CAMERAS[name][0] != "EQUIRECTANGULAR"
+    if export.key in READ and export.refusal(shots(name, [1])[0]) is None and CAMERAS[name][0] != "EQUIRECTANGULAR"
 ]
 
 
@@ -28,7 +28,7 @@ def test_our_own_reader_makes_the_same_camera_of_it(tmp_path, key, name):
     exported(key, name, tmp_path, [1])
     path, raw = tmp_path / READ[key].format(name), shot.camera.record
     (lens,) = lenses_of(str(path), "OPENCV_PINHOLE")
-    frame = {part: getattr(raw, part) for part in ("resolution_x", "resolution_y", "matrix_world")}
+    frame = {field: getattr(raw, field) for field in ("resolution_x", "resolution_y", "matrix_world")}
     back = camera(lens.model, frame | {"calibration_file": str(path)})
     ((points, _),) = views(name, frames=[1])
     assert np.abs(back.project(points) - shot.camera.project(points)).max() < 1e-9

@@ -36,16 +36,16 @@ def rig(frames=FRAMES, lens=("radtan", "fisheye", "unified")):
 def test_a_camchain_is_the_rig(tmp_path):
     rig_shots = rig()
     written("kalibr", rig_shots, tmp_path)
-    found = mounted(str(tmp_path / "camchain.yaml"), "", (640, 480), 24)
-    assert [one.lens.model for one in found] == ["OPENCV_PINHOLE", "OPENCV_FISHEYE", "UCM"]
+    mounts = mounted(str(tmp_path / "camchain.yaml"), "", (640, 480), 24)
+    assert [mount.lens.model for mount in mounts] == ["OPENCV_PINHOLE", "OPENCV_FISHEYE", "UCM"]
     first = np.linalg.inv(with_rotation(rig_shots[0].camera)[0].opencv_from_world)
-    for one, shot in zip(found, rig_shots, strict=False):
+    for mount, shot in zip(mounts, rig_shots, strict=False):
         beside = np.linalg.inv(first) @ np.linalg.inv(with_rotation(shot.camera)[0].opencv_from_world)
         beside[:3, 3] *= 0.5  # meters
-        assert np.abs(one.poses[0] @ np.diag((1, -1, -1, 1)) - beside).max() < 1e-6
+        assert np.abs(mount.poses[0] @ np.diag((1, -1, -1, 1)) - beside).max() < 1e-6
         for name, value in shot.camera.settings.items():
-            if name in one.lens.settings and not name.startswith("cal"):
-                assert one.lens.settings[name] == pytest.approx(value, rel=1e-12)
+            if name in mount.lens.settings and not name.startswith("cal"):
+                assert mount.lens.settings[name] == pytest.approx(value, rel=1e-12)
 
 
 def test_a_rig_whose_cameras_move_is_no_camchain():
@@ -62,23 +62,23 @@ def test_a_trajectory_has_the_poses(tmp_path, key):
     near = [with_rotation(shot.camera)[0].pose for shot in path_shots]
     if key == "kitti":
         rows = np.loadtxt(tmp_path / "panorama_kitti.txt").reshape(-1, 3, 4)
-        found = [row @ np.diag((1, -1, -1, 1)) for row in rows]
+        poses = [row @ np.diag((1, -1, -1, 1)) for row in rows]
     else:
         (path,) = mounted(str(next(tmp_path.iterdir())), "", (640, 480), 24)
-        found = path.poses
+        poses = path.poses
         assert path.frames == pytest.approx([1, 12, 10000], abs=1e-6)
-    for one, own in zip(found, near, strict=True):
-        assert np.abs(one[:3, :3] - own.basis).max() < 1e-14 if key == "kitti" else True
-        assert np.abs(one[:3, 3] - own.eye).max() < 1e-14
+    for matrix, nearest in zip(poses, near, strict=True):
+        assert np.abs(matrix[:3, :3] - nearest.basis).max() < 1e-14 if key == "kitti" else True
+        assert np.abs(matrix[:3, 3] - nearest.eye).max() < 1e-14
 
 
 def test_nerfs_files_have_every_picture_once(tmp_path):
     views = [Shot("a", frame, camera("PERSP", {"resolution_x": 640, "resolution_y": 480, "matrix_world": pose(frame)}))
              for frame in range(1, 24)]  # fmt: skip
     written("nerf", views, tmp_path)
-    parts = {part: json.loads((tmp_path / f"transforms_{part}.json").read_text()) for part in ("train", "val", "test")}
-    assert {part: len(one["frames"]) for part, one in parts.items()} == {"train": 19, "val": 2, "test": 2}
-    assert len({frame["file_path"] for one in parts.values() for frame in one["frames"]}) == 23
+    parts = {name: json.loads((tmp_path / f"transforms_{name}.json").read_text()) for name in ("train", "val", "test")}
+    assert {name: len(document["frames"]) for name, document in parts.items()} == {"train": 19, "val": 2, "test": 2}
+    assert len({frame["file_path"] for document in parts.values() for frame in document["frames"]}) == 23
     (camera_,) = mounted(str(tmp_path / "transforms_val.json"), "", (640, 480), 24)
     assert camera_.frames == [8, 18]
     assert camera_.lens.settings["fx"] == pytest.approx(views[0].camera.K[0, 0], rel=1e-14)

@@ -28,8 +28,8 @@ PAIRS = {
 
 def maps(source, target, frame=7):
     shot = Shot("Lens", frame, camera(*source), target=None if target is None else camera(*target))
-    files, said = export_files("stmap", [shot])
-    return shot.camera, dict(files), said
+    files, remarks = export_files("stmap", [shot])
+    return shot.camera, dict(files), remarks
 
 
 def picture(camera):
@@ -52,10 +52,10 @@ def warp(picture, st_map, folder):
 @pytest.mark.cases(1)
 @pytest.mark.parametrize("pair", PAIRS)
 def test_a_warped_picture_is_the_other_cameras(pair, tmp_path):
-    one, other = PAIRS[pair]
-    camera_one, files, said = maps(one, other)
+    first, other = PAIRS[pair]
+    camera_one, files, remarks = maps(first, other)
     camera_other = camera(*other) if other else perspective_of(camera_one)
-    assert said == []
+    assert remarks == []
     assert sorted(files) == ["Lens_0007_distort.exr", "Lens_0007_undistort.exr"]
     for name, source, target in (("undistort", camera_one, camera_other), ("distort", camera_other, camera_one)):
         st = files[f"Lens_0007_{name}.exr"]
@@ -63,12 +63,12 @@ def test_a_warped_picture_is_the_other_cameras(pair, tmp_path):
         assert st.dtype == np.float32
         (before, had), (after, has) = picture(source), picture(target)
         warped = warp(before, st[::-1], tmp_path)
-        s, t, found = np.moveaxis(st[::-1], -1, 0)
+        s, t, alpha = np.moveaxis(st[::-1], -1, 0)
         width, height = source.raster.size
         # within the picture, and its rays, by the filter's reach
         column, row = np.clip(s * width, 0, width - 1).astype(int), np.clip((1 - t) * height, 0, height - 1).astype(int)
         reach = [(down, over) for down in (-2, 0, 2) for over in (-2, 0, 2)]
-        inside = (np.abs(s * 2 - 1) < 1 - 6 / width) & (np.abs(t * 2 - 1) < 1 - 6 / height) & (found == 1) & has
+        inside = (np.abs(s * 2 - 1) < 1 - 6 / width) & (np.abs(t * 2 - 1) < 1 - 6 / height) & (alpha == 1) & has
         for down, over in reach:
             inside &= had[np.clip(row + down, 0, height - 1), np.clip(column + over, 0, width - 1)]
         assert np.count_nonzero(inside) > 10_000
@@ -85,8 +85,8 @@ def test_a_pixel_without_a_place_says_so():
 
 
 def test_what_the_places_of_the_eyes_mean_is_said():
-    _, _, said = maps(("PERSP", TURNED), ("PERSP", FRAME))
-    (line,) = said
+    _, _, remarks = maps(("PERSP", TURNED), ("PERSP", FRAME))
+    (line,) = remarks
     assert "'Camera' and 'Camera' are " in line
     assert line.endswith(" apart: the maps are exact for distant objects only")
 

@@ -43,11 +43,11 @@ def test_each_line_has_the_sine_law_of_the_ray_that_is_drawn():
     points = np.concatenate((path.points, [path.points[-1] + path.direction]))[::-1]  # as light goes
     for line in lines:
         number, _, radius, before, in_front, behind, at_back, product = LINE.fullmatch(line).groups()
-        place, surface = int(number), model.optics.surfaces[int(number) - 1]
+        k, surface = int(number), model.optics.surfaces[int(number) - 1]
         center = np.array((0, 0, (surface.z + float(radius) - model.pupil) * model.unit))
-        normal = (points[place] - center) / np.linalg.norm(points[place] - center)
-        for end, angle in ((place - 1, in_front), (place + 1, at_back)):
-            leg = points[end] - points[place]
+        normal = (points[k] - center) / np.linalg.norm(points[k] - center)
+        for end, angle in ((k - 1, in_front), (k + 1, at_back)):
+            leg = points[end] - points[k]
             sine = np.linalg.norm(np.cross(leg / np.linalg.norm(leg), normal))
             assert np.degrees(np.arcsin(sine)) == pytest.approx(float(angle), rel=2e-4)
         for index, angle in ((before, in_front), (behind, at_back)):

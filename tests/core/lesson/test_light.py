@@ -23,7 +23,7 @@ def color_of(shapes, column=16, row=16, **look):
 
 def numbers(line):
     """The last vector of a line."""
-    return np.array([float(part) for part in line.rsplit("(", 1)[1].rstrip(")").split(",")])
+    return np.array([float(number) for number in line.rsplit("(", 1)[1].rstrip(")").split(",")])
 
 
 def test_each_lamps_share_by_hand():

@@ -30,9 +30,9 @@ ANY = {1: ((-2.3,), (0.7,), (1e-9,)), 2: ((-2.3, 0.7), (0.7, -2.5), (3.25, 4.5))
 def partials(function, *inputs):
     """The partial derivatives of a function's one output, 0 where they are none."""
     its_record = record(lambda *x: [function(*x)], len(inputs))
-    (found,) = differentiate(its_record, inputs)
-    np.testing.assert_array_equal(found.value, its_record.evaluate(NUMPY, inputs)[0])
-    return [0.0 if partial is None else partial for partial in found.partials]
+    (dual,) = differentiate(its_record, inputs)
+    np.testing.assert_array_equal(dual.value, its_record.evaluate(NUMPY, inputs)[0])
+    return [0.0 if partial is None else partial for partial in dual.partials]
 
 
 @pytest.mark.parametrize("name", sorted(NUMERIC | COMPARISONS))
@@ -40,14 +40,14 @@ def test_an_operation_has_the_slopes_that_differences_of_sixty_digits_have(name)
     ufunc = getattr(np, name)
     exact = MPMATH[name]
     for inputs in INPUTS.get(name, ANY[ufunc.nin]):
-        for k, found in enumerate(partials(ufunc, *inputs)):
+        for k, partial in enumerate(partials(ufunc, *inputs)):
             with mp.workdps(60):
                 ahead, behind = (
                     exact(*(mpf(value) + (side * STEP if k == i else 0) for i, value in enumerate(inputs)))
                     for side in (1, -1)
                 )
                 slope = (mpf(ahead) - mpf(behind)) / (2 * STEP)
-                assert abs(mpf(float(found)) - slope) <= ROUNDED * abs(slope) + STEP
+                assert abs(mpf(float(partial)) - slope) <= ROUNDED * abs(slope) + STEP
 
 
 def test_derivatives_by_several_numbers_follow_the_chain_rule_and_broadcast():
@@ -58,9 +58,9 @@ def test_derivatives_by_several_numbers_follow_the_chain_rule_and_broadcast():
 
 
 def test_what_is_known_to_be_0_costs_nothing():
-    constant, own, both = differentiate(record(lambda x, y: [2.5, np.exp(y), x + y], 2), (np.ones(3), np.ones(3)))
+    constant, of_y, both = differentiate(record(lambda x, y: [2.5, np.exp(y), x + y], 2), (np.ones(3), np.ones(3)))
     assert constant.partials == (None, None)
-    assert own.partials[0] is None
+    assert of_y.partials[0] is None
     assert both.partials == (1.0, 1.0)
 
 
@@ -107,16 +107,16 @@ def test_a_step_of_newton_after_a_loop_has_the_derivative_of_the_root():
 
 
 def test_what_begins_an_iteration_may_carry_no_derivatives():
-    (found,) = differentiate(record(lambda x: [2 * stop_gradient(3 * x)], 1), [1.5])
-    assert found == (9.0, (None,))
+    (dual,) = differentiate(record(lambda x: [2 * stop_gradient(3 * x)], 1), [1.5])
+    assert dual == (9.0, (None,))
     assert stop_gradient(1.5) == 1.5
 
 
 def test_an_inverse_has_the_derivative_of_the_root_wherever_it_began():
     inverse = Inverse(lambda x: x + 0.3 * x**3, lambda x: 1 + 0.9 * x**2, 0.0, 2.0)
     x = np.concatenate(([0.0, 1e-300], np.linspace(0.01, 2.0, 200)))
-    (found,) = partials(inverse, inverse.function(x))
-    np.testing.assert_allclose(found, 1 / inverse.derivative(x), rtol=ROUNDED)
+    (slope,) = partials(inverse, inverse.function(x))
+    np.testing.assert_allclose(slope, 1 / inverse.derivative(x), rtol=ROUNDED)
 
 
 def test_an_inverse_settles_soon_also_where_rounding_moves_it_to_and_fro():
@@ -124,9 +124,9 @@ def test_an_inverse_settles_soon_also_where_rounding_moves_it_to_and_fro():
     x, rounds = np.linspace(0.01, 2.09, 2000), []
     counted = NUMPY | {"all": lambda settled: rounds.append(settled) or NUMPY["all"](settled)}
     target = np.append(inverse.function(x), inverse.function(2.1) + 1)  # the last is outside
-    (found,) = record(lambda y: [inverse(y)], 1).evaluate(counted, (target,))
-    np.testing.assert_allclose(found[:-1], x, rtol=1e-13)
-    assert np.isnan(found[-1])
+    (root,) = record(lambda y: [inverse(y)], 1).evaluate(counted, (target,))
+    np.testing.assert_allclose(root[:-1], x, rtol=1e-13)
+    assert np.isnan(root[-1])
     assert len(rounds) <= 16
 
 

@@ -18,12 +18,12 @@ def test_rounding_does_not_lead_back_and_forth_between_two_numbers():
         return x * (1 + s * (k[0] + s * (k[1] + s * (k[2] + s * (k[3] + s * (k[4] + s * k[5]))))))
 
     def slope(x):
-        return np.polynomial.polynomial.polyval(x * x, [1, *((2 * i + 3) * one for i, one in enumerate(k))])
+        return np.polynomial.polynomial.polyval(x * x, [1, *((2 * i + 3) * term for i, term in enumerate(k))])
 
     inverse = Inverse(function, slope, 0.0, 1.4)
     target = np.linspace(0, float(function(1.4)), 200_001)
     calls = 0
-    found = inverse(target)
+    root = inverse(target)
     assert calls < 64  # the bits of a bracket, and some
     # the terms are up to 100 times as large as the target
-    assert np.abs(function(found) - target).max() < 256 * EPS * target.max()
+    assert np.abs(function(root) - target).max() < 256 * EPS * target.max()

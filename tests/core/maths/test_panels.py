@@ -62,8 +62,8 @@ def test_a_pixel_has_the_same_value_in_whatever_part_of_the_picture():
     whole = on_raster(smooth, x, y)
     for low, high, left, right in ((0, 40, 0, 700), (100, 460, 95, 400), (143, 200, 0, 300)):
         rows, columns = slice(low, high), slice(left, right)
-        part = on_raster(smooth, x[:, columns], y[rows])
-        np.testing.assert_array_equal(part, whole[:, rows, columns])
+        alone = on_raster(smooth, x[:, columns], y[rows])
+        np.testing.assert_array_equal(alone, whole[:, rows, columns])
 
 
 @pytest.mark.parametrize(
@@ -79,8 +79,8 @@ def test_a_pixel_has_the_same_value_in_whatever_part_of_the_picture():
     ids=["a pixel", "a list", "a row", "a narrow window", "every other pixel", "beside the centers"],
 )
 def test_other_places_are_asked_each_for_itself(x, y):
-    for found, exact in zip(on_raster(smooth, x, y), smooth(x, y), strict=True):
-        np.testing.assert_array_equal(found, exact)
+    for ours, exact in zip(on_raster(smooth, x, y), smooth(x, y), strict=True):
+        np.testing.assert_array_equal(ours, exact)
 
 
 def test_where_polynomials_are_not_right_the_function_is_asked():
@@ -93,9 +93,9 @@ def test_where_polynomials_are_not_right_the_function_is_asked():
 
     x, y = centers(1920, 1080)
     function = Counted(rough)
-    found, exact = on_raster(function, x, y), np.stack(rough(x, y))
-    np.testing.assert_array_equal(np.isnan(found), np.isnan(exact))
-    assert np.nanmax(np.abs(found - exact)) < 16 * EPS * np.nanmax(exact)
+    ours, exact = on_raster(function, x, y), np.stack(rough(x, y))
+    np.testing.assert_array_equal(np.isnan(ours), np.isnan(exact))
+    assert np.nanmax(np.abs(ours - exact)) < 16 * EPS * np.nanmax(exact)
     assert 0.2 < function.asked / exact[0].size < 0.9
 
 
@@ -120,9 +120,9 @@ def test_outside_a_disc_there_is_nothing_and_only_points_of_panels_are_asked(mid
 
     x, y = centers(1000, 800)
     function = Counted(ending if ends else values)
-    found, exact = on_raster(function, x, y, Disc(middle, holds)), np.stack(list(ending(x, y)))
+    ours, exact = on_raster(function, x, y, Disc(middle, holds)), np.stack(list(ending(x, y)))
     largest = 2.0  # in a panel at the rim
-    np.testing.assert_allclose(found, exact, rtol=0, atol=(8 + COEFFICIENT_ROUNDING) * EPS * largest)
+    np.testing.assert_allclose(ours, exact, rtol=0, atol=(8 + COEFFICIENT_ROUNDING) * EPS * largest)
     assert function.asked < most * x.size * y.size
 
 
@@ -135,11 +135,11 @@ def test_the_rays_of_a_picture_are_within_their_bounds(name):
     rng = np.random.default_rng(7)
     columns, rows = rng.integers(0, 700, 40), rng.integers(0, 500, 40)
     whole = cam.camera_rays(cam.raster.columns(), cam.raster.rows())[1]
-    picture = np.stack([np.broadcast_to(part, (500, 700))[rows, columns] for part in whole]).T @ cam.pose.basis.T
+    picture = np.stack([np.broadcast_to(values, (500, 700))[rows, columns] for values in whole]).T @ cam.pose.basis.T
     x, y = columns + 0.5, rows + 0.5
     bound = world_rays(cam, x, y).direction_error
     alone = np.stack(cam.camera_rays(x, y)[1][:2])
-    assert (alone != np.stack([np.broadcast_to(part, (500, 700))[rows, columns] for part in whole[:2]])).any()
+    assert (alone != np.stack([np.broadcast_to(values, (500, 700))[rows, columns] for values in whole[:2]])).any()
     for k in range(40):
         exact = truth.ray(raw, x[k], y[k])
         error = truth.norm([truth.mpf(p) - e for p, e in zip(picture[k], exact.direction, strict=True)])

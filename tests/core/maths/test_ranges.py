@@ -32,18 +32,18 @@ def held(function, count):
     high = low + 10 ** rng.uniform(-3, 0.7, low.shape)
     inside = low + (high - low) * np.concatenate(([0, 1], rng.uniform(size=60)))
     recorded = record(lambda *x: [function(*x)], count)
-    (found,) = ranges(recorded, list(zip(low, high, strict=True)))
+    (interval,) = ranges(recorded, list(zip(low, high, strict=True)))
     with np.errstate(all="ignore"):
         (values,) = recorded.evaluate(NUMPY, inside)
     if function.__name__ in DOMAIN:
         values = np.where(DOMAIN[function.__name__](*inside), values, np.nan)
     values = np.broadcast_to(values, inside[0].shape)
     off = 16 * EPS * np.maximum(1, np.abs(values))
-    none, gaps = np.isnan(values), np.broadcast_to(found.has_gaps, low[0].shape)
-    assert ((found.low <= values + off) & (values <= found.high + off) | none).all()
+    none, gaps = np.isnan(values), np.broadcast_to(interval.has_gaps, low[0].shape)
+    assert ((interval.low <= values + off) & (values <= interval.high + off) | none).all()
     assert gaps[none.any(axis=1) & ~none.all(axis=1)].all()
     with np.errstate(all="ignore"):
-        wide = (found.high - found.low)[:, 0] / (np.nanmax(values, axis=1) - np.nanmin(values, axis=1))
+        wide = (interval.high - interval.low)[:, 0] / (np.nanmax(values, axis=1) - np.nanmin(values, axis=1))
     return wide
 
 

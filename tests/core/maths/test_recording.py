@@ -31,8 +31,8 @@ each_model = pytest.mark.parametrize("key", [model.key for model in MODELS])
 def evaluate(function, *inputs):
     """The one output of a function's record, in float64."""
     with np.errstate(all="ignore"):
-        (found,) = record(lambda *x: [function(*x)], len(inputs)).evaluate(NUMPY, inputs)
-    return found
+        (value,) = record(lambda *x: [function(*x)], len(inputs)).evaluate(NUMPY, inputs)
+    return value
 
 
 def operations(function, count=2):
@@ -46,20 +46,22 @@ def test_every_model_is_recorded_and_its_record_gives_its_rays(key):
         cam = camera(key, settings)
         six = lambda x, y: sum(map(tuple, cam.model.rays(x, y)), ())  # noqa: E731, B023
         rays = record(six, 2)
-        x, y = (part.ravel() for part in np.meshgrid(cam.raster.columns(), cam.raster.rows()))
+        x, y = (grid.ravel() for grid in np.meshgrid(cam.raster.columns(), cam.raster.rows()))
         with np.errstate(all="ignore"):  # an iteration goes on where there is no ray
             values = rays.evaluate(NUMPY, (x, y))
         allowed = ITERATED if any(step.operation == "loop" for step in rays.steps) else 0.0
         assert allowed == 0.0 or key in ITERATE
-        for one, other in zip(values, six(x, y), strict=True):
-            np.testing.assert_allclose(*np.broadcast_arrays(x, one, other)[1:], rtol=0, atol=allowed, equal_nan=True)
+        for recorded, other in zip(values, six(x, y), strict=True):
+            np.testing.assert_allclose(
+                *np.broadcast_arrays(x, recorded, other)[1:], rtol=0, atol=allowed, equal_nan=True
+            )
 
 
 @pytest.mark.parametrize("name", sorted(NUMERIC | COMPARISONS | LOGICAL))
 def test_an_operation_gives_what_numpy_gives(name):
     ufunc = getattr(np, name)
-    inputs = [part.ravel() for part in np.meshgrid(*[NUMBERS] * ufunc.nin)]
-    operands = [part > 0 for part in inputs] if name in LOGICAL else inputs
+    inputs = [grid.ravel() for grid in np.meshgrid(*[NUMBERS] * ufunc.nin)]
+    operands = [grid > 0 for grid in inputs] if name in LOGICAL else inputs
     with np.errstate(all="ignore"):
         expected = ufunc(*operands)
     np.testing.assert_array_equal(evaluate(ufunc, *operands), expected)

@@ -62,7 +62,7 @@ def test_no_more_is_kept_than_the_limit(monkeypatch):
     arrays += [reused_memory.empty((2, *SHAPE), np.float32)]
     del arrays
     gc.collect()
-    assert sum(one * len(blocks) for one, blocks in reused_memory._unused.items()) <= 3 * size
+    assert sum(amount * len(blocks) for amount, blocks in reused_memory._unused.items()) <= 3 * size
     assert reused_memory.empty((4, *SHAPE), np.float32).base is None  # too large to be kept
     assert reused_memory.empty((4, 4), np.float32).base is None  # the C library's
 

@@ -49,10 +49,10 @@ def test_the_picture_ends_where_that_of_the_lens_at_the_frame_does(key, at):
     counts = set()
     for u in (0.11, 0.42, 0.53, 0.64, 0.93):
         mixed, there = interval.camera_at(u), read(u)
-        found, true = mixed.rays(), there.rays()
-        assert np.array_equal(found.valid, true.valid), u
-        np.testing.assert_allclose(found.directions[true.valid], true.directions[true.valid], atol=1e-9)
-        assert np.abs(np.linalg.norm(found.directions[found.valid], axis=-1) - 1).max() < 1e-12
+        between, true = mixed.rays(), there.rays()
+        assert np.array_equal(between.valid, true.valid), u
+        np.testing.assert_allclose(between.directions[true.valid], true.directions[true.valid], atol=1e-9)
+        assert np.abs(np.linalg.norm(between.directions[between.valid], axis=-1) - 1).max() < 1e-12
         points = there.pose.eye + true.directions[true.valid]
         np.testing.assert_allclose(mixed.project(points), there.project(points), atol=1e-6)
         counts.add(np.count_nonzero(true.valid))
@@ -82,10 +82,12 @@ def test_the_edge_of_the_picture_is_within_the_tolerance_where_only_the_edge_mov
     assert motion.estimated > 0.01
     fine = np.arange(0.0, WIDTH, 0.02)
     for frame in np.linspace(0.03, 3.97, 31):
-        own, true = (one.rays_at(fine, HEIGHT / 2 + 3.3).valid for one in (motion.camera_at(frame), evaluate(frame)[0]))
+        is_in, true = (
+            cam.rays_at(fine, HEIGHT / 2 + 3.3).valid for cam in (motion.camera_at(frame), evaluate(frame)[0])
+        )
         assert true.any()
         assert not true.all()
-        assert np.count_nonzero(own != true) * 0.02 <= 0.15 + 0.02, frame
+        assert np.count_nonzero(is_in != true) * 0.02 <= 0.15 + 0.02, frame
 
 
 @pytest.mark.parametrize(("cx", "cy"), [(WIDTH / 2 - 0.5, HEIGHT / 2 - 0.5), (4.0, HEIGHT - 6.0), (-6.0, 20.0)])
@@ -118,8 +120,8 @@ def test_what_is_measured_beyond_the_tolerance_is_said_as_clearly_as_what_is_not
     motion, _ = seen_by(*EDGES[0])
     assert len(motion.in_words()) == 1
     for off in (0.2, np.inf):
-        said = replace(motion, measured=off).in_words()
-        assert any(line.startswith(UNRESOLVED) and f"off by {off} pixels" in line for line in said)
+        lines = replace(motion, measured=off).in_words()
+        assert any(line.startswith(UNRESOLVED) and f"off by {off} pixels" in line for line in lines)
 
 
 def test_a_lens_that_rests_is_one_lens_at_all_frames():

@@ -25,7 +25,7 @@ from ...tiers import examples
 
 SAMPLES = Path(__file__).parent / "samples"
 """Files MODULE.ENDING or MODULE.WORD.ENDING of each program."""
-MODULES = {one.PROGRAM.name: name for name, one in vars(programs).items() if hasattr(one, "PROGRAM")}
+MODULES = {module.PROGRAM.name: name for name, module in vars(programs).items() if hasattr(module, "PROGRAM")}
 FRAME = (640, 480)
 ODD = None, True, "x", "", -1.5, 1e300, [], [1], [[1, 2], [3]], {}, {"a": 1}, [{"a": 1}], [None]
 """What an entry may be in place of what it should be."""
@@ -43,8 +43,8 @@ def document(path, key=""):
     return Document(str(path), FRAME, key)
 
 
-READERS = [one for one in PROGRAMS if one.name in MODULES and one.looks is not None]
-each_program = pytest.mark.parametrize("program", READERS, ids=lambda one: MODULES[one.name])
+READERS = [program for program in PROGRAMS if program.name in MODULES and program.looks is not None]
+each_program = pytest.mark.parametrize("program", READERS, ids=lambda program: MODULES[program.name])
 
 
 @pytest.mark.one_for_each("program")
@@ -53,8 +53,10 @@ def test_a_sample_is_of_its_program_and_of_no_other(program):
     samples = samples_of(program)
     assert samples, f"give a sample: {SAMPLES / MODULES[program.name]}.ENDING"
     for path in samples:
-        found = [one.name for one in PROGRAMS if one.recognizes(document(path)) and one.general == program.general]
-        assert found == [program.name], f"{path.name} looks like {found or 'no program'}: see looks in its file"
+        names = [
+            other.name for other in PROGRAMS if other.recognizes(document(path)) and other.general == program.general
+        ]
+        assert names == [program.name], f"{path.name} looks like {names or 'no program'}: see looks in its file"
         assert program_of(document(path)) is program
     lenses = [lens for path in samples for lens in read(path, lenses_of)]
     assert all(lens.refusal is None for lens in lenses)
@@ -79,9 +81,9 @@ def read(path, reader):
     try:
         return reader(str(path), "OPENCV_PINHOLE", FRAME)
     except InputError as refusal:
-        said = str(refusal)
-        assert "\n" not in said
-        assert len(said) < 1000
+        message = str(refusal)
+        assert "\n" not in message
+        assert len(message) < 1000
         return []
 
 
@@ -114,11 +116,11 @@ def damaged(path):
     except InputError:
         return
     places = list(entries(tree))
-    for place in places[:: 1 + len(places) // examples(MOST)]:
+    for route in places[:: 1 + len(places) // examples(MOST)]:
         for value in ODD:
-            yield json.dumps(changed(tree, place, lambda owner, key, value=value: {key: value})).encode()
-        yield json.dumps(changed(tree, place, lambda owner, key: {})).encode()
-        yield json.dumps(changed(tree, place, lambda owner, key: {f"{key}_": owner[key]})).encode()
+            yield json.dumps(changed(tree, route, lambda owner, key, value=value: {key: value})).encode()
+        yield json.dumps(changed(tree, route, lambda owner, key: {})).encode()
+        yield json.dumps(changed(tree, route, lambda owner, key: {f"{key}_": owner[key]})).encode()
 
 
 def entries(tree, path=()):
@@ -140,32 +142,34 @@ def changed(tree, path, change):
     return {name: changed(entry, inside, change) if name == key else entry for name, entry in tree.items()}
 
 
-WRITERS = [one for one in READERS if one.export is not None and one.export.files and one.export.models]
+WRITERS = [
+    program for program in READERS if program.export is not None and program.export.files and program.export.models
+]
 
 
 @pytest.mark.one_for_each("program")
-@pytest.mark.parametrize("program", WRITERS, ids=lambda one: MODULES[one.name])
+@pytest.mark.parametrize("program", WRITERS, ids=lambda program: MODULES[program.name])
 def test_what_is_read_and_written_and_read_is_the_same_to_the_bit(program, tmp_path):
     """Samples have numbers that stay as they are: halves, and turns by right angles."""
     lenses = [lens for path in samples_of(program) for lens in read(path, lenses_of)]
-    placed = [one for path in samples_of(program) for one in read(path, poses_of)]
+    placed = [pose for path in samples_of(program) for pose in read(path, poses_of)]
     assert lenses
     records = []
     for number, lens in enumerate(lenses):
-        own = [one for one in placed if one.camera == lens.name] or [None]
-        for frame, one in enumerate(own, 1):
+        views = [entry for entry in placed if entry.camera == lens.name] or [None]
+        for frame, entry in enumerate(views, 1):
             name = f"camera{number}"
-            pose = np.eye(4) if one is None else one.pose
-            rolling = None if one is None else one.rolling
+            pose = np.eye(4) if entry is None else entry.pose
+            rolling = None if entry is None else entry.rolling
             records.append(CameraRecord(name, f"{name}_{frame_digits(frame)}", lens, pose, frame, rolling=rolling))
-    able = [one for one in records if program.export.refusal(one) is None]
+    able = [record for record in records if program.export.refusal(record) is None]
     assert able
     for name, content in program.export.files(able):
         (tmp_path / name).write_text(content)
     files = sorted(tmp_path.iterdir())
     again = list(chain.from_iterable(read(path, lenses_of) for path in files))
     settings = {repr(plain(lens)) for lens in again}
-    assert settings == {repr(plain(one.lens)) for one in able}
+    assert settings == {repr(plain(record.lens)) for record in able}
     if placed and program.poses is not None:
         poses = list(chain.from_iterable(read(path, poses_of) for path in files))
         assert sorted(map(numbers, poses)) == sorted(map(numbers, able))
@@ -182,8 +186,8 @@ def plain(lens):
 
 
 def test_every_export_of_a_program_is_a_format():
-    keys = {one.export.key for one in PROGRAMS if one.export is not None}
-    assert keys == {one.key for one in EXPORT_FORMATS}
+    keys = {program.export.key for program in PROGRAMS if program.export is not None}
+    assert keys == {export.key for export in EXPORT_FORMATS}
 
 
 SHARED = {"OpenCV", "CAHVOR", "Velodyne", "Ouster", "this add-on"}
@@ -201,7 +205,7 @@ def code_of_files():
         for node in ast.walk(tree):
             body = getattr(node, "body", None)
             if isinstance(body, list):  # not the one of a lambda
-                node.body = [one for one in body if not is_text(one)] or [ast.Pass()]
+                node.body = [statement for statement in body if not is_text(statement)] or [ast.Pass()]
     return [ast.unparse(tree) for tree in trees]
 
 
@@ -211,7 +215,7 @@ def is_text(statement):
 
 
 @pytest.mark.one_for_each("name")
-@pytest.mark.parametrize("name", [one.name for one in PROGRAMS if one.name not in SHARED])
+@pytest.mark.parametrize("name", [program.name for program in PROGRAMS if program.name not in SHARED])
 def test_a_program_is_named_in_few_files(name):
     """Its own file, the list of programs, and one more: what others do for it follows from its record. Docstrings may
     refer to its documentation. Longer names (KITTI-360) and endings of files (.nvm) are others.

@@ -19,10 +19,10 @@ P = np.array(((721.5, 0, 609.6, 44.9), (0, 721.5, 172.9, 0.22), (0, 0, 1, 2.7e-3
 
 
 def line(name, numbers):
-    return f"{name}: {' '.join(f'{one:.15e}' for one in np.ravel(numbers))}\n"
+    return f"{name}: {' '.join(f'{number:.15e}' for number in np.ravel(numbers))}\n"
 
 
-RAW = "calib_time: 09-Jan-2012 13:57:47\ncorner_dist: 9.95e-02\n" + "".join(line(*one) for one in (
+RAW = "calib_time: 09-Jan-2012 13:57:47\ncorner_dist: 9.95e-02\n" + "".join(line(*entry) for entry in (
     ("S_02", (1392, 512)), ("K_02", K), ("D_02", D), ("R_02", R), ("T_02", T), ("S_rect_02", (1242, 375)),
     ("R_rect_00", TURN), ("P_rect_02", P),
 ))  # fmt: skip
@@ -32,7 +32,7 @@ BENCHMARK = line("P0", P - (0, 0, 0, 1) * P) + line("P2", P) + line("R0_rect", T
 def rig(tmp_path, text, size=(1242, 375)):
     path = tmp_path / "calib.txt"
     path.write_text(text)
-    return {one.name: one for one in mounted(str(path), "", size, 24.0)}
+    return {camera.name: camera for camera in mounted(str(path), "", size, 24.0)}
 
 
 def pixels_of(camera):
@@ -44,7 +44,7 @@ def pixels_of(camera):
 
 def test_a_camera_is_seen_as_calibrated_and_as_rectified(tmp_path):
     cameras = rig(tmp_path, RAW)
-    assert {name: one.size for name, one in cameras.items()} == {"K_02": (1392, 512), "P_rect_02": (1242, 375)}
+    assert {name: camera.size for name, camera in cameras.items()} == {"K_02": (1392, 512), "P_rect_02": (1242, 375)}
     rectified = np.column_stack((POINTS @ TURN.T, np.ones(len(POINTS)))) @ P.T
     np.testing.assert_allclose(pixels_of(cameras["P_rect_02"]), rectified[:, :2] / rectified[:, 2:], atol=1e-9)
     local = POINTS @ R.T + T

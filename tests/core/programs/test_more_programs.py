@@ -19,7 +19,7 @@ K1 = -0.1, 0.02, 1e-3, -2e-3
 def radtan(x, y, k, p):
     """Brown's distortion with p1 and p2 as in OpenCV."""
     s = x * x + y * y
-    gain = 1 + sum(one * s ** (i + 1) for i, one in enumerate(k))
+    gain = 1 + sum(term * s ** (i + 1) for i, term in enumerate(k))
     return (x * gain + 2 * p[0] * x * y + p[1] * (s + 2 * x * x), y * gain + p[0] * (s + 2 * y * y) + 2 * p[1] * x * y)
 
 
@@ -37,7 +37,7 @@ def angles(points):
 def equidistant(points, k):
     x, y = angles(points)
     s = x * x + y * y
-    gain = 1 + sum(one * s ** (i + 1) for i, one in enumerate(k))
+    gain = 1 + sum(term * s ** (i + 1) for i, term in enumerate(k))
     return x * gain, y * gain
 
 
@@ -74,10 +74,10 @@ def standalone(kind, **more):
 
 
 def sfm(version=("1", "2", "1"), **more):
-    one = {"intrinsicId": "7", "width": "640", "height": "480", "sensorWidth": "36", "sensorHeight": "27",
+    intrinsics = {"intrinsicId": "7", "width": "640", "height": "480", "sensorWidth": "36", "sensorHeight": "27",
            "type": "radial3", "pxFocalLength": ["300", "301"], "principalPoint": ["6.5", "-3.25"],
            "distortionParams": ["-0.1", "0.02", "0.001"]}  # fmt: skip
-    return json.dumps({"version": version, "views": [], "intrinsics": [one | more]})
+    return json.dumps({"version": version, "views": [], "intrinsics": [intrinsics | more]})
 
 
 def by_k(x, y, fx=F, fy=301.0, cx=326.5, cy=236.75):
@@ -133,9 +133,9 @@ SIX, TWO, FOUR = (0.1, -0.02, 3e-3, 1e-3, -2e-4, 1e-5), (1e-3, -2e-3), (2e-3, -1
 
 def hot3d(**more):
     numbers = [F, 326.5, 236.75, *SIX, *TWO, *FOUR]
-    one = {"label": "camera-rgb", "image_width": 640, "image_height": 480,
+    calibration = {"label": "camera-rgb", "image_width": 640, "image_height": 480,
            "projection_model_type": "CameraModelType.FISHEYE624", "projection_params": numbers}  # fmt: skip
-    return json.dumps({"214-1": {"calibration": one | more, "T_world_from_camera": {}}})
+    return json.dumps({"214-1": {"calibration": calibration | more, "T_world_from_camera": {}}})
 
 
 def aria(points):
@@ -152,8 +152,8 @@ def aria(points):
 POLYNOMIAL = -231.5, 0.0, 1.7e-3, -2e-6, 4e-9
 AFFINE = {"ac": 1.02, "ad": 3e-3, "ae": -4e-3, "cx": 321.25, "cy": 238.5}
 OCAM = "%YAML:1.0\n---\nmodel_type: SCARAMUZZA\ncamera_name: cam\nimage_width: 640\nimage_height: 480\n" + "".join(
-    f"{part}:\n" + "".join(f"   {name}: {value}\n" for name, value in own.items())
-    for part, own in {"poly_parameters": {f"p{i}": one for i, one in enumerate(POLYNOMIAL)},
+    f"{entry}:\n" + "".join(f"   {name}: {value}\n" for name, value in numbers.items())
+    for entry, numbers in {"poly_parameters": {f"p{i}": term for i, term in enumerate(POLYNOMIAL)},
                       "inv_poly_parameters": {f"p{i}": 1.0 for i in range(20)}, "affine_parameters": AFFINE}.items()
 )  # fmt: skip
 
@@ -164,7 +164,7 @@ def scaramuzza(points):
     across, low, high = np.hypot(x, y), np.zeros(len(points)), np.full(len(points), 400.0)
     for _ in range(200):
         rho = (low + high) / 2
-        ahead = -sum(one * rho**i for i, one in enumerate(POLYNOMIAL))
+        ahead = -sum(term * rho**i for i, term in enumerate(POLYNOMIAL))
         less = rho * z < across * ahead
         low, high = np.where(less, rho, low), np.where(less, high, rho)
     u, v = x / across * rho, y / across * rho

@@ -8,16 +8,16 @@ from camera_ray_caster.core.report.display import displayed
 
 
 def test_depth_is_white_where_it_is_nearest_and_black_where_there_is_nothing():
-    colors, said = displayed("depth", np.array([[2.0, 4.0, 6.0, np.inf, 1e10]]))
+    colors, legend = displayed("depth", np.array([[2.0, 4.0, 6.0, np.inf, 1e10]]))
     assert np.allclose(colors[0, :, 0], [1, 0.55, 0.1, 0, 0], atol=1e-6)
     assert (colors == colors[..., :1]).all()
-    assert said == "white to dark: 2 to 6"
+    assert legend == "white to dark: 2 to 6"
 
 
 def test_a_wide_range_is_shown_by_its_logarithm():
-    colors, said = displayed("footprint", np.array([[1e-6, 1e-3, 1.0]]))
+    colors, legend = displayed("footprint", np.array([[1e-6, 1e-3, 1.0]]))
     assert np.allclose(colors[0, :, 0], [1, 0.55, 0.1], atol=1e-6)
-    assert said == "white to dark: 1e-06 to 1, logarithmic"
+    assert legend == "white to dark: 1e-06 to 1, logarithmic"
 
 
 def test_directions_are_half_way_and_what_has_none_is_black():
@@ -36,15 +36,15 @@ def test_each_index_has_a_color_of_its_own():
 @pytest.mark.parametrize("value", [0.0, -1.0, 0.3, 1e10, np.inf, np.nan])
 def test_every_pass_of_any_value_is_a_picture(key, value):
     channels = PASSES[key].empty((1, 1), np.float64).reshape(-1).size
-    colors, said = displayed(key, np.full((3, 2, channels), value))
+    colors, legend = displayed(key, np.full((3, 2, channels), value))
     assert colors.shape == (3, 2, 3)
     assert ((colors >= 0) & (colors <= 1)).all()
-    assert said
+    assert legend
 
 
 def test_distances_of_a_wide_range_are_even_in_their_inverse():
-    colors, said = displayed("depth", np.array([[2.0, 4.0], [20.0, np.inf]]))
-    assert said == "white to dark: 2 to 20, even in 1/distance"
+    colors, legend = displayed("depth", np.array([[2.0, 4.0], [20.0, np.inf]]))
+    assert legend == "white to dark: 2 to 20, even in 1/distance"
     assert colors[..., 0] == pytest.approx(np.array([[1.0, 1 - 0.9 * 5 / 9], [0.1, 0.0]]))
-    _, said = displayed("distance", np.array([[2.0, 7.9]]))
-    assert said == "white to dark: 2 to 7.9"
+    _, legend = displayed("distance", np.array([[2.0, 7.9]]))
+    assert legend == "white to dark: 2 to 7.9"

@@ -132,8 +132,8 @@ def test_the_table_says_all_and_fits(report):
     verdicts = {line.split()[0]: line.split()[-1] for line in lines if "witness" in line}
     assert verdicts == {"good": "ok", "bad": "FAILED"}
     assert "2 meshes cast as spheres or planes, with a deviation of at most 0.96% of the radius, in 'Sphere'" in table
-    one = as_lines(replace(report, exact=report.exact[:1]))
-    assert "1 mesh cast as spheres or planes" in " ".join(" ".join(one).split())
+    text_lines = as_lines(replace(report, exact=report.exact[:1]))
+    assert "1 mesh cast as spheres or planes" in " ".join(" ".join(text_lines).split())
     assert "'A', 'B', 'C' and 2 more: its map is another" in table
     assert "'Sphere': the exact shape is up to 0.96% of its radius away from the mesh" in table
 
@@ -176,8 +176,8 @@ def test_the_bounds_of_hits_are_in_table_and_json_with_their_units(report):
 
 def test_the_samples_of_two_layers_are_one(report):
     rows = np.ones((3, 4)), np.full((2, 4), 5.0)
-    one, other = (replace(report, accuracy=Accuracy(10, bounds)) for bounds in rows)
-    figures = strict(as_json(one + other))["accuracy"]
+    first, other = (replace(report, accuracy=Accuracy(10, bounds)) for bounds in rows)
+    figures = strict(as_json(first + other))["accuracy"]
     assert (figures["sampled_pixels"], figures["hits"]) == (20, 5)
     assert (figures["position"]["median_bound"], figures["position"]["worst_bound"]) == (1.0, 5.0)
 
@@ -221,8 +221,8 @@ def test_facts_are_the_lectures_ray(settings):
 def test_facts_hold_opencvs_matrix(settings):
     cam = camera(**settings)
     point = np.array([1.7, 2.4, -2.0])  # camera frame (0.7, 0.4, -5): OpenCV's axes turn y and z round
-    across, down, one = np.array(camera_facts(cam)["K"]) @ [0.7, -0.4, 5.0] / 5.0
-    assert one == 1
+    across, down, depth = np.array(camera_facts(cam)["K"]) @ [0.7, -0.4, 5.0] / 5.0
+    assert depth == 1
     x, y = cam.project(point)
     # the center of the top left pixel is OpenCV's (0, 0) and our (1/2, height - 1/2)
     assert (across, down) == pytest.approx((x - 0.5, cam.raster.height - 0.5 - y))

@@ -25,7 +25,7 @@ def test_other_objects_are_stored_whole():
 
 def test_entries_of_a_report_come_from_the_set_unless_it_has_its_own(written_set):  # noqa: F811
     folder = written_set[0]
-    before = [(one.meters, one.annotations["objects"]) for one in read_set(folder)]
+    before = [(picture.meters, picture.annotations["objects"]) for picture in read_set(folder)]
     (folder / "dataset.json").write_text(json.dumps({"common": {"host": {"meters": 0.25}}, "objects": before[0][1]}))
     first, second = sorted(folder.glob("*_000?.json"))
     report = json.loads(first.read_text())
@@ -34,5 +34,5 @@ def test_entries_of_a_report_come_from_the_set_unless_it_has_its_own(written_set
     notes = json.loads(second.with_name(f"{second.stem}_coco.json").read_text())
     second.with_name(f"{second.stem}_coco.json").write_text(json.dumps(without_objects(notes, before[0][1])))
     views = read_set(folder)
-    assert [one.meters for one in views] == [0.25, before[1][0]]
-    assert [one.annotations["objects"] for one in views] == [one for _, one in before]
+    assert [picture.meters for picture in views] == [0.25, before[1][0]]
+    assert [entry.annotations["objects"] for entry in views] == [entry for _, entry in before]

@@ -25,20 +25,20 @@ def prism(fold, tip=False):
     bottom, top = np.full(fold, 2 * fold), np.full(fold, 2 * fold + 1)
     vertices = np.vstack((ring, ring * (1 - tip) + (0, 0, 3), (0, 0, 0), (0, 0, 3)))
     faces = [(k, after, fold + after), (k, fold + after, fold + k), (after, k, bottom), (fold + k, fold + after, top)]
-    return vertices, np.vstack([np.stack(one, axis=1) for one in faces])
+    return vertices, np.vstack([np.stack(grid, axis=1) for grid in faces])
 
 
 def transformations(info, steps=12):
     """What bop_toolkit_lib.misc.get_symmetry_transformations makes of an entry: products of both kinds."""
-    discrete = [np.eye(4), *(np.reshape(one, (4, 4)) for one in info.get("symmetries_discrete", ()))]
+    discrete = [np.eye(4), *(np.reshape(matrix, (4, 4)) for matrix in info.get("symmetries_discrete", ()))]
     continuous = []
-    for one in info.get("symmetries_continuous", ()):
-        x, y, z = one["axis"]
+    for symmetry in info.get("symmetries_continuous", ()):
+        x, y, z = symmetry["axis"]
         cross = np.array(((0, -z, y), (z, 0, -x), (-y, x, 0)))
         for k in range(1, steps):
             angle, move = 2 * np.pi * k / steps, np.eye(4)
             move[:3, :3] += np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
-            move[:3, 3] = one["offset"] - move[:3, :3] @ one["offset"]
+            move[:3, 3] = symmetry["offset"] - move[:3, :3] @ symmetry["offset"]
             continuous.append(move)
     return [a @ b for b in discrete for a in continuous or [np.eye(4)]]
 
@@ -73,7 +73,7 @@ def test_each_symmetry_of_the_toolkit_brings_the_model_upon_itself(name):
     made, count, axes = MODELS[name]
     symmetries = made.symmetries(1000.0)
     assert len(symmetries.get("symmetries_discrete", ())) == count
-    assert [tuple(one["axis"]) for one in symmetries.get("symmetries_continuous", ())] == axes
+    assert [tuple(symmetry["axis"]) for symmetry in symmetries.get("symmetries_continuous", ())] == axes
     places = 1000 * made.vertices
     moves = transformations(symmetries)
     assert len(moves) == (count + 1) * (11 if axes else 1)
@@ -85,7 +85,7 @@ def test_each_symmetry_of_the_toolkit_brings_the_model_upon_itself(name):
         if not axes:
             nearest = np.linalg.norm(moved[:, None] - places[None], axis=2).argmin(axis=1)
             np.testing.assert_array_equal(made.colors[nearest], made.colors)
-    unique = {tuple(np.round(one, 6).ravel() + 0.0) for one in moves}
+    unique = {tuple(np.round(move, 6).ravel() + 0.0) for move in moves}
     assert len(unique) == len(moves)
 
 
@@ -112,8 +112,8 @@ def test_normals_are_weighted_by_angles_not_by_triangles():
 
 def test_a_model_has_normals_and_the_colors_of_its_materials_and_what_has_no_area_no_normal():
     shapes = crc.mesh(CUBE, QUADS, color=(0.2, 0.5, 1.0), name="box")
-    one = {"object": "box", "instance": 0, "size": [2, 2, 2]}
-    made = model_of(shapes, one)
+    item = {"object": "box", "instance": 0, "size": [2, 2, 2]}
+    made = model_of(shapes, item)
     head, _, body = ply(made, 1000.0).partition(b"end_header\n")
     names = [line.split()[-1] for line in head.decode().splitlines() if line.startswith("property")]
     assert names[:9] == ["x", "y", "z", "nx", "ny", "nz", "red", "green", "blue"]

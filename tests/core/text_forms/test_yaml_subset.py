@@ -116,13 +116,13 @@ def test_no_text_takes_more_than_linear_time(tmp_path, piece):
     path = tmp_path / "lens.yml"
     for begin in ("", '{"a": ', "K: [", '{"'):
         path.write_text((begin + piece * MEGABYTE)[: MEGABYTE // 4])
-        said = ""
+        message = ""
         try:
             entries_of(text_of(str(path)), "lens")
         except InputError as error:
-            said = str(error)
-        assert "\n" not in said
-        assert len(said) < 500
+            message = str(error)
+        assert "\n" not in message
+        assert len(message) < 500
 
 
 def test_a_name_of_json_that_is_there_twice_is_found_in_linear_time():
