@@ -58,11 +58,6 @@ class Open(NamedTuple):
         """Return the triangles with some indices, one for each pixel."""
         return cls(taken(triangles.index, k), taken(triangles.corners, k), pixel)
 
-    @classmethod
-    def none(cls) -> Open:
-        """Return no triangle."""
-        return cls(np.zeros(0, np.intp), np.zeros((3, 0), np.intp), np.zeros(0, np.intp))
-
 
 @dataclass(frozen=True, eq=False)
 class MeshSet(ShapeSet):
