@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from ..maths.rotations import transform
 from ..records import INFINITE_PLANE, MESH, PLANE, Shapes
 
 DIGITS = 9
@@ -38,9 +39,7 @@ def object_poses(shapes: Shapes, category_of: Callable[[str], str]) -> list[dict
             half, middle = (high - low) / 2, (high + low) / 2
         axes = shapes.axes[row]
         lengths = np.linalg.norm(axes, axis=0)
-        matrix = np.eye(4)
-        matrix[:3, :3] = axes / np.where(lengths > 0, lengths, 1.0)
-        matrix[:3, 3] = shapes.center[row] + axes @ middle
+        matrix = transform(axes / np.where(lengths > 0, lengths, 1.0), shapes.center[row] + axes @ middle)
         half = half * (1, 1, 0) if shapes.kind[row] == PLANE else half
         entries.append({
             "object": name, "instance": number, "shape_index": row, "category": category_of(name),

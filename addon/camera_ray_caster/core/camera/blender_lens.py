@@ -22,7 +22,8 @@ from ..cameras.parts.pitched import Pitched
 from ..cameras.parts.pose import pose_from
 from ..cameras.parts.radial import FISHEYE_FOV, Radial
 from ..cameras.perspective import Perspective
-from ..maths.rotations import rotation
+from ..maths.rotations import rotation, transform
+from ..maths.vector import stacked
 from ..records import BlenderCamera, InputError
 from .build import camera_from
 from .camera import Camera
@@ -79,10 +80,7 @@ def blender_lens(camera: Camera) -> BlenderLens:
     x, y = (np.unique(np.linspace(0, side - 1, min(side, SAMPLED)).round()) + 0.5 for side in (width, height))
     x, y = (coordinate.ravel() for coordinate in np.meshgrid(x, y))
     with np.errstate(all="ignore"):  # NaN means no ray
-        places, rays = (
-            np.stack(np.broadcast_arrays(*vector, x)[:3], axis=-1).astype(np.float64)
-            for vector in camera.model.rays(x, y)
-        )
+        places, rays = (stacked(vector, x.shape) for vector in camera.model.rays(x, y))
     parallel = bool((np.abs(rays[:, :2]) <= PARALLEL * np.abs(rays[:, 2:])).all() and (rays[:, 2] < 0).all())
     if camera.pixel_time is not None or not (camera.model.central or parallel):
         reason = "whose pixels have their own times" if camera.pixel_time is not None else "whose rays have no eye"
@@ -114,39 +112,39 @@ def _level(camera: Camera) -> tuple[Camera, float]:
     if not isinstance(camera.model, Pitched):
         return camera, 0.0
     elevation = camera.model.elevation
-    matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = camera.pose.basis @ rotation(np.array([(elevation, 0.0, 0.0)]))[0], camera.pose.eye
-    record = replace(camera.record, matrix_world=matrix)
+    axes = camera.pose.basis @ rotation(np.array([(elevation, 0.0, 0.0)]))[0]
+    record = replace(camera.record, matrix_world=transform(axes, camera.pose.eye))
     return replace(camera, model=replace(camera.model, elevation=0.0), pose=pose_from(record), record=record), elevation
 
 
 def _orthographic(camera: Camera, pixels, points) -> BlenderLens | None:
     """Return the orthographic camera nearest to parallel rays through points in front of the camera."""
+    nearest = _linear(camera, Orthographic.key, pixels, points)
+    return None if nearest is None else _judged(*nearest, pixels, points)
+
+
+def _linear(camera: Camera, kind: str, pixels, points) -> tuple[BlenderCamera, dict[str, Any]] | None:
+    """Return the record of the orthographic or perspective camera whose pixels are nearest to a linear function of
+    points, at any or at unit depth, and its settings; None if there is none.
+    """
     (fx, cx), (fy, cy) = (np.polyfit(points[:, axis], pixels[:, axis], 1) for axis in (0, 1))
     if not min(fx, fy) > 0:
         return None
-    width, height = camera.raster.size
-    fitted = _fitted(camera.record, fx / fy, width, height)
-    raw, settings = _record(camera.record, Orthographic.key, fx / fy, {
-        "ortho_scale": fitted / fx, "shift_x": (width / 2 - cx) / fitted,
-        "shift_y": (height / 2 - cy) * (fx / fy) / fitted,
-    })  # fmt: skip
-    return _judged(raw, settings, pixels, points)
+    raw, (width, height) = camera.record, camera.raster.size
+    fitted = _fitted(raw, fx / fy, width, height)
+    scale = {"ortho_scale": fitted / fx} if kind == Orthographic.key else {"lens": fx * _sensor(raw) / fitted}
+    shift = {"shift_x": (width / 2 - cx) / fitted, "shift_y": (height / 2 - cy) * (fx / fy) / fitted}
+    return _record(raw, kind, fx / fy, scale | shift)
 
 
 def _nearest(camera: Camera, pixels, rays) -> Iterator[tuple[BlenderCamera, dict[str, Any]]]:
     """Yield the records of the nearest perspective and polynomial fisheye, and their settings."""
     raw = camera.record
-    sensor = raw.sensor_height if raw.sensor_fit == "VERTICAL" else raw.sensor_width
     width, height = camera.raster.size
     if (rays[:, 2] < 0).all():
-        (fx, cx), (fy, cy) = (np.polyfit(rays[:, axis] / -rays[:, 2], pixels[:, axis], 1) for axis in (0, 1))
-        if min(fx, fy) > 0:
-            fitted = _fitted(raw, fx / fy, width, height)
-            yield _record(raw, "PERSP", fx / fy, {
-                "lens": fx * sensor / fitted, "shift_x": (width / 2 - cx) / fitted,
-                "shift_y": (height / 2 - cy) * (fx / fy) / fitted,
-            })  # fmt: skip
+        perspective = _linear(camera, Perspective.key, pixels, rays / -rays[:, 2:])
+        if perspective is not None:
+            yield perspective
     ahead = camera.model.project(np.array([(0.0, 0.0, -1.0)]))[0]
     if not np.isfinite(ahead).all():
         return
@@ -157,7 +155,7 @@ def _nearest(camera: Camera, pixels, rays) -> Iterator[tuple[BlenderCamera, dict
     if not 1e-3 < aspect < 1e3:
         return
     fitted = _fitted(raw, aspect, width, height)
-    r = np.hypot(across, up * aspect) * sensor / fitted
+    r = np.hypot(across, up * aspect) * _sensor(raw) / fitted
     scale = r.max()
     powers = np.stack([(r / scale) ** power for power in (1, 2, 3, 4)], axis=-1)
     k = np.linalg.lstsq(powers, theta, rcond=None)[0] / scale ** np.arange(1, 5)
@@ -167,6 +165,10 @@ def _nearest(camera: Camera, pixels, rays) -> Iterator[tuple[BlenderCamera, dict
         FISHEYE_FOV.name: min(2 * rim * (1 + 1e-6), 2 * np.pi),
         "shift_x": 0.5 - ahead[0] / width, "shift_y": 0.5 - ahead[1] / height,
     })  # fmt: skip
+
+
+def _sensor(raw: BlenderCamera) -> float:
+    return raw.sensor_height if raw.sensor_fit == "VERTICAL" else raw.sensor_width
 
 
 def _fitted(raw: BlenderCamera, aspect: float, width: int, height: int) -> float:

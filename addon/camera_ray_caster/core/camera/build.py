@@ -8,7 +8,7 @@ from ..cameras.parts.calibration import FILE
 from ..cameras.parts.film import farthest_from_one, raster_from
 from ..cameras.parts.pose import pose_from
 from ..cameras.parts.settings import Number, Whole
-from ..maths.vector import inverse
+from ..maths.vector import inverse, stacked
 from ..records import BlenderCamera, InputError, Pose
 from .calibration_file import with_file
 from .camera import Camera
@@ -117,13 +117,12 @@ def _check_inverse(raw: BlenderCamera, model: Model, pose: Pose) -> None:
         return
     x, y = (coordinate.ravel() for coordinate in np.meshgrid(*(0.5 + PLACES * (side - 1) for side in model.size)))
     with np.errstate(all="ignore"):
-        local_rays = [np.stack(np.broadcast_arrays(*vector, x)[:3], axis=-1) for vector in model.rays(x, y)]
+        local_rays = [stacked(vector, x.shape) for vector in model.rays(x, y)]
         _check_lengths(model, local_rays[1])
         origin, direction = (vectors @ pose.basis.T for vectors in local_rays)
         origin = origin + pose.eye
-        far = (1 + POINT_DISTANCE * np.linalg.norm(origin, axis=1)) * np.linspace(
-            1, 2, len(x)
-        )  # each has a rounding of its own
+        far = 1 + POINT_DISTANCE * np.linalg.norm(origin, axis=1)
+        far = far * np.linspace(1, 2, len(x))  # each has a rounding of its own
         points = origin + far[:, None] * direction
         local = (points - pose.eye) @ inverse(pose.basis).T
         back = model.project(local)

@@ -11,6 +11,7 @@ from ..cameras.model import Model
 from ..cameras.parts.calibration import SIZE
 from ..cameras.parts.parameters import parameters_of, values_of
 from ..conventions import FROM_BLENDER
+from ..maths.rotations import transform
 from ..maths.vector import inverse
 from ..other_names import ATTRIBUTES, instead
 from ..records import BlenderCamera, Pose, Raster
@@ -61,9 +62,7 @@ class Description:
         """(4, 4) float64: from the camera's frame, x right, y up, z back, to the world. The inverse of
         ``opencv_from_world`` leads from OpenCV's frame.
         """
-        result = np.eye(4)
-        result[:3, :3], result[:3, 3] = self.pose.basis, self.pose.eye
-        return result
+        return transform(self.pose.basis, self.pose.eye)
 
     @property
     def opencv_from_world(self) -> np.ndarray:
@@ -72,10 +71,8 @@ class Description:
         It is rigid up to the rounding of the matrix that Blender stores (float32, 1e-7), unless the camera is sheared.
         The error of each entry is at most gamma(8) of the sum of the magnitudes times the basis's condition number.
         """
-        result = np.eye(4)
-        result[:3, :3] = FROM_BLENDER[:3, :3] @ inverse(self.pose.basis)
-        result[:3, 3] = -result[:3, :3] @ self.pose.eye
-        return result
+        axes = FROM_BLENDER[:3, :3] @ inverse(self.pose.basis)
+        return transform(axes, -axes @ self.pose.eye)
 
     @property
     def world_to_opencv(self) -> np.ndarray:

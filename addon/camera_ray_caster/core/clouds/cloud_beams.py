@@ -14,6 +14,8 @@ from ..camera.camera import Camera
 from ..cameras.parts.pose import pose_matrix
 from ..cameras.scanner import Scanner
 from ..cast import cast
+from ..maths.rotations import transform
+from ..maths.vector import stacked
 from ..records import InputError, Shapes
 from ..units import UNIT_SCALE
 
@@ -80,8 +82,7 @@ class CameraBeams(CloudBeams):
         """Return the beams of a camera."""
         images = cast(camera, shapes, passes=PASSES, dtype=np.float64)
         rays, settings = camera.rays(), camera.record.settings
-        pose = np.eye(4)
-        pose[:3, :3], pose[:3, 3] = camera.pose.basis @ FROM_CAMERA.T, camera.pose.eye
+        pose = transform(camera.pose.basis @ FROM_CAMERA.T, camera.pose.eye)
         rate = settings.get("fps", 24) / settings.get("fps_base", 1.0)
         frame, meters = float(settings.get("frame", 0.0)), settings.get(UNIT_SCALE, 1.0)
         return cls(camera.name, pose, images, rays.directions, frame, rays.time, rate, meters, camera)
@@ -93,9 +94,7 @@ class CameraBeams(CloudBeams):
     def rays(self, at: Places) -> tuple[np.ndarray, np.ndarray]:
         (row, column), raster = at, self.camera.raster
         x, y = raster.x0 + column + 0.5, raster.y0 + row + 0.5
-        origin, direction = (
-            np.stack(np.broadcast_arrays(*vector, x)[:3], axis=-1) for vector in self.camera.model.rays(x, y)
-        )
+        origin, direction = (stacked(vector, x.shape) for vector in self.camera.model.rays(x, y))
         direction = direction / np.linalg.norm(direction, axis=-1, keepdims=True)
         return origin @ FROM_CAMERA.T, direction @ FROM_CAMERA.T
 

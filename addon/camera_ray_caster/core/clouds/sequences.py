@@ -22,8 +22,7 @@ def sequence(cameras: Sequence[Camera], seconds: Sequence[float]) -> Iterator[tu
     from_sensor[:3, :3] = from_sensor[:3, :3] @ FROM_CAMERA.T
     poses = []
     for camera in cameras:
-        pose = np.eye(4)
-        pose[:3, :3], pose[:3, 3] = camera.pose.basis, camera.pose.eye
+        pose = camera.world_from_camera
         pose[:3, 3] *= factor(METERS, camera.record.settings.get(UNIT_SCALE, 1.0))
         poses.append(pose @ FROM_BLENDER)
     first = np.linalg.inv(poses[0])

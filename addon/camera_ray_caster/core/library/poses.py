@@ -5,6 +5,7 @@ import numpy as np
 from ..arguments import keywords, numbers, shown
 from ..cameras.parts.pose import pose_matrix
 from ..conventions import FROM_BLENDER
+from ..maths.rotations import transform
 from ..records import InputError
 
 
@@ -21,10 +22,7 @@ def look_at(eye, target, *, up=(0.0, 0.0, 1.0)) -> np.ndarray:
     if not np.linalg.norm(right) > 1e-12 * np.linalg.norm(up) * np.linalg.norm(back):
         raise InputError("eye, target and up lie on one line: give another up")
     upward = np.cross(back, right)
-    pose = np.eye(4)
-    pose[:3, :3] = np.stack([axis / np.linalg.norm(axis) for axis in (right, upward, back)], axis=1)
-    pose[:3, 3] = eye
-    return pose
+    return transform(np.stack([axis / np.linalg.norm(axis) for axis in (right, upward, back)], axis=1), eye)
 
 
 def pose_from_opencv(world_to_camera) -> np.ndarray:

@@ -115,6 +115,5 @@ def _rolling(camera: Camera, rolling: Rolling, rate: float) -> Camera:
         return first
     states = {times.first: (first, no_shapes()), times.last: (last, no_shapes())}
     motion = Motion((TimeInterval.of(states, (times.first, times.last)),), states, times.tolerance, 0.0, ())
-    middle, pose = motion.camera_at(min(max(settings["frame"], times.first), times.last)).pose, np.eye(4)
-    pose[:3, :3], pose[:3, 3] = middle.basis, middle.eye
-    return replace(first.with_pose(pose), motion=motion)
+    middle = motion.camera_at(min(max(settings["frame"], times.first), times.last))
+    return replace(first.with_pose(middle.world_from_camera), motion=motion)

@@ -18,6 +18,13 @@ def polar(matrices) -> tuple[np.ndarray, np.ndarray]:
     return left @ right * sign, np.swapaxes(right, 1, 2) @ (values[:, :, None] * right) * sign
 
 
+def transform(axes, position) -> np.ndarray:
+    """Return the matrix, (4, 4), from the frame with these axes, (3, 3) by columns, at a position."""
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = axes, position
+    return matrix
+
+
 def rigid(pose: np.ndarray) -> np.ndarray:
     """Return a pose, (4, 4), whose axes are the nearest rotation."""
     turned = pose.copy()

@@ -109,6 +109,11 @@ def components(array):
     return array[..., 0], array[..., 1], array[..., 2]
 
 
+def stacked(components, shape) -> np.ndarray:
+    """Return components that broadcast to a shape as an array (*shape, 3), float64."""
+    return np.stack([np.broadcast_to(component, shape) for component in components], axis=-1, dtype=np.float64)
+
+
 def matrix_rows(array):
     """Return a (..., m, 3) array of matrices as m rows of three entries, as views, in the form ``matvec`` takes."""
     return tuple(components(array[..., i, :]) for i in range(array.shape[-2]))

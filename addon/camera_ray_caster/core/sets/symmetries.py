@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from ..maths.rotations import transform
+
 MOST, ROUND = 128, 16
 
 PROBES, SPREAD = 8, 5.0
@@ -123,6 +125,4 @@ def _group(turns: list[np.ndarray]) -> list[np.ndarray]:
 
 
 def _matrix(turn: np.ndarray, middle: np.ndarray) -> list[float]:
-    matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = turn, middle - turn @ middle
-    return matrix.ravel().tolist()
+    return transform(turn, middle - turn @ middle).ravel().tolist()
