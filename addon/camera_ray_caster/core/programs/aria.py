@@ -8,13 +8,12 @@ Reference: Project Aria documentation, Camera Intrinsic Models for Project Aria 
 from ..units import METERS
 from .parts.document import Document
 from .parts.fields import Fields
-from .parts.lens import FRAME_SIZE, Lens, matrix, one_of_several
+from .parts.lens import ARIA_TERMS, FRAME_SIZE, Lens, matrix, one_of_several
 from .parts.placed import Placed, of_quaternion
 from .parts.program import ProgramFiles
 
-TERMS = "k1", "k2", "k3", "k4", "k5", "k6", "p2", "p1", "s1", "s2", "s3", "s4"
 MODELS = {
-    "FisheyeRadTanThinPrism": ("FISHEYE624", TERMS),
+    "FisheyeRadTanThinPrism": ("FISHEYE624", ARIA_TERMS),
     "KannalaBrandtK3": ("OPENCV_FISHEYE", ("k1", "k2", "k3", "k4")),
     "Linear": ("OPENCV_PINHOLE", ()),
 }

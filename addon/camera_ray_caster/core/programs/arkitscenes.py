@@ -9,11 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ..maths.rotations import rotation
 from ..units import METERS
 from .parts.document import Document
 from .parts.lens import Lens, matrix, numbers_of
-from .parts.placed import Placed, inverted
+from .parts.placed import Placed, inverted, of_rotation
 from .parts.program import PictureFolders, ProgramFiles
 from .parts.trajectory import columns_of, rows_of
 
@@ -50,10 +49,7 @@ def _rows(document: Document) -> list[list[str]]:
 def _moved(document: Document, number: int, words: list[str]) -> Placed:
     document.check()
     time, *pose = document.numbers(words, f"pose {number}", 7)
-    to_camera = np.eye(4)
-    to_camera[:3, :3] = rotation(np.array([pose[:3]]))[0]
-    to_camera[:3, 3] = pose[3:]
-    return Placed("", "", None, inverted(to_camera), time)
+    return Placed("", "", None, inverted(of_rotation(document, pose[:3], pose[3:], f"pose {number}")), time)
 
 
 def _pincam(document: Document) -> list[str] | None:

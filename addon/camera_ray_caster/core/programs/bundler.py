@@ -8,9 +8,9 @@ Reference: Bundler User's Manual, Output format and scene representation.
 import numpy as np
 
 from .parts.document import Document
-from .parts.lens import FRAME_SIZE, Lens, different, matrix, once_each
-from .parts.placed import FROM_BLENDER, Placed, checked, inverted
-from .parts.program import ProgramFiles
+from .parts.lens import FRAME_SIZE, Lens, matrix
+from .parts.placed import FROM_BLENDER, Placed, inverted, of_rotation
+from .parts.program import ProgramFiles, of_pictures
 
 HEAD = "# Bundle file v0."
 PER_PICTURE = 5
@@ -21,8 +21,12 @@ def looks(document: Document) -> bool:
     return document.text.startswith(HEAD)
 
 
-def _pictures(document: Document) -> list[tuple[str, list[float], np.ndarray]]:
-    """Return name, numbers of the lens, and pose, of each picture that was reconstructed."""
+Picture = tuple[str, list[float], np.ndarray]
+"""Name, numbers of the lens, and pose."""
+
+
+def _pictures(document: Document) -> list[Picture]:
+    """Return the pictures that were reconstructed."""
     lines = document.lines()
     count = document.numbers(lines[0].split() if lines else None, "line of numbers of cameras and points", 2)[0]
     pictures = []
@@ -33,33 +37,23 @@ def _pictures(document: Document) -> list[tuple[str, list[float], np.ndarray]]:
         if len(rows) < PER_PICTURE:
             raise document.refusal(f"{name} has {len(rows)} lines: it must have {PER_PICTURE}")
         if rows[0][0]:
-            to_camera = np.eye(4)
-            to_camera[:3, :3], to_camera[:3, 3] = rows[1:4], rows[4]
-            pictures.append((name, rows[0], checked(document, to_camera, f"rotation of {name}")))
+            pictures.append((name, rows[0], of_rotation(document, rows[1:4], rows[4], f"rotation of {name}")))
     return pictures
 
 
-def _lenses(document: Document) -> list[Lens]:
-    width, height = document.picture_size or (1, 1)
-    return once_each(
-        Lens(name, "OPENCV_PINHOLE", FRAME_SIZE | matrix(f, f, width / 2, height / 2, 0.5) | {"k1": k1, "k2": k2})
-        for name, (f, k1, k2), _ in _pictures(document)
-    )
+def _lens(document: Document, picture: Picture) -> Lens:
+    (name, (f, k1, k2), _), (width, height) = picture, document.picture_size or (1, 1)
+    settings = FRAME_SIZE | matrix(f, f, width / 2, height / 2, 0.5) | {"k1": k1, "k2": k2}
+    return Lens(name, "OPENCV_PINHOLE", settings)
 
 
-def read(document: Document) -> list[Lens]:
-    return different(_lenses(document))
-
-
-def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles. The frames are the numbers of the pictures in Bundler's list of them, from 1 on."""
-    return [
-        Placed(lens.name, "", float(name.rpartition(" ")[2]) + 1, inverted(pose) @ FROM_BLENDER)
-        for (name, _, pose), lens in zip(_pictures(document), _lenses(document), strict=True)
-    ]
+def _placed(document: Document, picture: Picture) -> Placed:
+    """Return the pose of a picture. Frames are the numbers in Bundler's list of pictures, from 1 on."""
+    name, _, pose = picture
+    return Placed("", "", float(name.rpartition(" ")[2]) + 1, inverted(pose) @ FROM_BLENDER)
 
 
 PROGRAM = ProgramFiles(
     "Bundler", "bundle.out", looks, reads="pinhole with k1 and k2", lost="the size of the pictures and their names",
-    read=read, poses=poses,
+    **of_pictures(_pictures, _lens, _placed),
 )  # fmt: skip

@@ -15,7 +15,7 @@ from .parts.cahvor_lens import lens_of
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens
-from .parts.placed import Placed, checked
+from .parts.placed import Placed, of_rotation
 from .parts.program import ProgramFiles
 
 LINE = re.compile(r"(\w+)\s*=\s*(.*)")
@@ -39,9 +39,8 @@ def read(document: Document) -> list[Lens]:
 
 def poses(document: Document) -> list[Placed]:
     """See ProgramFiles: in the frame of the file."""
-    pose = np.eye(4)
-    pose[:3, :3], pose[:3, 3] = _lens(document)[1], _entries(document).numbers("C", 3)
-    return [Placed("", "", None, checked(document, pose, "the frame of its lens"))]
+    axes, center = _lens(document)[1], _entries(document).numbers("C", 3)
+    return [Placed("", "", None, of_rotation(document, axes, center, "the frame of its lens"))]
 
 
 def _lens(document: Document) -> tuple[Lens, np.ndarray]:

@@ -15,7 +15,7 @@ from pathlib import Path
 from ..conventions import EPS32
 from ..maths.rotations import quaternion
 from .parts.document import Document
-from .parts.lens import ANGLES, Lens, matrix, matrix_of, numbers_of, one_of_several, word_of
+from .parts.lens import ANGLES, ARIA_TERMS, Lens, matrix, matrix_of, numbers_of, one_of_several, word_of
 from .parts.placed import Placed, inverted, of_quaternion
 from .parts.program import CameraRecord, FileWriter, ProgramFiles
 
@@ -36,16 +36,14 @@ CAMERA_MODELS = {
     "SIMPLE_RADIAL_FISHEYE": ("OPENCV_FISHEYE", (*F, "k1")),
     "RADIAL_FISHEYE": ("OPENCV_FISHEYE", (*F, "k1", "k2")),
     "THIN_PRISM_FISHEYE": ("THIN_PRISM_FISHEYE", (*FXY, *PINHOLE_TERMS, "k3", "k4", "s1", "s3")),
-    "RAD_TAN_THIN_PRISM_FISHEYE": (
-        "FISHEYE624", (*FXY, "k1", "k2", "k3", "k4", "k5", "k6", "p2", "p1", "s1", "s2", "s3", "s4")
-    ),
+    "RAD_TAN_THIN_PRISM_FISHEYE": ("FISHEYE624", (*FXY, *ARIA_TERMS)),
     "SIMPLE_DIVISION": ("DIVISION", (*F, "division_lambda")),
     "DIVISION": ("DIVISION", (*FXY, "division_lambda")),
     "SIMPLE_FISHEYE": ("OPENCV_FISHEYE", F),
     "FISHEYE": ("OPENCV_FISHEYE", FXY),
     "EUCM": ("EUCM", (*FXY, "unified_alpha", "unified_beta")),
     SPHERE: (SPHERE, ("width", "height")),
-}  # fmt: skip
+}
 """Our model, and its settings in the order of COLMAP's parameters, f for both focal lengths; in the order of the
 numbers by which binary files name the models.
 """

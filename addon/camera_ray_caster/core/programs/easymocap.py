@@ -12,10 +12,10 @@ import numpy as np
 from ..units import METERS
 from .parts.document import Document
 from .parts.fields import Fields
-from .parts.lens import Lens, one_of_several
-from .parts.placed import Placed, inverted, of_rotation
+from .parts.lens import Lens
+from .parts.placed import inverted, of_rotation
 from .parts.plain import of_matrix
-from .parts.program import ProgramFiles
+from .parts.program import ProgramFiles, of_cameras
 
 LENSES, POSES = "intri.yml", "extri.yml"
 
@@ -28,35 +28,28 @@ def pair(path: Path) -> tuple[Path, Path] | None:
 
 
 def looks(document: Document) -> bool:
-    names = _names(document)
-    return bool(names) and any(all(document.entries.has(f"{kind}_{name}") for name in names) for kind in "KT")
+    cameras = _cameras(document)
+    return bool(cameras) and any(all(camera.has(f"{kind}_{camera.label}") for camera in cameras) for kind in "KT")
 
 
-def _names(document: Document) -> list[str]:
-    return [name.text("names") for name in document.entries.each("names")]
+def _cameras(document: Document) -> list[Fields]:
+    """Return the entries of the file for each camera, labeled by its name."""
+    return [document.entries.labeled(name.text("names")) for name in document.entries.each("names")]
 
 
-def read(document: Document) -> list[Lens]:
-    return [one_of_several(name, _lens, document, name) for name in _names(document)]
+def _lens(camera: Fields) -> Lens:
+    name = camera.label
+    distortion = camera.first(f"dist_{name}", f"D_{name}")
+    return of_matrix(camera, f"K_{name}", distortion, camera.sides(f"W_{name}", f"H_{name}"))
 
 
-def _lens(document: Document, name: str) -> Lens:
-    entries = document.entries.labeled(name)
-    distortion = entries.first(f"dist_{name}", f"D_{name}")
-    return of_matrix(entries, f"K_{name}", distortion, entries.sides(f"W_{name}", f"H_{name}"))
-
-
-def poses(document: Document) -> list[Placed]:
-    return [Placed(name, "", None, _pose(document.entries, name)) for name in _names(document)]
-
-
-def _pose(entries: Fields, name: str) -> np.ndarray:
-    by_rows, vector = f"Rot_{name}", f"R_{name}"
-    turn = entries.matrix(by_rows, 9) if entries.has(by_rows) else entries.matrix(vector, 3)
-    return inverted(of_rotation(entries.document, turn, entries.matrix(f"T_{name}", 3), by_rows))
+def _pose(camera: Fields) -> np.ndarray:
+    by_rows, vector = f"Rot_{camera.label}", f"R_{camera.label}"
+    turn = camera.matrix(by_rows, 9) if camera.has(by_rows) else camera.matrix(vector, 3)
+    return inverted(of_rotation(camera.document, turn, camera.matrix(f"T_{camera.label}", 3), by_rows))
 
 
 PROGRAM = ProgramFiles(
     "EasyMocap", "intri.yml and extri.yml", looks, marks="names K_ dist_ Rot_ R_ T_", reads="pinhole",
-    read=read, poses=poses, pair=pair, unit=METERS,
+    pair=pair, unit=METERS, **of_cameras(_cameras, _lens, _pose),
 )  # fmt: skip

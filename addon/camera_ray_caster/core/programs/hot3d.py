@@ -12,12 +12,11 @@ from collections.abc import Mapping
 from ..units import METERS
 from .parts.document import Document
 from .parts.fields import Fields
-from .parts.lens import Lens, matrix
+from .parts.lens import ARIA_TERMS, Lens, matrix
 from .parts.placed import Placed, of_quaternion
 from .parts.program import PictureFolders, ProgramFiles
 
-TERMS = "k1", "k2", "k3", "k4", "k5", "k6", "p2", "p1", "s1", "s2", "s3", "s4"
-MODELS = {"FISHEYE624": ("FISHEYE624", TERMS), "PINHOLE": ("OPENCV_PINHOLE", ())}
+MODELS = {"FISHEYE624": ("FISHEYE624", ARIA_TERMS), "PINHOLE": ("OPENCV_PINHOLE", ())}
 """Our model for the last part of a projection_model_type, and the settings that follow the center."""
 
 LISTED = {

@@ -11,9 +11,8 @@ from math import pi, radians, tan
 
 from .parts.document import Document
 from .parts.fields import Fields
-from .parts.lens import ANGLES, Lens, different, one_of_several
-from .parts.panorama_tools import FISHEYE, RECTILINEAR, lens_of, ptlens, turned
-from .parts.placed import Placed
+from .parts.lens import ANGLES, Lens, one_of_several
+from .parts.panorama_tools import FISHEYE, RECTILINEAR, lens_of, of_panorama, ptlens
 from .parts.program import ProgramFiles
 
 PROJECTIONS = {"0": RECTILINEAR, "2": FISHEYE, "3": FISHEYE, "4": "EQUIRECTANGULAR"}
@@ -38,14 +37,6 @@ def _pictures(document: Document) -> list[Fields]:
                 words[name] = pictures[other].get(name, "") if other < len(pictures) else ""
         pictures.append(words)
     return [Fields(document, words, words.get("n", f"picture {i}")) for i, words in enumerate(pictures)]
-
-
-def read(document: Document) -> list[Lens]:
-    return different(lens for lens, _ in _lenses(document))
-
-
-def poses(document: Document) -> list[Placed]:
-    return turned(_lenses(document), MOVED, "ypr")
 
 
 def _lenses(document: Document) -> list[tuple[Lens, Fields]]:
@@ -78,5 +69,5 @@ def _lens(picture: Fields) -> Lens:
 PROGRAM = ProgramFiles(
     "Hugin", ".pto of Hugin and Panorama Tools", looks, marks="hugin pto image lines TrX Ra Va",
     reads="rectilinear and fisheye with a, b, c, d, e; equirectangular",
-    lost="other projections are refused, and moved pictures", read=read, poses=poses,
+    lost="other projections are refused, and moved pictures", **of_panorama(_lenses, MOVED, "ypr"),
 )  # fmt: skip

@@ -9,26 +9,15 @@ from typing import Any
 
 import numpy as np
 
+from ..cameras.parts import scanners
 from ..cameras.parts.devices import numbers_as_text
-from ..cameras.parts.scanners import (
-    AZIMUTHS,
-    CLOCKWISE,
-    COLUMNS,
-    DELAYS,
-    DIRECTION,
-    ELEVATIONS,
-    FARTHEST,
-    NEAREST,
-    RATE,
-    UP,
-)
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens
 from .parts.program import ProgramFiles, ScanPattern
 
 ROTARY, SOLID = "rotary", "solidstate"
-TURNS = {"cw": CLOCKWISE, "ccw": "COUNTERCLOCKWISE"}
+TURNS = {"cw": scanners.CLOCKWISE, "ccw": "COUNTERCLOCKWISE"}
 
 
 def looks(document: Document) -> bool:
@@ -68,12 +57,16 @@ def read(document: Document) -> list[Lens]:
         raise document.refusal("it must report once a turn or more, of a whole turn: see scanRateBaseHz")
     turn = profile.text("rotationDirection", "CW").lower()
     tables: dict[str, Any] = {
-        ELEVATIONS.name: numbers_as_text(elevations), AZIMUTHS.name: numbers_as_text([-angle for angle in azimuths]),
-        DELAYS.name: numbers_as_text([time / 1000 for time in times]), UP.name: numbers_as_text(heights),
-        RATE.name: rate, COLUMNS.name: round(report / rate), NEAREST.name: profile.number("nearRangeM", 0.0),
-        FARTHEST.name: profile.number("farRangeM", 0.0),
-        DIRECTION.name: TURNS[document.one_of(turn, "rotationDirection", TURNS)],
-    }  # fmt: skip
+        scanners.ELEVATIONS.name: numbers_as_text(elevations),
+        scanners.AZIMUTHS.name: numbers_as_text([-angle for angle in azimuths]),
+        scanners.DELAYS.name: numbers_as_text([time / 1000 for time in times]),
+        scanners.UP.name: numbers_as_text(heights),
+        scanners.RATE.name: rate,
+        scanners.COLUMNS.name: round(report / rate),
+        scanners.NEAREST.name: profile.number("nearRangeM", 0.0),
+        scanners.FARTHEST.name: profile.number("farRangeM", 0.0),
+        scanners.DIRECTION.name: TURNS[document.one_of(turn, "rotationDirection", TURNS)],
+    }
     return [Lens(document.entries.text("name"), "SCANNER", tables)]
 
 

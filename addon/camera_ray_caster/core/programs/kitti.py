@@ -17,10 +17,11 @@ from functools import partial
 import numpy as np
 
 from ..conventions import LAST_FRAME
+from ..maths.rotations import transform
 from ..units import METERS
 from .parts.document import Document
 from .parts.lens import Lens, numbers_of, one_of_several
-from .parts.placed import Placed, checked, inverted, pose_of
+from .parts.placed import Placed, inverted, of_rotation, pose_of
 from .parts.plain import plain_lens
 from .parts.program import CameraRecord, FileWriter, ProgramFiles, line_by_line
 from .parts.trajectory import seconds
@@ -90,14 +91,12 @@ def _pose(document: Document, lines: dict[str, list[str]], lens: Lens) -> np.nda
     kind, _, number = name.rpartition("_")
     if kind == "K":
         turn, move = _numbers(document, lines, f"R_{number}", 9), _numbers(document, lines, f"T_{number}", 3)
-        rows = np.column_stack((np.reshape(turn, (3, 3)), move))
-        return inverted(pose_of(document, rows.ravel().tolist(), f"R_{number} and T_{number}"))
-    matrix, turned = np.reshape(_numbers(document, lines, name, 12), (3, 4)), np.eye(4)
+        return inverted(of_rotation(document, turn, move, f"R_{number} and T_{number}"))
+    matrix, turn = np.reshape(_numbers(document, lines, name, 12), (3, 4)), np.eye(3).ravel().tolist()
     if kind and REFERENCE in lines:
-        turned[:3, :3] = np.reshape(_numbers(document, lines, REFERENCE, 9), (3, 3))
-    moved = np.eye(4)
-    moved[:3, 3] = np.linalg.solve(matrix[:, :3], matrix[:, 3])
-    return inverted(moved @ checked(document, turned, REFERENCE))
+        turn = _numbers(document, lines, REFERENCE, 9)
+    moved = transform(np.eye(3), np.linalg.solve(matrix[:, :3], matrix[:, 3]))
+    return inverted(moved @ of_rotation(document, turn, [0.0] * 3, REFERENCE))
 
 
 def _moved(document: Document, number: int, row: list[str], count: int, have_frames: bool) -> Placed:

@@ -7,45 +7,35 @@ Reference: LLFF, its documentation, Using your own poses.
 
 import numpy as np
 
-from .parts import ray_arrays
 from .parts.document import Document
-from .parts.lens import Lens, different, matrix, once_each
-from .parts.placed import Placed, checked
-from .parts.program import ProgramFiles
+from .parts.lens import Lens, matrix
+from .parts.placed import Placed, of_rotation
+from .parts.program import ProgramFiles, of_pictures
+from .parts.ray_arrays import array_of, is_poses_bounds
 
 
-def looks(document: Document) -> bool:
-    return ray_arrays.is_poses_bounds(document)
+def _pictures(document: Document) -> list[tuple[int, np.ndarray]]:
+    """Return the number and the matrix, (3, 5), of each picture."""
+    return list(enumerate(array_of(document)[:, :15].reshape(-1, 3, 5), 1))
 
 
-def _rows(document: Document) -> np.ndarray:
-    return ray_arrays.array_of(document)[:, :15].reshape(-1, 3, 5)
+def _lens(document: Document, picture: tuple[int, np.ndarray]) -> Lens:
+    document.check()
+    number, rows = picture
+    height, width, focal = document.numbers(rows[:, 4].tolist(), f"size and focal length of picture {number}", 3)
+    settings = document.size(width, height) | matrix(focal, focal, width / 2, height / 2, 0.5)
+    return Lens(f"picture {number}", "OPENCV_PINHOLE", settings)
 
 
-def _lenses(document: Document) -> list[Lens]:
-    lenses = []
-    for number, (height, width, focal) in enumerate(_rows(document)[:, :, 4].tolist(), 1):
-        document.check()
-        document.numbers([height, width, focal], f"size and focal length of picture {number}", 3)
-        settings = document.size(width, height) | matrix(focal, focal, width / 2, height / 2, 0.5)
-        lenses.append(Lens(f"picture {number}", "OPENCV_PINHOLE", settings))
-    return once_each(lenses)
+def _placed(document: Document, picture: tuple[int, np.ndarray]) -> Placed:
+    number, rows = picture
+    document.numbers(rows[:, :4].ravel().tolist(), f"pose {number}", 12)
+    down, right, back, position = rows.T[:4]
+    axes = np.stack((right, down, -back), axis=1)
+    return Placed("", "", float(number), of_rotation(document, axes, position, f"pose {number}"))
 
 
-def read(document: Document) -> list[Lens]:
-    return different(_lenses(document))
-
-
-def poses(document: Document) -> list[Placed]:
-    """See ProgramFiles: one for each frame."""
-    placed = []
-    for number, (row, lens) in enumerate(zip(_rows(document), _lenses(document), strict=True), 1):
-        document.numbers(row[:, :4].ravel().tolist(), f"pose {number}", 12)
-        down, right, back, position = row.T[:4]
-        pose = np.eye(4)
-        pose[:3] = np.stack((right, down, -back, position), axis=1)
-        placed.append(Placed(lens.name, "", float(number), checked(document, pose, f"pose {number}")))
-    return placed
-
-
-PROGRAM = ProgramFiles("LLFF", "poses_bounds.npy", looks, reads="pinhole", lost="distortion", read=read, poses=poses)
+PROGRAM = ProgramFiles(
+    "LLFF", "poses_bounds.npy", is_poses_bounds, reads="pinhole", lost="distortion",
+    **of_pictures(_pictures, _lens, _placed),
+)  # fmt: skip

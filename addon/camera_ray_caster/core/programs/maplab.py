@@ -63,14 +63,12 @@ def _cameras(rig: Fields) -> list[Fields]:
 
 
 def _lens(camera: Fields) -> Lens:
-    size = camera.sides("image_width", "image_height")
-    if spelled(camera.text("type")) == OMNI:
+    size, camera_type = camera.sides("image_width", "image_height"), spelled(camera.text("type"))
+    if camera_type == OMNI:
         numbers = camera.matrix("intrinsics", 24)
         affine = dict(zip(("cx", "cy", "ocam_c", "ocam_d", "ocam_e"), numbers[5:10], strict=True))
         return Lens(camera.label, "OCAM", size | affine | {"ocam_polynomial": " ".join(map(repr, numbers[:5]))})
-    kind = CAMERA_TYPES[
-        camera.document.one_of(spelled(camera.text("type")), camera.said("type"), (*CAMERA_TYPES, OMNI))
-    ]
+    kind = CAMERA_TYPES[camera.document.one_of(camera_type, camera.said("type"), (*CAMERA_TYPES, OMNI))]
     model, shape = SHAPES[kind]
     distortion = camera.part("distortion")
     word = spelled(distortion.text("type", "none"))

@@ -14,7 +14,7 @@ import numpy as np
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens, one_of_several
-from .parts.placed import Placed, checked
+from .parts.placed import Placed, of_rotation
 from .parts.program import ProgramFiles
 
 RADIAL4, NORMALIZED = "3deradial4", "radialk3pt"
@@ -45,9 +45,7 @@ PIXELS = [1.0, 2.0, 5.0]
 
 def looks(document: Document) -> bool:
     entries = document.entries
-    return entries.has("intrinsics") and all(
-        intrinsics.has("intrinsicId") for intrinsics in entries.parts("intrinsics")
-    )
+    return entries.has("intrinsics") and all(camera.has("intrinsicId") for camera in entries.parts("intrinsics"))
 
 
 def read(document: Document) -> list[Lens]:
@@ -82,10 +80,9 @@ def poses(document: Document) -> list[Placed]:
 
 
 def _pose(transform: Fields) -> np.ndarray:
-    pose = np.eye(4)  # the transposed of a rotation by columns is it by rows: from the camera
-    pose[:3, :3] = np.reshape(transform.numbers("rotation", 9), (3, 3))
-    pose[:3, 3] = transform.numbers("center", 3)
-    return checked(transform.document, pose, transform.said("rotation"))
+    turn, center = transform.numbers("rotation", 9), transform.numbers("center", 3)
+    # the transposed of a rotation by columns is it by rows: from the camera
+    return of_rotation(transform.document, turn, center, transform.said("rotation"))
 
 
 def _lens(camera: Fields, version: list[float]) -> Lens:
@@ -114,18 +111,17 @@ def _lens(camera: Fields, version: list[float]) -> Lens:
     if undistorted and any(camera.numbers("undistortionParams", default=())):
         raise camera.document.refusal(f"{camera.said('undistortionParams')} are not 0, which are not read")
     coefficients = camera.numbers("distortionParams", default=[0.0] * len(terms))
+    entry = camera.said("distortionParams")
     if kind == RADIAL4 and len(coefficients) == len(terms) + 2:
         if any(coefficients[len(terms) :]):
-            name_of_entry = camera.said("distortionParams")
-            raise camera.document.refusal(f"the last two of {name_of_entry} are not 0: no model has them")
+            raise camera.document.refusal(f"the last two of {entry} are not 0: no model has them")
         coefficients = coefficients[: len(terms)]
     if len(coefficients) != len(terms) and any(coefficients):
-        name_of_entry = camera.said("distortionParams")
-        raise camera.document.refusal(f"{name_of_entry} has {len(coefficients)} numbers: {kind} has {len(terms)}")
+        raise camera.document.refusal(f"{entry} has {len(coefficients)} numbers: {kind} has {len(terms)}")
     if kind == NORMALIZED and any(coefficients):
         whole = 1 + sum(coefficients)
         if whole <= 0:
-            raise camera.document.refusal(f"{camera.said('distortionParams')} and 1 add up to {whole:g}: not above 0")
+            raise camera.document.refusal(f"{entry} and 1 add up to {whole:g}: not above 0")
         focal = [length / whole for length in focal]
     settings = {"fx": focal[0], "fy": focal[-1], "cx": x, "cy": y} | dict(zip(terms, coefficients, strict=False))
     return Lens(camera.label, model, camera.document.size(width, height) | settings)

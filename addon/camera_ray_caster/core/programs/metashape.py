@@ -110,10 +110,8 @@ def poses(document: Document) -> list[Placed]:
     georeferenced = False
     for chunk in root.all("chunk"):
         sensors = {sensor.attributes.get("id"): sensor for sensor in chunk.all("sensor")}
-        components = {
-            component.attributes.get("id"): component.child("transform") for component in chunk.all("component")
-        }
-        holder = chunk.child("cameras")
+        parts, holder = chunk.all("component"), chunk.child("cameras")
+        components = {component.attributes.get("id"): component.child("transform") for component in parts}
         cameras = holder.all("camera") if holder is not None else []
         by_id = {camera.attributes.get("id", ""): camera for camera in cameras}
         for camera in cameras:

@@ -19,7 +19,7 @@ from ..records import InputError
 from ..text_forms.json_text import as_text
 from .parts.document import Document
 from .parts.fields import Fields
-from .parts.lens import Lens, matrix, matrix_of, word_of
+from .parts.lens import ARIA_TERMS, Lens, matrix, matrix_of, word_of
 from .parts.placed import FROM_BLENDER, Placed, Rolling, pose_in
 from .parts.program import SEPARATELY, CameraRecord, FileWriter, ProgramFiles, written
 
@@ -36,8 +36,6 @@ WRITTEN = written(MODELS, "OPENCV", "OPENCV_FISHEYE")
 COEFFICIENTS, LIST = ("k1", "k2", "k3", "k4", "p1", "p2"), "distortion_params"
 """All coefficients, in the order of the list that may stand in their place."""
 FISHEYE624, SPHERE, PARALLEL = "FISHEYE624", "EQUIRECTANGULAR", "ORTHOPHOTO"
-OF_ARIA = "k1", "k2", "k3", "k4", "k5", "k6", "p2", "p1", "s1", "s2", "s3", "s4"
-"""The list of a FISHEYE624."""
 SIZES, FOCAL, CENTER = ("w", "h"), ("fl_x", "fl_y", "camera_angle_x", "camera_angle_y"), ("cx", "cy")
 OF_LENS = (*SIZES, *FOCAL, *CENTER, *COEFFICIENTS, LIST, "camera_model", "is_fisheye")
 """All entries of which a lens is made."""
@@ -112,9 +110,8 @@ def _lens(document: Document, frame: Fields, name: str) -> Lens:
     size = document.size(*sides)
     if kind == SPHERE:
         return Lens(name, SPHERE, size)
-    width, height = (
-        side or frame_side for side, frame_side in zip(sides, document.picture_size or (1, 1), strict=True)
-    )
+    frame_size = document.picture_size or (1, 1)
+    width, height = (side or frame_side for side, frame_side in zip(sides, frame_size, strict=True))
     focal = _focal(entries, "x", width)
     has_y = entries.has("fl_y") or entries.has("camera_angle_y")
     focal_y = _focal(entries, "y", height) if has_y else focal
@@ -123,8 +120,8 @@ def _lens(document: Document, frame: Fields, name: str) -> Lens:
         return Lens(name, "ORTHO", size | _orthographic(entries, (focal, focal_y), (cx, cy), (width, height)))
     size |= matrix(focal, focal_y, cx, cy, 0.5)
     if kind == FISHEYE624:
-        numbers = (whole if whole.has(LIST) else frame).numbers(LIST, len(OF_ARIA))
-        return Lens(name, FISHEYE624, size | dict(zip(OF_ARIA, numbers, strict=True)))
+        numbers = (whole if whole.has(LIST) else frame).numbers(LIST, len(ARIA_TERMS))
+        return Lens(name, FISHEYE624, size | dict(zip(ARIA_TERMS, numbers, strict=True)))
     model, terms = MODELS[kind]
     coefficients = _coefficients(frame if not any(map(whole.has, (LIST, *COEFFICIENTS))) else whole)
     for term in COEFFICIENTS:

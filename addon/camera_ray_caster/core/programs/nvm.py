@@ -8,13 +8,12 @@ Reference: VisualSFM documentation, NVM file format.
 """
 
 import re
-from collections.abc import Sequence
 from math import inf
 
 from .parts.document import Document
-from .parts.lens import FRAME_SIZE, Lens, different, matrix, once_each
+from .parts.lens import FRAME_SIZE, Lens, matrix
 from .parts.placed import Placed, inverted, of_quaternion, of_rotation
-from .parts.program import ProgramFiles
+from .parts.program import ProgramFiles, of_pictures
 
 HEAD, TURNED = "NVM_V3", "NVM_V3_R9T"
 """The second has a rotation of nine numbers and a translation, from the world to the camera."""
@@ -27,9 +26,14 @@ def looks(document: Document) -> bool:
     return document.text.startswith(HEAD)
 
 
-def _pictures(document: Document) -> list[tuple[str, list[float]]]:
-    """Return the name and the numbers of each picture."""
-    lines = document.lines()[1:]
+Picture = tuple[str, list[float], list[float]]
+"""Name; fx, cx, fy, cy and the radial coefficient; and the numbers of the pose."""
+
+
+def _pictures(document: Document) -> list[Picture]:
+    head, *lines = document.lines()
+    words, (width, height) = head.split(), document.picture_size or (1, 1)
+    fixed = document.numbers(words[words.index("FixedK") + 1 :], "FixedK", 5) if "FixedK" in words else None
     count = int(document.numbers(lines[0].split()[:1] if lines else None, "number of cameras", 1)[0])
     total = 15 if document.text.startswith(TURNED) else 10
     pictures = []
@@ -37,32 +41,21 @@ def _pictures(document: Document) -> list[tuple[str, list[float]]]:
         document.check()
         match = PICTURE.fullmatch(line)
         name = match[1].strip('"') if match else line[:20]
-        pictures.append((name, document.numbers(match[2].split() if match else None, f"line of {name}", total)))
+        numbers = document.numbers(match[2].split() if match else None, f"line of {name}", total)
+        f, *pose, radial, _ = numbers
+        pictures.append((name, fixed or [f, width / 2, f, height / 2, radial], pose))
     if len(pictures) < count:
         raise document.refusal(f"it has {len(pictures)} of {count:,} cameras")
     return pictures
 
 
-def _lenses(document: Document) -> list[Lens]:
-    width, height = document.picture_size or (1, 1)
-    fixed = document.lines()[0].split()
-    lenses = []
-    for name, (f, *_, radial, _end) in _pictures(document):
-        fx, fy, cx, cy = f, f, width / 2, height / 2
-        if "FixedK" in fixed:
-            fx, cx, fy, cy, radial = document.numbers(fixed[fixed.index("FixedK") + 1 :], "FixedK", 5)
-        if radial:
-            lenses.append(_distorted(document, name, (fx, fy, cx, cy), radial))
-        else:
-            lenses.append(Lens(name, "OPENCV_PINHOLE", FRAME_SIZE | matrix(fx, fy, cx, cy, 0.5)))
-    return once_each(lenses)
-
-
-def _distorted(document: Document, name: str, focal_and_center: Sequence[float], radial: float) -> Lens:
-    """Return the lens whose rays are (x, y, f / (1 + radial (r / f)^2)) for pixels x, y at r from the center, with a
-    power series of the third component.
+def _lens(document: Document, picture: Picture) -> Lens:
+    """Return the lens of a picture. With a radial coefficient its rays are (x, y, f / (1 + radial (r / f)^2)) for
+    pixels x, y at r from the center, with a power series of the third component.
     """
-    fx, fy, cx, cy = focal_and_center
+    name, (fx, cx, fy, cy, radial), _ = picture
+    if not radial:
+        return Lens(name, "OPENCV_PINHOLE", FRAME_SIZE | matrix(fx, fy, cx, cy, 0.5))
     width, height = document.picture_size or (1, 1)
     share = abs(radial) * ((width / 2) ** 2 + (height / 2) ** 2) / fx**2 if fx > 0 else inf
     if share > STRONGEST or fx != fy:
@@ -77,23 +70,16 @@ def _distorted(document: Document, name: str, focal_and_center: Sequence[float],
     return Lens(name, "OCAM", FRAME_SIZE | {"cx": cx - 0.5, "cy": cy - 0.5, "ocam_polynomial": polynomial})
 
 
-def read(document: Document) -> list[Lens]:
-    return different(_lenses(document))
-
-
-def poses(document: Document) -> list[Placed]:
-    placed = []
-    for (name, (_, *pose_numbers, _radial, _end)), lens in zip(_pictures(document), _lenses(document), strict=True):
-        *turn, x, y, z = pose_numbers
-        if len(turn) == 4:
-            pose = of_quaternion(document, [turn[0], *(-number for number in turn[1:])], [x, y, z], name)
-        else:
-            pose = inverted(of_rotation(document, turn, [x, y, z], f"rotation of {name}"))
-        placed.append(Placed(lens.name, name, None, pose))
-    return placed
+def _placed(document: Document, picture: Picture) -> Placed:
+    name, _, (*turn, x, y, z) = picture
+    if len(turn) == 4:
+        pose = of_quaternion(document, [turn[0], *(-number for number in turn[1:])], [x, y, z], name)
+    else:
+        pose = inverted(of_rotation(document, turn, [x, y, z], f"rotation of {name}"))
+    return Placed("", name, None, pose)
 
 
 PROGRAM = ProgramFiles(
     "NVM", "VisualSFM's .nvm", looks, reads="pinhole, with a radial coefficient", lost="the size of the pictures",
-    read=read, poses=poses,
+    **of_pictures(_pictures, _lens, _placed),
 )  # fmt: skip

@@ -11,9 +11,9 @@ import numpy as np
 from ..units import METERS
 from .parts.document import Document
 from .parts.fields import Fields
-from .parts.lens import Lens, different, matrix, numbers_of, once_each
+from .parts.lens import Lens, matrix, numbers_of
 from .parts.placed import Placed, inverted, pose_of
-from .parts.program import ProgramFiles
+from .parts.program import ProgramFiles, of_pictures
 
 CAMERA, TRAJECTORY = "PinholeCameraParameters", "PinholeCameraTrajectory"
 ROWS = 5
@@ -23,10 +23,8 @@ ROWS = 5
 def looks(document: Document) -> bool:
     if document.has_entries:
         return document.entries.text("class_name") in (CAMERA, TRAJECTORY)
-    lines = [line.split() for line in document.lines()[:ROWS]]
-    return [len(line) for line in lines] == [3, 4, 4, 4, 4] and all(
-        len(numbers_of(words)) == len(words) for words in lines
-    )
+    lines = [numbers_of(line.split()) for line in document.lines()[:ROWS]]
+    return [len(numbers) for numbers in lines] == [3, 4, 4, 4, 4]
 
 
 def _pictures(document: Document) -> list[Fields]:
@@ -35,37 +33,34 @@ def _pictures(document: Document) -> list[Fields]:
     return [picture.labeled(f"picture {number}" if pictures[1:] else "") for number, picture in enumerate(pictures, 1)]
 
 
-def _lens(picture: Fields) -> Lens:
+def _lens(document: Document, picture: Fields) -> Lens:
     intrinsics = picture.part("intrinsic").labeled(picture.label)
     fx, y, z, skew, fy, z1, cx, cy, last = intrinsics.numbers("intrinsic_matrix", 9)
     if any((y, z, z1)) or last != 1:
         raise intrinsics.refusal("intrinsic_matrix", "fx 0 0 skew fy 0 cx cy 1, by columns")
-    picture.document.check()
-    return Lens(
-        picture.label, "OPENCV_PINHOLE", intrinsics.sides("width", "height") | matrix(fx, fy, cx, cy) | {"skew": skew}
-    )
+    document.check()
+    settings = intrinsics.sides("width", "height") | matrix(fx, fy, cx, cy) | {"skew": skew}
+    return Lens(picture.label, "OPENCV_PINHOLE", settings)
+
+
+def _placed(document: Document, picture: Fields) -> Placed:
+    rows = np.reshape(picture.numbers("extrinsic", 16), (4, 4)).T.tolist()
+    frame = float(picture.label.rpartition(" ")[2]) if picture.label else None
+    return Placed("", "", frame, inverted(pose_of(document, rows, picture.said("extrinsic"))))
+
+
+PICTURES = of_pictures(_pictures, _lens, _placed)
 
 
 def read(document: Document) -> list[Lens]:
     if not document.has_entries:
         raise document.refusal("it is a trajectory, which has no lens")
-    return different(map(_lens, _pictures(document)))
+    return PICTURES["read"](document)
 
 
 def poses(document: Document) -> list[Placed]:
-    if not document.has_entries:
-        return _of_log(document)
-    pictures = _pictures(document)
-    lenses = once_each(map(_lens, pictures))
-    placed = []
-    for number, (picture, lens) in enumerate(zip(pictures, lenses, strict=True), 1):
-        rows = np.reshape(picture.numbers("extrinsic", 16), (4, 4)).T.tolist()
-        pose = inverted(pose_of(document, rows, picture.said("extrinsic")))
-        placed.append(Placed(lens.name, "", float(number) if len(pictures) > 1 else None, pose))
-    return placed
-
-
-def _of_log(document: Document) -> list[Placed]:
+    if document.has_entries:
+        return PICTURES["poses"](document)
     lines, placed = document.lines(), []
     for number, begin in enumerate(range(0, len(lines), ROWS), 1):
         document.check()

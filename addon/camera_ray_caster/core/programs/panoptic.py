@@ -22,9 +22,8 @@ def looks(document: Document) -> bool:
 
 
 def _cameras(document: Document) -> list[Fields]:
-    return [
-        camera.labeled(camera.text("name", f"camera {i}")) for i, camera in enumerate(document.entries.parts("cameras"))
-    ]
+    cameras = enumerate(document.entries.parts("cameras"))
+    return [camera.labeled(camera.text("name", f"camera {i}")) for i, camera in cameras]
 
 
 def _lens(camera: Fields) -> Lens:

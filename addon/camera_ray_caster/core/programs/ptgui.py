@@ -10,9 +10,8 @@ from math import hypot
 
 from .parts.document import Document
 from .parts.fields import Fields
-from .parts.lens import Lens, different, one_of_several
-from .parts.panorama_tools import FISHEYE, RECTILINEAR, lens_of, ptlens, turned
-from .parts.placed import Placed
+from .parts.lens import Lens, one_of_several
+from .parts.panorama_tools import FISHEYE, RECTILINEAR, lens_of, of_panorama, ptlens
 from .parts.program import ProgramFiles
 
 MOVED = "vpx", "vpy", "vpd"
@@ -22,14 +21,6 @@ PROJECTIONS = {"rectilinear": RECTILINEAR, "circularfisheye": FISHEYE, "fullfram
 
 def looks(document: Document) -> bool:
     return document.entries.part("project").has("globallenses", "imagegroups")
-
-
-def read(document: Document) -> list[Lens]:
-    return different(lens for lens, _ in _lenses(document))
-
-
-def poses(document: Document) -> list[Placed]:
-    return turned(_lenses(document), MOVED)
 
 
 def _lenses(document: Document) -> list[tuple[Lens, Fields]]:
@@ -51,10 +42,8 @@ def _lens(group: Fields, lenses: list[Fields], number: int) -> Lens:
     shared = lenses[index].labeled(label)
     lens = (group.part("individuallens") if group.has("individuallens") else shared.part("lens")).part("params")
     for name in ("shift", "shear"):
-        params = (group if group.has(f"individual{name}") else shared).part(
-            f"individual{name}" if group.has(f"individual{name}") else name
-        )
-        moved = params.part("params")
+        single = f"individual{name}"
+        moved = (group.part(single) if group.has(single) else shared.part(name)).part("params")
         if any(moved.number(name) for name in moved):
             raise document.refusal(f"{label} has a {name}, which is not read")
     model = PROJECTIONS[lens.word("projection", PROJECTIONS)]
@@ -72,5 +61,5 @@ def _lens(group: Fields, lenses: list[Fields], number: int) -> Lens:
 PROGRAM = ProgramFiles(
     "PTGui", ".pts of version 11 or later", looks, marks="project globallenses imagegroups focallength sensordiagonal",
     reads="rectilinear and equidistant fisheye with a, b, c",
-    lost="shifts, shears, viewpoints and other projections are refused", read=read, poses=poses,
+    lost="shifts, shears, viewpoints and other projections are refused", **of_panorama(_lenses, MOVED),
 )  # fmt: skip

@@ -38,9 +38,8 @@ def read(document: Document) -> list[Lens]:
     lenses: list[Lens] = []
     for camera in entries.parts("cameras"):
         name, common = camera.text("name"), camera.part("all_frames")
-        by_frame = [
-            (frame, one_of_several(name, _lens, common.labeled(name), frame)) for frame in camera.parts("frames")
-        ]
+        common = common.labeled(name)
+        by_frame = [(frame, one_of_several(name, _lens, common, frame)) for frame in camera.parts("frames")]
         if len({repr(lens[1:]) for _, lens in by_frame}) > 1:
             lenses += [lens._replace(name=f"{name} {frame.number('frame'):g}") for frame, lens in by_frame]
         else:

@@ -11,7 +11,7 @@ import numpy as np
 from .parts.document import Document
 from .parts.fields import Fields
 from .parts.lens import Lens, matrix
-from .parts.placed import checked
+from .parts.placed import of_rotation
 from .parts.program import ProgramFiles, of_cameras
 
 MODELS = {
@@ -45,9 +45,8 @@ def _lens(camera: Fields) -> Lens:
 def _pose(camera: Fields) -> np.ndarray:
     camera.document.check()
     right, up, ahead, origin = (np.array(camera.numbers(name, 3)) for name in ("right", "up", "forward", "origin"))
-    pose = np.eye(4)
-    pose[:3] = np.stack((right, -up, ahead, origin), axis=1)
-    return checked(camera.document, pose, f"right, up and forward of {camera.label}")
+    axes = np.stack((right, -up, ahead), axis=1)
+    return of_rotation(camera.document, axes, origin, f"right, up and forward of {camera.label}")
 
 
 PROGRAM = ProgramFiles(

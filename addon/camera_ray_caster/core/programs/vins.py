@@ -72,11 +72,8 @@ def _size(entries: Fields) -> dict:
 
 
 def _ocam(entries: Fields) -> Lens:
-    document, affine, coefficients = (
-        entries.document,
-        entries.part("affine_parameters"),
-        entries.part("poly_parameters"),
-    )
+    document = entries.document
+    affine, coefficients = entries.part("affine_parameters"), entries.part("poly_parameters")
     c, d, e, x, y = (affine.number(name) for name in ("ac", "ad", "ae", "cx", "cy"))
     if not c > 0:
         raise document.refusal(f"ac is {c:g}: it must be above 0")

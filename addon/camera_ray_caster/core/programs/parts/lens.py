@@ -38,6 +38,9 @@ MATRIX = "fx", "fy", "cx", "cy"
 ANGLES = "longitude_min", "longitude_max", "latitude_min", "latitude_max"
 """The settings of an equirectangular panorama."""
 
+ARIA_TERMS = "k1", "k2", "k3", "k4", "k5", "k6", "p2", "p1", "s1", "s2", "s3", "s4"
+"""The coefficients of a FISHEYE624 in the order of Project Aria."""
+
 Models = Mapping[str, tuple[str, Sequence[str]]]
 """Models of a program by its words: the key of our model, and the settings that follow the camera matrix."""
 

@@ -7,15 +7,17 @@ to the right by the yaw, in degrees.
 References: Panorama Tools documentation, Lens correction model; Image positioning model.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
-from ...maths.rotations import rotation
+from ...maths.rotations import rotation, transform
+from .document import Document
 from .fields import Fields
-from .lens import Lens, matrix, once_each
+from .lens import Lens, matrix
 from .placed import Placed
+from .program import of_pictures
 
 ANGLES = "yaw", "pitch", "roll"
 UPRIGHT = np.array(((1, 0, 0), (0, 0, 1), (0, -1, 0)))
@@ -42,22 +44,22 @@ def lens_of(
     return Lens(name, model, settings | {"ftheta_angle_to_radius": pixels})
 
 
-def turned(
-    pictures: Sequence[tuple[Lens, Fields]], moved: Sequence[str], angles: Sequence[str] = ANGLES
-) -> list[Placed]:
-    """Return the poses of pictures by their lenses, which have their names, and the entries with their angles. Raises
-    InputError if one of the entries ``moved`` is not 0: the picture is taken from another place.
+def of_panorama(
+    pictures: Callable[[Document], list[tuple[Lens, Fields]]], moved: Sequence[str], angles: Sequence[str] = ANGLES
+) -> dict[str, Any]:
+    """Return ``read`` and ``poses`` of a program, given the pictures of a document: lenses, which have their names, and
+    the entries with their angles. They raise InputError if one of the entries ``moved`` is not 0: the picture is taken
+    from another place.
     """
-    placed = []
-    shared = once_each(lens for lens, _ in pictures)
-    for first, (lens, position) in zip(shared, pictures, strict=True):
-        position.document.check()
+
+    def placed(document: Document, picture: tuple[Lens, Fields]) -> Placed:
+        document.check()
+        lens, position = picture
         for name in moved:
             if position.number(name, 0.0):
                 raise position.refusal(name, "0: pictures are taken from one place")
         yaw, pitch, roll = np.radians([position.number(name, 0.0) for name in angles])
         right, up, clockwise = rotation(np.array(((0, yaw, 0), (pitch, 0, 0), (0, 0, roll))))
-        pose = np.eye(4)
-        pose[:3, :3] = UPRIGHT @ right @ up @ clockwise
-        placed.append(Placed(first.name, lens.name, None, pose))
-    return placed
+        return Placed("", lens.name, None, transform(UPRIGHT @ right @ up @ clockwise, 0.0))
+
+    return of_pictures(pictures, lambda document, picture: picture[0], placed)

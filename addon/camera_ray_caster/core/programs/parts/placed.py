@@ -6,13 +6,13 @@ world of a reconstruction, or the body of a rig. Lengths are in the file's unit.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
 from ...conventions import FROM_BLENDER as FROM_BLENDER  # programs take it from here
-from ...maths.rotations import from_quaternion, rotation
+from ...maths.rotations import from_quaternion, rotation, transform
 from ...text_forms.content import flat
 from .fields import Fields
 from .lens import numbers_of
@@ -68,9 +68,8 @@ def pose_of(document: FileSource, value, name: str) -> np.ndarray:
     if numbers[12:] not in ([], [0.0, 0.0, 0.0, 1.0]):
         last = " ".join(f"{number:g}" for number in numbers[12:])
         raise document.refusal(f"the last row of {name} is {last}: it must be 0 0 0 1, of a matrix by rows")
-    pose = np.eye(4)
-    pose[:3] = np.reshape(numbers, (-1, 4))[:3]
-    return checked(document, pose, name)
+    rows = np.reshape(numbers, (-1, 4))
+    return checked(document, transform(rows[:3, :3], rows[:3, 3]), name)
 
 
 def pose_in(entries: Fields, name: str) -> np.ndarray:
@@ -85,30 +84,23 @@ def of_quaternion(document: FileSource, quaternion, translation, name: str) -> n
     w, x, y, z = document.numbers(quaternion, f"rotation of {name}", 4)
     if max(map(abs, (w, x, y, z))) < SHORTEST:
         raise document.refusal(f"the rotation of {name} is 0: it must be a quaternion")
-    pose = np.eye(4)
-    pose[:3, :3] = from_quaternion(np.array((w, x, y, z)))
-    pose[:3, 3] = document.numbers(translation, f"translation of {name}", 3)
-    return pose
+    return transform(from_quaternion((w, x, y, z)), document.numbers(translation, f"translation of {name}", 3))
 
 
-def of_rotation(document: FileSource, turn: Sequence[float], translation, name: str) -> np.ndarray:
+def of_rotation(document: FileSource, turn, translation, name: str) -> np.ndarray:
     """Return the pose of a rotation, as a vector or as 9 numbers by rows, and a translation. Raises InputError, with a
     name, for what is no rotation.
     """
-    pose = np.eye(4)
-    pose[:3, :3] = rotation(np.array([turn]))[0] if len(turn) == 3 else np.reshape(turn, (3, 3))
-    pose[:3, 3] = translation
-    return checked(document, pose, name)
+    axes = rotation(np.array([turn]))[0] if np.size(turn) == 3 else np.reshape(turn, (3, 3))
+    return checked(document, transform(axes, translation), name)
 
 
 def of_camera(document: FileSource, turn, center, name: str) -> np.ndarray:
     """Return the pose of a rotation by rows, 9 numbers, from the world to the camera, and the camera's place. Raises
     InputError, with a name.
     """
-    pose = np.eye(4)
-    pose[:3, :3] = np.reshape(document.numbers(turn, f"rotation of {name}", 9), (3, 3)).T
-    pose[:3, 3] = document.numbers(center, f"center of {name}", 3)
-    return checked(document, pose, f"rotation of {name}")
+    rows = np.reshape(document.numbers(turn, f"rotation of {name}", 9), (3, 3))
+    return of_rotation(document, rows.T, document.numbers(center, f"center of {name}", 3), f"rotation of {name}")
 
 
 def checked(document: FileSource, pose: np.ndarray, name: str) -> np.ndarray:
@@ -121,7 +113,4 @@ def checked(document: FileSource, pose: np.ndarray, name: str) -> np.ndarray:
 
 def inverted(pose: np.ndarray) -> np.ndarray:
     """Return the inverse of a pose, with the transposed axes."""
-    inverse = np.eye(4)
-    inverse[:3, :3] = pose[:3, :3].T
-    inverse[:3, 3] = -pose[:3, :3].T @ pose[:3, 3]
-    return inverse
+    return transform(pose[:3, :3].T, -pose[:3, :3].T @ pose[:3, 3])

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -16,8 +16,10 @@ from ...records import InputError
 from ...units import BLENDER_UNITS, Unit
 from .document import Document
 from .fields import Fields
-from .lens import Lens, Models, one_of_several
+from .lens import Lens, Models, different, once_each, one_of_several
 from .placed import FROM_BLENDER, Placed, Rolling, inverted
+
+Picture = TypeVar("Picture")
 
 Content = str | bytes | np.ndarray | Iterator[str]
 """Content of a file: text, also in parts, bytes, or an image, (rows, columns, 3) float32 from the bottom up, stored as
@@ -190,6 +192,27 @@ def of_cameras(
         return [Placed(camera.label, "", None, pose(camera)) for camera in cameras(document)] if pose else []
 
     return {"read": read} | ({"poses": poses} if pose else {})
+
+
+def of_pictures(
+    pictures: Callable[[Document], Sequence[Picture]],
+    lens: Callable[[Document, Picture], Lens],
+    placed: Callable[[Document, Picture], Placed | None],
+) -> dict[str, Any]:
+    """Return ``read`` and ``poses`` of a program whose files have a lens for each picture; equal ones are one, after
+    which the camera of a pose is named. A picture without a pose is left out.
+    """
+
+    def read(document: Document) -> list[Lens]:
+        return different(lens(document, picture) for picture in pictures(document))
+
+    def poses(document: Document) -> list[Placed]:
+        several = pictures(document)
+        lenses = once_each(lens(document, picture) for picture in several)
+        pairs = [(placed(document, picture), first) for picture, first in zip(several, lenses, strict=True)]
+        return [pose._replace(camera=first.name) for pose, first in pairs if pose is not None]
+
+    return {"read": read, "poses": poses}
 
 
 def by_lens(

@@ -40,18 +40,12 @@ def is_poses_bounds(document: Document) -> bool:
 
 def array_of(document: Document) -> np.ndarray:
     """Return the array of an .npy as float64. Raises InputError."""
-    try:
-        return _arrays(document)["directions"]
-    except DAMAGED as error:
-        raise _damage(document, error) from error
+    return _arrays(document)["directions"]
 
 
 def lens_of(document: Document) -> Lens:
     """Return the lens of a file of arrays. Raises InputError."""
-    try:
-        arrays = _arrays(document)
-    except DAMAGED as error:
-        raise _damage(document, error) from error
+    arrays = _arrays(document)
     if "time" in arrays:
         raise document.refusal(
             "its pixels have their own times, which a table of rays has not: export a camera without pixel times"
@@ -71,11 +65,6 @@ def lens_of(document: Document) -> Lens:
     if area.shape != (4,) or not (area[2:] > area[:2]).all():
         raise document.refusal("area must be left, bottom, right, top, 0 to 1 over the frame")
     return table(document, directions, origins, area, arrays.get("pose"))
-
-
-def _damage(document: Document, error: Exception) -> InputError:
-    damage = "" if isinstance(error, InputError) else "it is no array of numpy, or damaged: "
-    return document.refusal(damage + (" ".join(str(error).split()) or type(error).__name__))
 
 
 def pose_in(document: Document) -> np.ndarray | None:
@@ -118,7 +107,15 @@ def sampled(document: Document, sides: Sequence[int], rays: Callable[..., tuple]
 
 
 def _arrays(document: Document) -> Mapping[str, np.ndarray]:
-    """Return the arrays of a file by name as float64. Raises one of DAMAGED, and InputError for what is too large."""
+    """Return the arrays of a file by name as float64. Raises InputError for what is damaged or too large."""
+    try:
+        return _loaded(document)
+    except DAMAGED as error:
+        damage = "" if isinstance(error, InputError) else "it is no array of numpy, or damaged: "
+        raise document.refusal(damage + (" ".join(str(error).split()) or type(error).__name__)) from error
+
+
+def _loaded(document: Document) -> Mapping[str, np.ndarray]:
     data = BytesIO(document.data)
     if document.data.startswith(NPY):
         array = numbers(np.load(data, allow_pickle=False), "the array")

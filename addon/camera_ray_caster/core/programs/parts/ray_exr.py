@@ -29,9 +29,8 @@ def lens_of(document: Document) -> Lens:
     """Return the lens of an image. Raises InputError."""
     channels = channels_of(document.data, document.path)
     if any(values.dtype == np.float16 for values in channels.values()):
-        raise document.refusal(
-            "its numbers are half floats, which turn rays by up to 2.4e-4 radians: save it as float32"
-        )
+        reason = "its numbers are half floats, which turn rays by up to 2.4e-4 radians: save it as float32"
+        raise document.refusal(reason)
     if is_part(document.data):
         raise document.refusal("its data window is not its display window: save the whole picture")
     vectors = _vectors(channels)

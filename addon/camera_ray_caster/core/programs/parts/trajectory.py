@@ -10,13 +10,10 @@ import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
-import numpy as np
-
 from ...arguments import shown
-from ...maths.rotations import rotation
 from .document import Document
 from .lens import numbers_of
-from .placed import Placed, of_quaternion
+from .placed import Placed, of_quaternion, of_rotation
 
 NANOSECONDS = 1e12
 """Times above it are in nanoseconds: as seconds it would be 30,000 years."""
@@ -121,11 +118,7 @@ def placed_in_lines(document: Document) -> list[Placed]:
             document.numbers(row, name, len(rows[0]) if columns is not IN_NANOSECONDS else 8)  # raises
         values = dict(zip(used, document.numbers([row[index] for index in used], name, len(used)), strict=True))
         position, turn = [values[i] for i in columns.position], [values[i] for i in columns.turn]
-        if len(turn) == 4:
-            pose = of_quaternion(document, turn, position, name)
-        else:
-            pose = np.eye(4)
-            pose[:3, :3], pose[:3, 3] = rotation(np.array([turn]))[0], position
+        pose = (of_quaternion if len(turn) == 4 else of_rotation)(document, turn, position, name)
         if columns.time:
             time = sum(seconds(values[i], unit) for i, unit in columns.time)
             placed.append(Placed("", "", None, pose, time))

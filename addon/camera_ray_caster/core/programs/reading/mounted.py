@@ -186,9 +186,8 @@ def _named(placed: list[Placed], models: dict[str, str]) -> list[tuple[Placed, s
     one name in several folders are of several cameras, named after these. Frames that are not told are in the order of
     the file. ``models``: key of each lens's model.
     """
-    by_names = [
-        (pose, *name) for pose, name in zip(placed, objects_and_frames([pose.image for pose in placed]), strict=True)
-    ]
+    known = objects_and_frames([pose.image for pose in placed])
+    by_names = [(pose, *name) for pose, name in zip(placed, known, strict=True)]
     if any(pose.frame is not None for pose in placed):
         return [(pose, pose.image or "Camera", pose.frame) for pose in placed]
     if not any(pose.image for pose in placed):
