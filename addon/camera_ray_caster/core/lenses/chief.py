@@ -187,19 +187,13 @@ def _family(optics: Optics, film: float):
         raise InputError("no ray through the center of the stop passes the lens: check its rims and indices")
     radii = radius(angles)
     last = int(np.argmin(np.append(exists(angles)[1:] & (np.diff(radii) > 0), False)))
-    end = _growing(radius, *_edge(exists, angles, last))
+    low, high = (float(angles[min(max(k, 0), len(angles) - 1)]) for k in (last - 1, last + 1))
+    end = _growing(radius, low, bisected(exists, low, high))  # rays cease to exist at the second, at the latest
     passing = exists(angles, clip=True) & (angles <= end)
     first_lost = int(np.argmin(np.append(passing, False)))
     rim = bisected(lambda angle: exists(angle, clip=True) & (angle <= end), angles[first_lost - 1],
                     angles[first_lost] if first_lost < len(angles) else end)  # fmt: skip
     return radius, front, rear, end, min(rim, end)
-
-
-def _edge(exists, angles, last: int) -> tuple[float, float]:
-    """Return two angles around the end of the family: the last knot at which r grows, and where rays cease to exist."""
-    low = float(angles[max(last - 1, 0)])
-    high = float(angles[min(last + 1, len(angles) - 1)])
-    return low, bisected(exists, low, high)
 
 
 def _growing(radius, low: float, high: float) -> float:

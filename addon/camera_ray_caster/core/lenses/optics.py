@@ -103,10 +103,9 @@ class Optics:
         """z of the image of the stop that the scene sees, and its magnification."""
         if self.stop == 0:
             return 0.0, 1.0
-        gap = self.surfaces[self.stop].z - self.surfaces[self.stop - 1].z
-        (a, b), _ = np.array([[1.0, gap / self.surfaces[self.stop - 1].behind], [0.0, 1.0]]) @ self.matrix(
-            0, self.stop - 1
-        )
+        last, stop = self.surfaces[self.stop - 1 : self.stop + 1]
+        to_stop = np.array([[1.0, (stop.z - last.z) / last.behind], [0.0, 1.0]])
+        (a, b), _ = to_stop @ self.matrix(0, self.stop - 1)
         return float(b * self.front.before / a), float(1 / a)
 
     @cached_property
@@ -159,14 +158,10 @@ class Optics:
         start = np.zeros_like(height)
         direction = start, height, start + distance
         length = np.sqrt(height * height + distance * distance)
-        stop = self.surfaces[self.stop]
-        surfaces = [*self.surfaces]
+        surfaces, stop = [*self.surfaces], self.surfaces[self.stop]
         surfaces[self.stop] = replace(stop, rim=min(radius, stop.rim))
         with np.errstate(invalid="ignore", divide="ignore"):
-            origin, (dx, dy, dz) = trace(
-                surfaces,
-                (start, start, start + self.entrance_pupil[0] - distance),
-                tuple(component / length for component in direction),
-                to_film=True,
-            )
+            point = start, start, start + self.entrance_pupil[0] - distance
+            ahead = tuple(component / length for component in direction)
+            origin, (dx, dy, dz) = trace(surfaces, point, ahead, to_film=True)
         return origin, (dx, np.where(np.isnan(dx), np.nan, dy), dz)

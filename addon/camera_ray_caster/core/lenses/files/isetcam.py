@@ -28,58 +28,51 @@ def read(text: str, name: str) -> Prescription:
     if not isinstance(surfaces, list) or not all(isinstance(surface, dict) for surface in surfaces):
         raise InputError("its 'surfaces' must be a list of mappings")
     rows, medium = [], 1.0
-    numbers = [_numbers(surface, surface_index) for surface_index, surface in enumerate(surfaces)]
+    numbers = [_numbers(surface, number) for number, surface in enumerate(surfaces, 1)]
     stop = _stop(numbers)
-    for surface_index, (surface, (radius, gap, half, index, abbe)) in enumerate(zip(surfaces, numbers, strict=True)):
-        medium = medium if surface_index == stop else index or 1.0
-        conic = surface.get("conic_constant", 0)
-        conic = conic[0] if isinstance(conic, list) and conic else conic
-        if not isinstance(conic, int | float):
-            raise InputError(
-                f"surface {surface_index + 1} has the conic constant {str(conic)[:20]}: it must be a number"
-            )
-        rows.append(Row(1 / radius if radius else 0.0, gap, medium, half or inf, float(conic), (), abbe))
+    for k, (radius, gap, half, conic, index, abbe) in enumerate(numbers):
+        medium = medium if k == stop else index or 1.0
+        rows.append(Row(1 / radius if radius else 0.0, gap, medium, half or inf, conic, (), abbe))
     return Prescription(tuple(rows), stop, str(document.get("name", name)), str(document.get("description", "")))
 
 
-def _numbers(surface: dict[str, Any], surface_index: int) -> tuple[float, float, float, float, float]:
-    """Return radius, thickness, semi-aperture, index and Abbe's number."""
-    radius, gap, half = (_number(surface, key, surface_index) for key in ("radius", "thickness", "semi_aperture"))
-    return radius, gap, half, *_index(surface.get("ior", 1), surface_index)
+def _numbers(surface: dict[str, Any], number: int) -> tuple[float, float, float, float, float, float]:
+    """Return radius, thickness, semi-aperture, conic constant, index and Abbe's number."""
+    radius, gap, half = (_number(surface.get(key), key, number) for key in ("radius", "thickness", "semi_aperture"))
+    conic = surface.get("conic_constant", 0)
+    conic = _number(conic[0] if isinstance(conic, list) and conic else conic, "conic constant", number)
+    return radius, gap, half, conic, *_index(surface.get("ior", 1), number)
 
 
-def _stop(numbers: list[tuple[float, float, float, float, float]]) -> int:
+def _stop(numbers: list[tuple[float, float, float, float, float, float]]) -> int:
     """Return the place of the stop."""
     stops, medium = [], 1.0
-    for surface_index, (radius, _, _, index, _) in enumerate(numbers):
+    for k, (radius, *_, index, _) in enumerate(numbers):
         if radius == 0 and index in (0.0, medium):
-            stops.append(surface_index)
+            stops.append(k)
         else:
             medium = index or 1.0
-    stops = stops or [surface_index for surface_index, row in enumerate(numbers) if row[0] == 0 and row[3] == 1]
+    stops = stops or [k for k, (radius, *_, index, _) in enumerate(numbers) if radius == 0 and index == 1]
     if len(stops) != 1:
         raise InputError(f"it has {len(stops)} surfaces of radius 0 without a change of the medium: one is the stop")
     return stops[0]
 
 
-def _number(surface: dict[str, Any], key: str, surface_index: int) -> float:
-    value = surface.get(key)
+def _number(value: Any, quantity: str, number: int) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise InputError(f"surface {surface_index + 1} has the {key} {str(value)[:20]}: it must be a number")
+        raise InputError(f"surface {number} has the {quantity} {str(value)[:20]}: it must be a number")
     return float(value)
 
 
-def _index(value: Any, surface_index: int) -> tuple[float, float]:
+def _index(value: Any, number: int) -> tuple[float, float]:
     """Return the index at the d line, and Abbe's number, of a number or of tables."""
     if isinstance(value, int | float) and not isinstance(value, bool):
         return float(value), inf
     try:
-        lengths, indices = ([float(number) for number in row] for row in value)
+        lengths, indices = (map(float, row) for row in value)
         pairs = sorted(zip(lengths, indices, strict=True))
     except (TypeError, ValueError) as error:
-        raise InputError(
-            f"surface {surface_index + 1} has an ior that is neither a number nor two lists of them"
-        ) from error
+        raise InputError(f"surface {number} has an ior that is neither a number nor two lists of them") from error
     d, f, c = (_between(pairs, line) for line in (D_LINE, F_LINE, C_LINE))
     return d, ((d - 1) / (f - c) if f > c else inf)
 

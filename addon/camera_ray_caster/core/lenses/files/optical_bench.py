@@ -35,12 +35,11 @@ def read(text: str, name: str) -> Prescription:
     constants = {row[0] for row in sections.get("constants", [])}
     aspheres = {row[0]: row for row in sections.get("aspherical data", [])}
     states = max((len(values) for values in variable.values()), default=1)
-    surfaces, gaps, stop, stops = [], [], None, 0
-    for surface_index, row in enumerate(sections.get("lens data", [])):
-        row = [*row, *[""] * 7]
-        label, radius, gap, index, diameter, abbe = row[:6]
+    surfaces, gaps, stops = [], [], []
+    for number, row in enumerate(sections.get("lens data", [])):
+        label, radius, gap, index, diameter, abbe = [*row, *[""] * 6][:6]
         if label == STOP:
-            stop, stops = surface_index, stops + 1
+            stops.append(number)
         gaps.append([_gap(gap, variable, state, label) for state in range(states)])
         curvature = _curvature(radius, label)
         conic, powers = _asphere(aspheres.get(label), constants)
@@ -48,23 +47,21 @@ def read(text: str, name: str) -> Prescription:
         dispersion = _number(abbe, label, "Abbe number") if abbe and index else inf
         medium = _number(index, label, "index") if index else 1.0
         surfaces.append(Row(curvature, gaps[-1][0], medium, rim or inf, conic, powers, dispersion or inf, label=label))
-    if stop is None or stops > 1:
-        raise InputError(f"it has {stops} rows {STOP}: one must be the stop")
-    changing = [surface_index for surface_index, of_row in enumerate(gaps) if len(set(of_row)) > 1]
+    if len(stops) != 1:
+        raise InputError(f"it has {len(stops)} rows {STOP}: one must be the stop")
+    changing = [number for number, of_row in enumerate(gaps) if len(set(of_row)) > 1]
     configurations = tuple(
-        (str(state), tuple((surface_index, gaps[surface_index][state]) for surface_index in changing))
-        for state in range(states)
+        (str(state), tuple((number, gaps[number][state]) for number in changing)) for state in range(states)
     )
     descriptive = {row[0].lower(): row[1] for row in sections.get("descriptive data", []) if len(row) > 1}
-    claims = {
-        known: float(variable[key][0]) for key, known in CLAIMS.items() if key in variable and _is(variable[key][0])
-    }
+    stated = {known: variable[key][0] for key, known in CLAIMS.items() if key in variable}
+    claims = {known: float(word) for known, word in stated.items() if _is_finite(word)}
     source = descriptive.get("patent", "") or descriptive.get("author", "")
     title = descriptive.get("title", name)
-    return Prescription(tuple(surfaces), stop, title, source, 1.0, claims, configurations if changing else ())
+    return Prescription(tuple(surfaces), stops[0], title, source, 1.0, claims, configurations if changing else ())
 
 
-def _is(word: str) -> bool:
+def _is_finite(word: str) -> bool:
     try:
         return isfinite(float(word))
     except ValueError:

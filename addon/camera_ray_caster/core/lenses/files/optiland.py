@@ -13,7 +13,7 @@ from typing import Any
 from ...records import InputError
 from ..optics import Optics
 from ..prescription import Prescription, Row
-from .zemax import GLASSES
+from .zemax import glass_of
 
 POWERS = {"EvenAsphere": 2, "OddAsphere": 1}
 """By the type of a geometry: step of the powers of r, which is also the first of them."""
@@ -69,9 +69,8 @@ def _medium(material: dict[str, Any], number: int) -> tuple[float, float]:
     """Return the index behind a surface at the d line, and Abbe's number."""
     if "index" in material:
         return float(material["index"]), float(material.get("abbe") or inf)
-    if (glass := str(material.get("name", "")).upper()) in GLASSES:
-        return GLASSES[glass]
-    raise InputError(f"surface {number} has the medium {glass or 'unknown'} without its index: give index and abbe")
+    glass = str(material.get("name", "")).upper()
+    return glass_of(glass, f"surface {number} has the medium {glass or 'unknown'}", "index and abbe")
 
 
 def _with_stop(lens: Prescription, aperture: dict[str, Any]) -> Prescription:

@@ -13,9 +13,13 @@ from ..prescription import Prescription, Row
 
 def recognizes(text: str, path: str) -> bool:
     """Return whether a text is one of pbrt's lens files: lines of four or five numbers."""
-    lines = [line.split("#")[0].split() for line in text.splitlines()]
-    lines = [line for line in lines if line]
+    lines = _words(text)
     return bool(lines) and all(len(line) in (4, 5) and all(map(_is_number, line)) for line in lines)
+
+
+def _words(text: str) -> list[list[str]]:
+    """Return the words of each line, without comments and empty lines."""
+    return [words for line in text.splitlines() if (words := line.split("#")[0].split())]
 
 
 def _is_number(word: str) -> bool:
@@ -28,18 +32,12 @@ def _is_number(word: str) -> bool:
 
 def read(text: str, name: str) -> Prescription:
     """Return the lens. Raises InputError, which names the line's surface, for one without a stop."""
-    lines = [line.split("#")[0].split() for line in text.splitlines()]
-    numbers = [[float(word) for word in line] for line in lines if line]
+    numbers = [[float(word) for word in words] for words in _words(text)]
     comments = [line.strip("# \t") for line in text.splitlines() if line.lstrip().startswith("#")]
     if numbers[0][1] == 0 and numbers[-1][1] != 0:
         after = [row[1] for row in numbers[1:]]
         numbers = [[row[0], gap, *row[2:]] for row, gap in zip(numbers, [*after, 0.0], strict=True)]
-    return from_rows(numbers, name, "; ".join(comments[:2]))
-
-
-def from_rows(numbers, name: str, source: str = "", claims=None) -> Prescription:
-    """Return the lens of rows (radius, gap behind, index behind, diameter, Abbe number or 0), radius 0 at the stop."""
-    stops = [surface_index for surface_index, row in enumerate(numbers) if row[0] == 0]
+    stops = [index for index, row in enumerate(numbers) if row[0] == 0]
     if len(stops) != 1:
         raise InputError(f"it has {len(stops)} rows of radius 0: one must be the stop")
     rows, medium = [], 1.0
@@ -48,4 +46,4 @@ def from_rows(numbers, name: str, source: str = "", claims=None) -> Prescription
         curvature = 0.0 if radius == 0 or not isfinite(radius) else 1 / radius
         dispersion = abbe[0] if abbe and abbe[0] > 0 and medium > 1 else inf
         rows.append(Row(curvature, gap, medium, diameter / 2 if diameter > 0 else inf, abbe=dispersion))
-    return Prescription(tuple(rows), stops[0], name, source, claims=claims or {})
+    return Prescription(tuple(rows), stops[0], name, "; ".join(comments[:2]))

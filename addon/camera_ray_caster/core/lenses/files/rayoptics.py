@@ -11,7 +11,7 @@ from typing import Any
 
 from ...records import InputError
 from ..prescription import Prescription, Row
-from .zemax import GLASSES
+from .zemax import glass_of
 
 UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "meters": 1000.0, "inches": 25.4, "in": 25.4}
 """Millimeters of the file's unit."""
@@ -34,8 +34,8 @@ def read(text: str, name: str) -> Prescription:
         profiles = model.get("profile_dict", {})
         gaps = [gap["attributes"] for gap in sequence["gaps"]]
         rows = [
-            _row(surface["attributes"], gap, profiles, surface_index, unit)
-            for surface_index, (surface, gap) in enumerate(zip(sequence["ifcs"][:-1], gaps, strict=True))
+            _row(surface["attributes"], gap, profiles, number, unit)
+            for number, (surface, gap) in enumerate(zip(sequence["ifcs"][:-1], gaps, strict=True))
         ][1:]
         stop, before = int(sequence["stop_surface"]) - 1, _medium(gaps[0], 0)[0]
     except InputError:
@@ -47,42 +47,31 @@ def read(text: str, name: str) -> Prescription:
     return Prescription(tuple(rows), stop, str(system.get("title") or name), "", before)
 
 
-def _row(
-    surface: dict[str, Any], gap: dict[str, Any], profiles: dict[str, Any], surface_index: int, unit: float
-) -> Row:
+def _row(surface: dict[str, Any], gap: dict[str, Any], profiles: dict[str, Any], number: int, unit: float) -> Row:
     profile = surface.get("profile") or profiles[str(surface["profile_id"])]
     kind, numbers = profile["__instance_type__"][1], profile["attributes"]
-    if (
-        kind not in ("Spherical", "Conic", *POWER_STEPS)
-        or surface.get("decenter")
-        or surface["interact_mode"] == "reflect"
-    ):
-        problem = f"{kind}, {surface['interact_mode']}"
-        raise InputError(f"surface {surface_index} is a {problem}: only centered, refracting surfaces are supported")
-    conic, step = (
-        float(numbers["ec"]) - 1 if "ec" in numbers else float(numbers.get("cc", 0.0)),
-        POWER_STEPS.get(kind, 1),
-    )
+    mode, is_known = surface["interact_mode"], kind in ("Spherical", "Conic", *POWER_STEPS)
+    if not is_known or surface.get("decenter") or mode == "reflect":
+        raise InputError(f"surface {number} is a {kind}, {mode}: only centered, refracting surfaces are supported")
+    conic = float(numbers["ec"]) - 1 if "ec" in numbers else float(numbers.get("cc", 0.0))
+    step = POWER_STEPS.get(kind, 1)
     powers = enumerate(numbers["coefs"], 1) if kind in POWER_STEPS else ()
     asphere = tuple((step * k, float(value) * unit ** (1 - step * k)) for k, value in powers if value)
     if asphere and asphere[0][0] < 2:
-        raise InputError(f"surface {surface_index} has a coefficient of r^1, a cone at its vertex: remove it")
+        raise InputError(f"surface {number} has a coefficient of r^1, a cone at its vertex: remove it")
     clear = surface.get("clear_apertures") or [{"attributes": {"radius": surface.get("max_aperture", 0.0)}}]
-    index, abbe = _medium(gap, surface_index)
+    index, abbe = _medium(gap, number)
     curvature, behind = float(numbers["cv"]) / unit, float(gap["thi"]) * unit
     rim = float(clear[0]["attributes"]["radius"]) * unit or inf
-    return Row(curvature, behind, index, rim, conic, asphere, abbe, label=str(surface_index))
+    return Row(curvature, behind, index, rim, conic, asphere, abbe, label=str(number))
 
 
-def _medium(gap: dict[str, Any], surface_index: int) -> tuple[float, float]:
+def _medium(gap: dict[str, Any], number: int) -> tuple[float, float]:
     """Return the index behind a surface at the d line, and Abbe's number."""
     kind, numbers = gap["medium"]["__instance_type__"][1], gap["medium"]["attributes"]
     if kind == "Air":
         return 1.0, inf
     if "n" in numbers:
         return float(numbers["n"]), float(numbers.get("v") or inf)
-    if (glass := str(numbers.get("gname", "")).upper()) in GLASSES:
-        return GLASSES[glass]
-    raise InputError(
-        f"surface {surface_index} has the medium {glass or kind} without its index: give n and v in its place"
-    )
+    glass = str(numbers.get("gname", "")).upper()
+    return glass_of(glass, f"surface {number} has the medium {glass or kind}", "n and v")

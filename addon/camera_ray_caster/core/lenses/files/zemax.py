@@ -65,56 +65,57 @@ def read(text: str, name: str) -> Prescription:
         raise InputError(f"its unit is {head['UNIT'][0]!r}: it must be one of {', '.join(UNITS)}")
     rows: list[Row] = []
     stop = None
-    for surface_index, block in enumerate(blocks[1:-1], 1):
+    for number, block in enumerate(blocks[1:-1], 1):
         if "STOP" in block:
             stop = len(rows)
-        rows.append(_row(block, surface_index, unit))
+        rows.append(_row(block, number, unit))
     if stop is None:
         raise InputError("no surface is the stop (STOP)")
     title = " ".join(head.get("NAME", [])) or name
     return Prescription(tuple(rows), stop, title, " ".join(head.get("NOTE", [])[1:]))
 
 
-def _row(block: dict[str, list[str]], surface_index: int, unit: float) -> Row:
+def _row(block: dict[str, list[str]], number: int, unit: float) -> Row:
     kind = block.get("TYPE", ["STANDARD"])[0].upper()
     glass = block.get("GLAS", [])
     if kind not in ("STANDARD", "EVENASPH") or (glass and glass[0].upper() == "MIRROR"):
         kind = "MIRROR" if kind in ("STANDARD", "EVENASPH") else kind
-        raise InputError(f"surface {surface_index} is a {kind}: only centered surfaces that refract are read")
-    curvature, gap, rim, conic = (
-        _number(block.get(key, ["0"])[0], surface_index, key) for key in ("CURV", "DISZ", "DIAM", "CONI")
-    )
+        raise InputError(f"surface {number} is a {kind}: only centered surfaces that refract are read")
+    entries = "CURV", "DISZ", "DIAM", "CONI"
+    curvature, gap, rim, conic = (_number(block.get(key, ["0"])[0], number, key) for key in entries)
     powers = []
     for order in range(1, 9 if kind == "EVENASPH" else 1):
-        value = _number((block.get(f"PARM {order}") or ["0"])[0], surface_index, f"PARM {order}")
+        value = _number((block.get(f"PARM {order}") or ["0"])[0], number, f"PARM {order}")
         if value:
             powers.append((2 * order, value * unit ** (1 - 2 * order)))
-    index, abbe = _glass(glass, surface_index) if glass else (1.0, inf)
+    index, abbe = _glass(glass, number) if glass else (1.0, inf)
     if gap == inf:
-        raise InputError(f"surface {surface_index} has an infinite distance behind it: it must be finite")
-    return Row(
-        curvature / unit, gap * unit, index, rim * unit or inf, conic, tuple(powers), abbe, label=str(surface_index)
-    )
+        raise InputError(f"surface {number} has an infinite distance behind it: it must be finite")
+    return Row(curvature / unit, gap * unit, index, rim * unit or inf, conic, tuple(powers), abbe, label=str(number))
 
 
-def _glass(words: list[str], surface_index: int) -> tuple[float, float]:
-    name = words[0].upper()
-    numbers = [_number(word, surface_index, "GLAS") for word in words[1:5]]
+def glass_of(name: str, problem: str, entries: str) -> tuple[float, float]:
+    """Return n_d and V_d of a glass by its name. Raises InputError, with what its surface has and the entries that tell
+    them, for one that is not known.
+    """
+    if name.upper() not in GLASSES:
+        raise InputError(f"{problem} without its index: give {entries} in its place")
+    return GLASSES[name.upper()]
+
+
+def _glass(words: list[str], number: int) -> tuple[float, float]:
+    numbers = [_number(word, number, "GLAS") for word in words[1:5]]
     flag = numbers[0] if numbers else 0.0
     constants = (numbers[2], numbers[3]) if len(numbers) == 4 else PLACEHOLDER
     if flag == 1 or (constants != PLACEHOLDER and constants[0] > 1):
         return constants[0], constants[1] if constants[1] > 0 else inf
-    if name not in GLASSES:
-        raise InputError(
-            f"surface {surface_index} has the glass {words[0]!r} without its index: give n_d and V_d in its place"
-        )
-    return GLASSES[name]
+    return glass_of(words[0], f"surface {number} has the glass {words[0]!r}", "n_d and V_d")
 
 
-def _number(word: str, surface_index: int, quantity: str) -> float:
+def _number(word: str, number: int, quantity: str) -> float:
     if word.upper() == "INFINITY":
         return inf
     try:
         return float(word)
     except ValueError as error:
-        raise InputError(f"surface {surface_index} has the {quantity} {word[:20]!r}: it must be a number") from error
+        raise InputError(f"surface {number} has the {quantity} {word[:20]!r}: it must be a number") from error
