@@ -18,8 +18,8 @@ from typing import Any
 
 from .. import memory
 from ..records import InputError
-from .xml_subset import Element, XmlError, storage, tree
-from .yaml_subset import YamlError, parse
+from .xml_subset import Element, storage, tree
+from .yaml_subset import parse
 
 LARGEST = 1 << 28
 """Maximum size in bytes, decompressed: JSON of this size, some 250,000 frames with poses, takes 5 s to read."""
@@ -68,26 +68,16 @@ def entries_of(text: str, path: str, check: Check | None = None) -> dict:
     Raises InputError, one line that names ``path``, if the text is none of the three, has no entries, or takes too
     long.
     """
-    check = check or deadline(path)
-    entries: dict | list
     begin = text.lstrip()[:1]
     if LIST_OF_NUMBERS.match(text):
         raise InputError(f"calibration file {path!r} is a list of numbers without names: choose another file")
-    if TOML_TABLE.match(text):
-        entries = _toml(text, path, check)
-    elif begin in ("{", "["):
-        entries = _json(text, path, check)
-    elif begin == "<":
-        try:
-            entries = storage(text, check)
-        except XmlError as error:
-            raise InputError(f"calibration file {path!r} is not XML as OpenCV writes it: {error}") from error
-    else:
-        try:
-            entries = parse(text, check)
-        except YamlError as error:
-            reason = f"neither YAML nor JSON as OpenCV writes it: {error}"
-            raise InputError(f"calibration file {path!r} is {reason}") from error
+    form, parser = (
+        ("not TOML", _toml) if TOML_TABLE.match(text)
+        else ("not JSON", _json) if begin in ("{", "[")
+        else ("not XML as OpenCV writes it", storage) if begin == "<"
+        else ("neither YAML nor JSON as OpenCV writes it", parse)
+    )  # fmt: skip
+    entries = _parsed(text, path, check or deadline(path), form, parser)
     if not entries:
         raise InputError(f"calibration file {path!r} is empty")
     if isinstance(entries, list) and len(entries) > MOST_LISTED:
@@ -99,49 +89,45 @@ def element_of(text: str, path: str, check: Check) -> Element:
     """Return the outermost element of XML. Raises InputError, one line that names ``path``, for any other text."""
     if text.lstrip()[:1] != "<":
         raise InputError(f"calibration file {path!r} is not XML")
+    return _parsed(text, path, check, "not XML", tree)
+
+
+def _parsed(text: str, path: str, check: Check, form: str, parser: Callable[[str, Check], Any]) -> Any:
+    """Return what a parser makes of a text. Raises InputError, "PATH is FORM" and why, for what it refuses."""
     try:
-        return tree(text, check)
-    except XmlError as error:
-        raise InputError(f"calibration file {path!r} is not XML: {error}") from error
+        return parser(text, check)
+    except InputError:
+        raise
+    except (ValueError, RecursionError) as error:
+        reason = "it is nested too deeply" if isinstance(error, RecursionError) else error
+        raise InputError(f"calibration file {path!r} is {form}: {reason}") from error
 
 
-def _toml(text: str, path: str, check: Check) -> dict:
+def _toml(text: str, check: Check) -> dict:
     def number(digits: str) -> float:
         check()
         return float(digits)
 
+    return tomllib.loads(text, parse_float=number)
+
+
+def _json(text: str, check: Check) -> dict | list:
     try:
-        return tomllib.loads(text, parse_float=number)
-    except (ValueError, RecursionError) as error:
-        if isinstance(error, InputError):
+        return _loaded(text)
+    except json.JSONDecodeError as error:
+        if error.msg == "Extra data" and (lines := [line for line in text.splitlines() if line.strip()])[1:]:
+            try:
+                return [_loaded(line) for line in lines]
+            except json.JSONDecodeError:
+                pass
+        if not any(word in text for word in BEYOND_JSON):
             raise
-        reason = error if isinstance(error, ValueError) else "it is nested too deeply"
-        raise InputError(f"calibration file {path!r} is not TOML: {reason}") from error
 
+        def plain(token: re.Match) -> str:
+            check()
+            return JSON_WORDS.get(token[0][:2], token[0])
 
-def _json(text: str, path: str, check: Check) -> dict | list:
-    try:
-        try:
-            return _loaded(text)
-        except json.JSONDecodeError as error:
-            if error.msg == "Extra data" and (lines := [line for line in text.splitlines() if line.strip()])[1:]:
-                try:
-                    return [_loaded(line) for line in lines]
-                except json.JSONDecodeError:
-                    pass
-            if not any(word in text for word in BEYOND_JSON):
-                raise
-
-            def plain(token: re.Match) -> str:
-                check()
-                return JSON_WORDS.get(token[0][:2], token[0])
-
-            return _loaded(JSON_TOKEN.sub(plain, text))
-    except (ValueError, RecursionError) as error:
-        if isinstance(error, InputError):
-            raise
-        reason = error if isinstance(error, ValueError) else "it is nested too deeply"
-        raise InputError(f"calibration file {path!r} is not JSON: {reason}") from error
+        return _loaded(JSON_TOKEN.sub(plain, text))
 
 
 def _loaded(text: str) -> Any:
