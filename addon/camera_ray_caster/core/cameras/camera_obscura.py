@@ -57,10 +57,7 @@ class CameraObscura(Perspective):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> CameraObscura:
-        """Build the camera from the box's depth, the wall's fitted side and the hole's diameter, in Blender units.
-
-        Shift moves the film on the wall, in units of its fitted side.
-        """
+        """See Model. Shift moves the film on the wall, in units of its fitted side."""
         depth = DEPTH.read(raw)
         wall = Window.before_eye(raw, raster, WIDTH.read(raw) / depth, (WIDTH, DEPTH))
         turned = Window(wall.center_x, wall.center_y, -wall.pitch_x, -wall.pitch_y)

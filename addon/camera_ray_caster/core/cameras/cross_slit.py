@@ -61,10 +61,7 @@ class CrossSlit(WindowModel):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> CrossSlit:
-        """Build the camera from lens, sensor, shift, slit_1 and slit_2.
-
-        Raises InputError for slits that are parallel, or in the window's plane, where they determine no ray.
-        """
+        """See Model. Slits that are parallel, or in the window's plane, determine no ray and are refused."""
         slits, farthest = [], 0.0
         for slit in (SLIT, SECOND_SLIT):
             point, direction = slit_from(raw, slit)
@@ -126,9 +123,7 @@ class CrossSlit(WindowModel):
         return np.stack(self.window.pixels_from_plane(across / scale, up / scale), axis=-1)
 
     def bounds(self, centers, radii):
-        """See Model. Seen along a slit, the two planes through it that touch a sphere are tangents from a point to a
-        disc.
-        """
+        """See Model. Along a slit, two planes through it that touch a sphere are tangents from a point to a disc."""
         normals = []
         for point, direction in self.slits:
             across, ahead = _axes_about(direction)
@@ -137,9 +132,8 @@ class CrossSlit(WindowModel):
             side = np.where(depth < 0, -1.0, 1.0)  # a plane continues behind its slit
             tangent = Interval(*pinhole_interval(side * rise, side * depth, radii, through=True))
             normals.append(tuple(a - tangent * b for a, b in zip(across.tolist(), ahead.tolist(), strict=True)))
-        across, up, scale = _crossing(
-            *((n[0], n[1], dot(n, start - MIDDLE)) for n, (start, _) in zip(normals, self.slits, strict=True))
-        )
+        planes = zip(normals, self.slits, strict=True)
+        across, up, scale = _crossing(*((n[0], n[1], dot(n, start - MIDDLE)) for n, (start, _) in planes))
         x, y = across / scale, up / scale
         bounds = pixel_bounds(self.window, (x.low, x.high), (y.low, y.high))
         bounds[centers[:, 2] > radii] = np.nan

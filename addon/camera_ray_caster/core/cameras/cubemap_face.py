@@ -52,18 +52,13 @@ class CubemapFace(WindowModel):
 
     def rays(self, x, y):
         """See Model. Each component is right to some EPS."""
-        tangent_x, tangent_y = (np.tan(angle) for angle in self.window.plane_from_pixels(x, y))
-        tangent_x, tangent_y = (
-            np.where(np.abs(tangent) < STEEPEST, tangent, np.nan) for tangent in (tangent_x, tangent_y)
-        )
+        tangents = (np.tan(angle) for angle in self.window.plane_from_pixels(x, y))
+        tangent_x, tangent_y = (np.where(np.abs(tangent) < STEEPEST, tangent, np.nan) for tangent in tangents)
         scale = 1 / np.sqrt(tangent_x * tangent_x + (tangent_y * tangent_y + 1))
         return (0.0, 0.0, 0.0), (tangent_x * scale, tangent_y * scale, -scale)
 
     def project(self, points):
-        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN at and behind the eye's plane.
-
-        If a shifted frame repeats a point, the result is the image nearest to its middle.
-        """
+        """See Model: NaN at and behind the eye's plane; of images in a shifted frame the one nearest to its middle."""
         x, y, z = components(np.asarray(points, np.float64))
         depth = np.where(z < 0, -z, np.nan)
         angles = []

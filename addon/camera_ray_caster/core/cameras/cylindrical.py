@@ -20,24 +20,17 @@ from .parts.meridians import RAY, longitude
 from .parts.settings import Number, span
 
 STEEPEST, WIDEST = radians(89), 10 * pi
-PAN = (
-    Number(
-        "pan_min", "Pan Min", "Longitude of the picture's left edge; 0 is straight ahead", -pi, -WIDEST, WIDEST,
-        "angle", 4,
-    ),
-    Number(
-        "pan_max", "Max", "Longitude of the picture's right edge; 0 is straight ahead", pi, -WIDEST, WIDEST, "angle", 4
-    ),
+PAN = tuple(
+    Number(name, label, f"Longitude of the picture's {side} edge; 0 is straight ahead", default, -WIDEST, WIDEST,
+           "angle", 4)
+    for name, label, side, default in (("pan_min", "Pan Min", "left", -pi), ("pan_max", "Max", "right", pi))
 )  # fmt: skip
-LATITUDES = (
-    Number(
-        "latitude_bottom", "Latitude Bottom", "Latitude of the picture's lower edge", -pi / 4, -STEEPEST, STEEPEST,
-        "angle", 4, partner="latitude_top",
-    ),
-    Number(
-        "latitude_top", "Top", "Latitude of the picture's upper edge", pi / 4, -STEEPEST, STEEPEST, "angle", 4,
-        partner="latitude_bottom",
-    ),
+LATITUDES = tuple(
+    Number(f"latitude_{end}", label, f"Latitude of the picture's {side} edge", default, -STEEPEST, STEEPEST, "angle", 4,
+           partner=f"latitude_{other}")
+    for end, other, label, side, default in (
+        ("bottom", "top", "Latitude Bottom", "lower", -pi / 4), ("top", "bottom", "Top", "upper", pi / 4),
+    )
 )  # fmt: skip
 
 

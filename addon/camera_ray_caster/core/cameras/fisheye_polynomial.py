@@ -62,10 +62,7 @@ class FisheyePolynomial(Radial):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyePolynomial:
-        """Build the camera from the coefficients, fisheye_fov, sensor and shift.
-
-        Raises InputError for an invalid number and for a polynomial that folds the picture.
-        """
+        """See Model. A polynomial that folds the picture is refused."""
         film = Film.from_blender(raw, raster)
         window = Window.round_pixels(raw, raster, film.size / film.fitted_pixels)
         coefficients = tuple(-coefficient.read(raw) for coefficient in COEFFICIENTS)

@@ -116,10 +116,7 @@ class FTheta(Calibrated):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FTheta:
-        """Build the camera from its settings.
-
-        Raises InputError for an invalid setting, and for a polynomial that does not start at 0 and grow there.
-        """
+        """See Model. A polynomial that does not start at 0 and grow there is refused."""
         reference, (c, d, e) = REFERENCE.read(raw), (setting.read(raw) for setting in (C, D, E))
         if not c - d * e > 0:
             raise C.refusal(raw, f"{c:.6g}", f"above ftheta_d times ftheta_e, {d * e:.6g}")

@@ -74,13 +74,12 @@ class GeneralLinear(Model):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> GeneralLinear:
-        """Build the camera from ray_1, ray_2 and ray_3. Raises InputError if, as points, they lie on one line, and
-        for slopes beyond STEEPEST.
-        """
+        """See Model. Rays that, as points, lie on one line are refused, and slopes beyond STEEPEST."""
         three = array([ray.read(raw) for ray in RAYS])
         if is_recorded(*three.flat):  # what is refused is that of who gives numbers to the record
             return cls(raster.size, three)
-        if _are_dependent(three):
+        rows = (three[1:] - three[0]).astype(np.float64)  # points in four dimensions, on one line if a value is 0
+        if np.linalg.svd(rows, compute_uv=False)[-1] <= RAY_ROUNDING * np.abs(three).max():
             names, rays = ", ".join(ray.name for ray in RAYS), ", ".join(str(tuple(ray)) for ray in three.tolist())
             raise InputError(
                 f"{names} of camera {raw.name!r} are dependent, {rays}: as points (s, t, u, v) they must "
@@ -118,10 +117,8 @@ class GeneralLinear(Model):
         return (s, t, 0.0), (slope_x * scale, slope_y * scale, -scale)
 
     def project(self, points):
-        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3).
-
-        NaN behind z = 0, where there are no rays, and at the depths of the slits. A camera of kind EPI sees a single
-        plane, and all its points are NaN.
+        """See Model: NaN behind z = 0, where there are no rays, and at the depths of the slits. A camera of kind EPI
+        sees a single plane, and all its points are NaN.
         """
         x, y, z = components(np.asarray(points, np.float64))
         across, up, determinant = self._solved(x, y, z)
@@ -171,9 +168,3 @@ def classify(three) -> str:
     depth = -b / (2 * a)
     apart = np.abs(s + depth * d).max()
     return "pinhole" if apart <= np.sqrt(RAY_ROUNDING) * (size_s + abs(depth) * size_d) else "pencil"
-
-
-def _are_dependent(three) -> bool:
-    """Return whether the rays, as points in four dimensions, lie on one line (or in one point)."""
-    rows = (three[1:] - three[0]).astype(np.float64)
-    return bool(np.linalg.svd(rows, compute_uv=False)[-1] <= RAY_ROUNDING * np.abs(three).max())

@@ -82,10 +82,7 @@ class OCam(Calibrated):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OCam:
-        """Build the camera from its settings.
-
-        Raises InputError for an invalid setting, and for a polynomial that is not below 0 on the axis.
-        """
+        """See Model. A polynomial that is not below 0 on the axis is refused."""
         c, d, e = (setting.read(raw) for setting in (C, D, E))
         if not c - d * e > 0:
             raise C.refusal(raw, f"{c:.6g}", f"above ocam_d times ocam_e, {d * e:.6g}")

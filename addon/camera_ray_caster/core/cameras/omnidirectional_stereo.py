@@ -105,10 +105,8 @@ class OmnidirectionalStereo(WindowModel):
         return (offset * cosine, 0.0, offset * sine), (flat * sine, np.sin(latitude), -flat * cosine)
 
     def project(self, points):
-        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN within the eyes' circle.
-
-        If both eyes have a picture, the result is the left eye's pixel. The eye sees a point at the distance r from the
-        axis past the center by the angle asin(d / 2 r), at the horizontal distance sqrt(r^2 - d^2 / 4).
+        """See Model: NaN within the eyes' circle; the left eye's pixel if both have a picture. The eye sees a point at
+        the distance r from the axis past the center by asin(d / 2 r), at the horizontal distance sqrt(r^2 - d^2 / 4).
         """
         x, y, z = components(np.asarray(points, np.float64))
         first, second = EYES[self.eyes]
@@ -126,9 +124,8 @@ class OmnidirectionalStereo(WindowModel):
         x, y, z = components(centers)
         (low, high), _ = longitude_latitude(centers, radii)
         across = np.hypot(x, z)
-        near, far = (
-            np.sqrt(np.maximum(r - self.radius, 0) * (r + self.radius)) for r in (across - radii, across + radii)
-        )
+        ends = across - radii, across + radii
+        near, far = (np.sqrt(np.maximum(end - self.radius, 0) * (end + self.radius)) for end in ends)
         past = [-side * np.arctan2(self.radius, way) for side in EYES[self.eyes] for way in (near, far)]
         inside = np.where(across - radii > self.radius, 0.0, np.inf)
         low, high = low + np.minimum.reduce(past) - inside, high + np.maximum.reduce(past) + inside

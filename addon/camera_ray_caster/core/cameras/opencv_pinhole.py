@@ -149,10 +149,7 @@ class OpencvPinhole(WindowModel):
         return across, -down
 
     def project(self, points):
-        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3).
-
-        NaN at and behind the eye's plane, and beyond the radius at which rays end.
-        """
+        """See Model: NaN at and behind the eye's plane, and beyond the radius at which rays end."""
         x, y, z = components(np.asarray(points, np.float64))
         depth = np.where(z < 0, -z, np.nan)
         across, down = x / depth, -y / depth

@@ -59,8 +59,7 @@ class Orthographic(WindowModel):
         return off_axis(raw, slope)
 
     def rays(self, x, y):
-        """See Model. The origin is right to gamma(3) of the sum of the magnitudes of its parts, the direction is exact.
-        """
+        """See Model. The origin is right to gamma(3) of the sum of its parts' magnitudes, the direction is exact."""
         return (*self.window.plane_from_pixels(x, y), 0.0), (0.0, 0.0, -1.0)
 
     def project(self, points):

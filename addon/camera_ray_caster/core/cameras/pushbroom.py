@@ -87,9 +87,8 @@ class Pushbroom(WindowModel):
         position = dot(self.along, point)
         beside = difference(point, point_along(self.start, self.step, position))
         depth = np.where(beside[2] < 0, -beside[2], np.nan)
-        return np.stack(
-            self.window.pixels_from_plane(*self._plane(position, dot(self.across, beside) / depth)), axis=-1
-        )
+        plane = self._plane(position, dot(self.across, beside) / depth)
+        return np.stack(self.window.pixels_from_plane(*plane), axis=-1)
 
     def bounds(self, centers, radii):
         inward = self.along * self.step[2] - (0.0, 0.0, 1.0)  # a point's depth before its eye is linear in the point

@@ -72,10 +72,7 @@ class RadialPolynomial(Calibrated):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> RadialPolynomial:
-        """Build the camera from its settings or a calibration file.
-
-        Raises InputError for an invalid setting, and for a polynomial that does not start at 0 and grow there.
-        """
+        """See Model. A polynomial that does not start at 0 and grow there is refused."""
         calibration = Calibration.from_blender(raw, raster)
         constant, *coefficients = POLYNOMIAL.read(raw)
         if constant != 0 or not coefficients or not coefficients[0] > 0:

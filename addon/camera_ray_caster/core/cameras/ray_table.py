@@ -90,10 +90,7 @@ class RayTable(Model):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> RayTable:
-        """Build the camera from the table that its file or its settings give.
-
-        Raises InputError, which names the camera, for a table that is missing or that ``RayGrid`` refuses.
-        """
+        """See Model. A table that is missing is refused, and one that ``RayGrid`` refuses."""
         directions, origins = DIRECTIONS.read(raw), ORIGINS.read(raw)
         if directions is None:
             raise InputError(

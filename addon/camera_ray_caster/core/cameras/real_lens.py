@@ -40,12 +40,10 @@ from .parts.lens_facts import MILLIMETER, TILTED, UPRIGHT, facts_of
 from .parts.lens_settings import COLOR, COLORS, FALLOFF, FOCUS, LENS_FILE, PARAXIAL, STATE, VIGNETTING, WAVELENGTH
 from .parts.pose import pose_from
 from .parts.pupil import Pupil, color_of, from_film, light_of, measured, of_color
+from .parts.radial import RIM_SLACK
 from .parts.silhouette import pixel_bounds, radial_intervals
 from .parts.tilt import Tilt
 from .parts.tilted_film import UPRIGHT_FILM, TiltedFilm
-
-RIM_SLACK = 2.0**-30
-"""Share of the rim's radius beyond it within which a point counts as on the rim; see ``parts.radial``."""
 
 ROUNDED = 0.034
 """A tenth of a stop, as a share of the f-number: a lens that is called f/2 may open to 2.03."""
@@ -136,7 +134,7 @@ class RealLens(WindowModel):
         """See Model. The errors are those of the polynomials, beside rounding; see ``formula_rounding``."""
         _, (a, b) = self.on_film(x, y)
         squared = a * a + b * b
-        rim = self.chief.rim * (1 + RIM_SLACK)
+        rim = self.chief.rim * (1 + RIM_SLACK)  # as a share of it
         passes, squared = squared <= rim * rim, np.minimum(squared, rim * rim)
         height, front, tangent = self.chief.at(squared)
         share = 2 / (1 + tangent * tangent * squared)
@@ -155,10 +153,7 @@ class RealLens(WindowModel):
         return (z - self.pupil) * self.unit
 
     def project(self, points):
-        """See Model: the secant method on the family of chief rays, in a bracket where it does not settle.
-
-        NaN for points behind the ray's origin, and for those that no chief ray meets.
-        """
+        """See Model: NaN also for points behind the ray's origin."""
         x, y, z = components(np.asarray(points, np.float64))
         shape = np.shape(x)
         x, y, z = (np.atleast_1d(coordinate) for coordinate in (x, y, z))
@@ -282,9 +277,8 @@ class RealLens(WindowModel):
     def formula_rounding(self, x, y):
         """See Model: the polynomials' error beside the trace, and the rounding of their sums."""
         chief, steps = self.chief, np.array([1, *range(3, DEGREE + 3)])  # the first coefficient is added last
-        height, front, tangent = (
-            gamma(4) * float((np.abs(values) * steps).sum()) for values in (chief.height, chief.front, chief.tangent)
-        )
+        series = chief.height, chief.front, chief.tangent
+        height, front, tangent = (gamma(4) * float((np.abs(values) * steps).sum()) for values in series)
         origin, turned = chief.errors[0] + height * chief.rim + front, chief.errors[1] + 2 * tangent * chief.rim
         if self.tilted:
             off = self.tilted.rounding(chief, self.window.corners(self.size))

@@ -69,9 +69,7 @@ class Scanner(Model):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Scanner:
-        """Build the scanner from its device's or its own tables. Raises InputError for tables of unequal length,
-        elevations that are all the same, and sweeps without a column.
-        """
+        """See Model: by the tables of its device, or its own. A sweep without a column is refused."""
         device = DEVICES.get(DEVICE.read(raw))
         if device is not None:
             values = {setting.name: setting.default for setting in scanners.OF_DEVICE} | device.settings
@@ -142,10 +140,8 @@ class Scanner(Model):
         return (sine * along + cosine * beside, up, sine * beside - cosine * along), direction
 
     def project(self, points):
-        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN where no beam looks outwards at
-        them, as on the axis. The nearest beam is that of the row.
-
-        If several columns look at a point, since the sweep is more than a turn, it is the first.
+        """See Model: NaN where no beam looks outwards at a point, as on the axis. The nearest beam is that of the row,
+        and of several columns, of a sweep of more than a turn, the first counts.
         """
         x, y, z = components(np.asarray(points, np.float64))
         row, beside = self.beams.towards(np.hypot(x, z), y)

@@ -85,9 +85,8 @@ class Strip(Model):
         """See Model: the stretch of the path on which the column is."""
         k, values = self._stretch(x), dict[str, Any]()
         for end, at in (("A", k), ("B", k + 1)):
-            column, *eye, normal_x, normal_z = (
-                plain(look_up(table, at)) for table in (self.columns, *self.eyes.T, *self.normals.T)
-            )
+            tables = self.columns, *self.eyes.T, *self.normals.T
+            column, *eye, normal_x, normal_z = (plain(look_up(table, at)) for table in tables)
             values |= {f"x_{end}": column, end: vector(*eye), f"n_{end}": vector(normal_x, 0.0, normal_z)}
         return values
 
@@ -125,10 +124,8 @@ class Strip(Model):
         return eye, (ahead_x * scale, slope * scale, ahead_z * scale)
 
     def project(self, points):
-        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN where no column sees them.
-
-        If several columns do, the result is the lowest. A column sees a point if (point - eye) . normal, a quadratic in
-        the place on a stretch of the path, is zero; it is solved without iteration, right to some EPS of the place.
+        """See Model: the lowest of several columns. A column sees a point if (point - eye) . normal, a quadratic in the
+        place on a stretch of the path, is zero; it is solved without iteration, right to some EPS of the place.
         """
         points = np.asarray(points, np.float64)
         x, least = np.full(points.shape[:-1], np.nan), np.full(points.shape[:-1], np.inf)

@@ -54,9 +54,8 @@ class Beams:
         elevations that are all the same or beyond the zenith.
         """
         count, order = len(elevations), np.argsort(elevations, kind="stable")
-        azimuth, ahead, right, up, delay = (
-            _of_beams(raw, table, count)[order] for table in (AZIMUTHS, AHEAD, RIGHT, UP, DELAYS)
-        )
+        tables = AZIMUTHS, AHEAD, RIGHT, UP, DELAYS
+        azimuth, ahead, right, up, delay = (_of_beams(raw, table, count)[order] for table in tables)
         lowest, highest = elevations[order[0]], elevations[order[-1]]
         if not -pi / 2 <= lowest <= highest <= pi / 2 or (lowest == highest and count > 1):
             raise InputError(

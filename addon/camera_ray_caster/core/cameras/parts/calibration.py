@@ -38,15 +38,12 @@ FOCAL = tuple(
     )
     for name, label, other in (("fx", "Focal Length X", "fy"), ("fy", "Y", "fx"))
 )  # fmt: skip
-CENTER = (
+CENTER = tuple(
     Number(
-        "cx", "Center X", "Distance of the center from the center of the top left pixel, to the right", 959.5, -1e6,
+        name, label, f"Distance of the center from the center of the top left pixel, {way}", default, -1e6,
         unit="pixels", digits=3, left_out=MIDDLE, used_with=IN_PICTURE,
-    ),
-    Number(
-        "cy", "Y", "Distance of the center from the center of the top left pixel, down", 539.5, -1e6, unit="pixels",
-        digits=3, left_out=MIDDLE, used_with=IN_PICTURE,
-    ),
+    )
+    for name, label, way, default in (("cx", "Center X", "to the right", 959.5), ("cy", "Y", "down", 539.5))
 )  # fmt: skip
 SIZE = tuple(
     Whole(
@@ -127,10 +124,7 @@ class Calibration:
     def from_blender(
         cls, raw: BlenderCamera, raster: Raster, distortion: tuple[Number, ...] = (), settings=CALIBRATION
     ) -> Calibration:
-        """Build the calibration from a model's ``settings`` and ``distortion``, its coefficients.
-
-        Raises InputError, which names the setting, for an invalid value.
-        """
+        """Build the calibration from a model's ``settings`` and ``distortion``, its coefficients. Raises InputError."""
         coefficients = {setting.name: _within_largest(setting, raw) for setting in distortion}
         fx = fy = 1.0
         skew = 0.0
@@ -140,10 +134,8 @@ class Calibration:
             if LENS in settings:
                 fx = fy = LENS.read(raw)
         else:
-            width, height, cx, cy = (setting.read(raw, high=FARTHEST_PIXELS) for setting in (*SIZE, *CENTER))
-            width, height = (
-                side if side > 0 else pixels for side, pixels in zip((width, height), raster.size, strict=True)
-            )
+            *sides, cx, cy = (setting.read(raw, high=FARTHEST_PIXELS) for setting in (*SIZE, *CENTER))
+            width, height = (side if side > 0 else of_frame for side, of_frame in zip(sides, raster.size, strict=True))
             scale = raster.width / width, raster.height / height
             center = (cx + 0.5) * scale[0], (height - (cy + 0.5)) * scale[1]
             if SKEW in settings:

@@ -11,6 +11,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ...conventions import EPS
+from ...maths.vector import stacked
 
 LATTICE = 33
 """Pixels per side of the lattice. No point is lost if rays of adjacent lattice pixels differ by under half a turn."""
@@ -95,10 +96,7 @@ def _starts(rays, size, points) -> np.ndarray:
 def _off(rays, pixels, points):
     """Return the differences (..., 3) of the rays' directions from the directions to the points, and their rounding."""
     origin, direction = rays(pixels[..., 0], pixels[..., 1])
-    shape = pixels.shape[:-1]
-    origin, direction = (
-        np.stack([np.broadcast_to(component, shape) for component in vector], axis=-1) for vector in (origin, direction)
-    )
+    origin, direction = (stacked(vector, pixels.shape[:-1]) for vector in (origin, direction))
     towards = points - origin
     distance = _length(towards)[..., None]
     off = direction / _length(direction)[..., None] - towards / distance
@@ -112,9 +110,8 @@ def _step(rays, pixels, points, off):
     for axis in np.eye(2):
         ahead, behind = (_off(rays, pixels + side * DIFFERENCE_STEP * axis, points)[0] for side in (1, -1))
         central = (ahead - behind) / (2 * DIFFERENCE_STEP)
-        one_sided = (
-            np.where(np.isnan(ahead), off - behind, ahead - off) / DIFFERENCE_STEP
-        )  # at the rim only one side has rays
+        # at the rim only one side has rays
+        one_sided = np.where(np.isnan(ahead), off - behind, ahead - off) / DIFFERENCE_STEP
         slopes.append(np.where(np.isnan(central), one_sided, central))
     (a, b), d = ([_dot(slope, slopes[0]) for slope in slopes]), _dot(slopes[1], slopes[1])
     right = [_dot(slope, off) for slope in slopes]

@@ -63,17 +63,14 @@ class Meridians(WindowModel):
         """Return the height of the latitude whose cosine and sine are proportional to these; the cosine is >= 0."""
 
     def rays(self, x, y):
-        """See Model: the y of the direction has the shape of y. Each component is right to some EPS of 1 + longitude.
-        """
+        """See Model: direction's y has the shape of y. Each component is right to some EPS of 1 + longitude."""
         longitude, height = self.window.plane_from_pixels(x, y)
         cosine, sine = self.latitude(height)
         return (0.0, 0.0, 0.0), (cosine * np.sin(longitude), sine, -cosine * np.cos(longitude))
 
     def project(self, points):
-        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN at the eye.
-
-        If whole turns give several images, the result is the one nearest to the middle of the frame. A pole, which has
-        all longitudes, gets one of them.
+        """See Model: NaN at the eye. If whole turns give several images, the result is the one nearest to the middle of
+        the frame. A pole, which has all longitudes, gets one of them.
         """
         x, y, z = components(np.asarray(points, np.float64))
         across = np.hypot(x, z)
@@ -84,9 +81,7 @@ class Meridians(WindowModel):
         return np.stack(self.window.pixels_from_plane(longitude, height), axis=-1)
 
     def bounds(self, centers, radii):
-        """See Model. A sphere that holds a pole or crosses the seam covers all columns: there is one rectangle per
-        sphere.
-        """
+        """See Model. A sphere that holds a pole or crosses the seam covers all columns: it has one rectangle."""
         longitudes, latitudes = longitude_latitude(centers, radii)
         columns = turned(longitudes, self.extent[:2], FULL_TURN)
         low, high = (np.clip(latitude, -np.pi / 2, np.pi / 2) for latitude in latitudes)

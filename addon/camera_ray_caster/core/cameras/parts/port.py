@@ -86,9 +86,8 @@ class FlatPort:
     def growth(self, direction):
         """Return how much a small turn of rays, unit vectors, moves their origins (a length) and turns them."""
         c = np.maximum(dot(self.normal, direction), np.finfo(float).tiny)
-        glass, medium = (
-            np.maximum((index * index - 1) + c * c, np.finfo(float).tiny) for index in (self.glass, self.medium)
-        )
+        squares = ((index * index - 1) + c * c for index in (self.glass, self.medium))
+        glass, medium = (np.maximum(square, np.finfo(float).tiny) for square in squares)
         in_glass = self.thickness * self.glass**2 * c / (glass * np.sqrt(glass))
         return 2 * (self.distance / (c * c) + in_glass), np.maximum(1.0, c / np.sqrt(medium))
 

@@ -125,10 +125,8 @@ class Radial(WindowModel):
         return self.factors(r_squared)
 
     def project(self, points):
-        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN where no ray meets the point.
-
-        NaN also at the eye and straight behind it, where the azimuth is undefined. If a point has several images (fov
-        beyond 360 degrees), the result is the one nearest to the axis.
+        """See Model: NaN also at the eye and straight behind it, where the azimuth is undefined. If a point has several
+        images (fov beyond 360 degrees), the result is the one nearest to the axis.
         """
         x, y, z = components(np.asarray(points, np.float64))
         across = np.hypot(x, y)

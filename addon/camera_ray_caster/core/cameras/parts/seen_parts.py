@@ -10,6 +10,7 @@ import numpy as np
 from ...maths.recording import NotRecordable, Record
 from ...maths.recording.ranges import ANY, ranges
 from ...maths.speed import lazy
+from ...maths.vector import stacked
 from .direction_map import SLOPE_MARGIN, DirectionMap
 
 PARTS = 288
@@ -102,24 +103,20 @@ def parts_of(formula: Callable[[], Record], size: tuple[int, int], central: bool
     side = max(2, math.ceil(max(size) / PARTS))
     x, y = np.meshgrid(*(np.arange(-1.0, math.ceil(length / side) * side + 1, side) for length in size))
     try:
-        intervals = ranges(
-            formula(), ((x - SLOPE_MARGIN, x + side + SLOPE_MARGIN), (y - SLOPE_MARGIN, y + side + SLOPE_MARGIN))
-        )
+        ends = ((first - SLOPE_MARGIN, first + side + SLOPE_MARGIN) for first in (x, y))
+        intervals = ranges(formula(), tuple(ends))
     except NotRecordable:
         intervals = (ANY,) * 6
     components = intervals[3:] if central else intervals[3:] + intervals[:3]
-    low, high = (
-        np.stack([np.broadcast_to(component[end], x.shape) for component in components], axis=2) for end in (0, 1)
-    )
+    low, high = (stacked([component[end] for component in components], x.shape) for end in (0, 1))
     return SeenParts(low, high, np.stack((x, x + side, y, y + side), axis=2))
 
 
 def _groups(low: np.ndarray, high: np.ndarray, rows: int, columns: int) -> list[Group]:
     """Divide parts with origins into rows and columns of groups; those without rays are left out."""
     groups: list[Group] = []
-    cuts = [
-        np.linspace(0, side, count + 1).astype(int) for side, count in zip(low.shape[:2], (rows, columns), strict=True)
-    ]
+    counts = zip(low.shape[:2], (rows, columns), strict=True)
+    cuts = [np.linspace(0, side, count + 1).astype(int) for side, count in counts]
     for row, column in product(*map(pairwise, cuts)):
         group = slice(*row), slice(*column)
         ends = [end[group].reshape(-1, 6) for end in (low, high)]

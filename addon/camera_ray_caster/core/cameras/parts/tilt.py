@@ -66,14 +66,20 @@ class Tilt:
     def intervals(self, interval_x, interval_y):
         """Return the intervals in u and v that hold the images of all points of the intervals, (n,) each.
 
-        They are the ranges of the four corners' images, since the map keeps straight lines. They are endless if a
-        corner has no image. NaN, which means nowhere, stays NaN.
+        They are those around the four corners' images, since the map keeps straight lines.
         """
         with np.errstate(invalid="ignore"):
-            corners = np.array([self.onto_sensor(x, y) for x, y in product(interval_x, interval_y)])
-        endless = np.isnan(corners).any(axis=(0, 1)) & ~np.isnan(interval_x[0]) & ~np.isnan(interval_y[0])
-        low, high = np.where(endless, -np.inf, corners.min(axis=0)), np.where(endless, np.inf, corners.max(axis=0))
-        return (low[0], high[0]), (low[1], high[1])
+            images = np.array([self.onto_sensor(x, y) for x, y in product(interval_x, interval_y)])
+        return intervals_around(images, interval_x, interval_y)
+
+
+def intervals_around(images, interval_x, interval_y):
+    """Return the intervals around the images, (k, 2, n), of the corners of intervals, (n,) each: endless if a corner
+    has no image. NaN, which means nowhere, stays NaN.
+    """
+    endless = np.isnan(images).any(axis=(0, 1)) & ~np.isnan(interval_x[0]) & ~np.isnan(interval_y[0])
+    low, high = np.where(endless, -np.inf, images.min(axis=0)), np.where(endless, np.inf, images.max(axis=0))
+    return (low[0], high[0]), (low[1], high[1])
 
 
 def _mapped(matrix, x, y):

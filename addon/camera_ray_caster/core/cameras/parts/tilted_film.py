@@ -23,7 +23,7 @@ from ...maths.vector import dot
 from ...records import BlenderCamera
 from .calibration import TAU_X, TAU_Y
 from .film import Window
-from .tilt import Tilt
+from .tilt import Tilt, intervals_around
 
 NEWTON_STEPS = 4
 """Of Newton's method: for the lenses of the library, tilted by 40 degrees, 3 leave 3e-9 of k, 4 its rounding."""
@@ -105,9 +105,7 @@ class TiltedFilm:
         ends = slopes.min() - 1e-9 * abs(slopes.min()), slopes.max() + 1e-9 * abs(slopes.max())
         with np.errstate(invalid="ignore"):
             met = np.array([self._met(a, b, m) for a, b, m in product(interval_x, interval_y, ends)])
-        endless = np.isnan(met).any(axis=(0, 1)) & ~np.isnan(interval_x[0]) & ~np.isnan(interval_y[0])
-        low, high = np.where(endless, -np.inf, met.min(axis=0)), np.where(endless, np.inf, met.max(axis=0))
-        return (low[0], high[0]), (low[1], high[1])
+        return intervals_around(met, interval_x, interval_y)
 
     def farthest(self, chief: ChiefRays, corners) -> float:
         """Return the largest radius on the upright film of a frame with these corners, (4, 2)."""
