@@ -3,7 +3,7 @@
 The rules stand beside the settings that they are about: ``partner``, ``left_out`` and ``used_with`` of ``Setting``.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..cameras.parts.calibration import FILE, SIZE
@@ -45,16 +45,19 @@ def completed(model: str, declared: Settings, explicit: Values, picture_size: tu
     stated = [name for name in picture if name in explicit]
     if not stated:
         return _default_lens(picture, picture_size)
-    size = [explicit.get(side.name) or side_of_frame for side, side_of_frame in zip(SIZE, picture_size, strict=True)]
-    middles = iter(size)
     for name, setting in picture.items():
         if setting.left_out in (SAME, NEEDED) and name not in explicit and name not in values:
             raise InputError(f"{model} has {stated[0]} without {name}: give {name}, too")
-        if setting.left_out == OF_FRAME:
-            values[name] = size[SIZE.index(setting)]
-        elif setting.left_out == MIDDLE:
-            values[name] = (next(middles) - 1) / 2
+    size = [explicit.get(side.name) or side_of_frame for side, side_of_frame in zip(SIZE, picture_size, strict=True)]
+    values |= _frame(picture, size)
     return {name: value for name, value in values.items() if name not in explicit}
+
+
+def _frame(picture: Settings, size: Sequence[float]) -> dict[str, Any]:
+    """Return the sides and the middle of a picture of this size, by the settings that are these."""
+    sides = {name: size[SIZE.index(setting)] for name, setting in picture.items() if setting.left_out == OF_FRAME}
+    middles = (name for name, setting in picture.items() if setting.left_out == MIDDLE)
+    return sides | {name: (side - 1) / 2 for name, side in zip(middles, size, strict=False)}
 
 
 def check_effect(model: str, declared: Settings, values: Values, setting: Setting) -> None:
@@ -66,9 +69,8 @@ def check_effect(model: str, declared: Settings, values: Values, setting: Settin
 
 
 def _has_effect(declared: Settings, values: Values, setting: Setting) -> bool:
-    return all(
-        values.get(name, declared[name].default) == value for name, value in setting.used_with if name in declared
-    )
+    known = (entry for entry in setting.used_with if entry[0] in declared)
+    return all(values.get(name, declared[name].default) == value for name, value in known)
 
 
 def _default_lens(picture: Settings, picture_size: tuple[int, int]) -> dict[str, Any]:
@@ -77,17 +79,12 @@ def _default_lens(picture: Settings, picture_size: tuple[int, int]) -> dict[str,
     if picture_size[0] * declared[1] == picture_size[1] * declared[0]:
         return {}
     scale = max(picture_size) / max(declared)
-    values: dict[str, Any] = {}
-    middles = iter(picture_size)
+    values = _frame(picture, picture_size)
     for name, setting in picture.items():
-        if setting.left_out == OF_FRAME:
-            values[name] = picture_size[SIZE.index(setting)]
-        elif setting.left_out == MIDDLE:
-            values[name] = (next(middles) - 1) / 2
-        elif isinstance(setting, Coefficients):
+        if isinstance(setting, Coefficients):
             first, step = setting.grows
             terms = enumerate(map(float, setting.default.split()))
             values[name] = " ".join(repr(term * scale ** (first + step * power)) for power, term in terms)
-        else:
+        elif name not in values:
             values[name] = setting.default * scale
     return values

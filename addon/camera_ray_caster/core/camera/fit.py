@@ -18,6 +18,7 @@ import numpy as np
 
 from ..arguments import shown
 from ..cameras.model import Model
+from ..maths.vector import stacked
 from ..memory import of_pixels, require
 from ..records import InputError
 from .build import camera_from
@@ -109,9 +110,8 @@ def fit_model(
     for setting in kind.SETTINGS:
         if setting.name in explicit:
             setting.read(starts[0])  # refuses a value out of its range, by name
-    searches = [
-        Search.of(kind, start, camera.raster, _pixels(region_rays), rays[region_rays], free, held) for start in starts
-    ]
+    sought = camera.raster, _pixels(region_rays), rays[region_rays]
+    searches = [Search.of(kind, start, *sought, free, held) for start in starts]
     search, values, converged, counted = _best(searches)
     if counted < KEPT_IN_ALL:
         angles, near = _angles(rays[region_rays]), search.near()
@@ -176,11 +176,11 @@ def _best(searches: list[Search]) -> tuple[Search, np.ndarray, bool, float]:
         if not any(converged and counted == 1 for *_, converged, counted in results) or search.near().all():
             results.append((search, *search.run()))
     offs = [search.residual(values) for search, values, *_ in results]
-    best = min(
-        range(len(results)),
-        key=lambda k: (results[k][3] < KEPT_IN_ALL, np.isnan(offs[k]).sum(), np.nansum(offs[k] ** 2)),
-    )
-    return results[best]
+    ranks = [
+        (counted < KEPT_IN_ALL, np.isnan(off).sum(), np.nansum(off**2))
+        for (*_, counted), off in zip(results, offs, strict=True)
+    ]
+    return results[ranks.index(min(ranks))]
 
 
 def _rays(camera: Camera) -> np.ndarray:
@@ -192,9 +192,7 @@ def _rays(camera: Camera) -> np.ndarray:
         if not camera.model.central:
             t = ((camera.model.focused_at or 0.0) + origin[2]) / -direction[2]
             direction = tuple(o + np.where(t > 0, t, np.nan) * d for o, d in zip(origin, direction, strict=True))
-        rays = np.stack([np.broadcast_to(component, (height, width)) for component in direction], axis=-1).astype(
-            np.float64
-        )
+        rays = stacked(direction, (height, width))
         return rays / np.linalg.norm(rays, axis=-1, keepdims=True)
 
 

@@ -77,9 +77,8 @@ class Search:
         seen = search.seen(values)
         if free is None and seen.any():
             moves = np.abs(search.derivatives(values, seen)).max(axis=0) > 0
-            search = replace(
-                search, names=tuple(name for name, is_moving in zip(names, moves, strict=True) if is_moving)
-            )
+            moving = tuple(name for name, is_moving in zip(names, moves, strict=True) if is_moving)
+            search = replace(search, names=moving)
         if not search.names:
             raise InputError(f"{kind.label} has no parameter to fit: name some, or leave more of its settings open")
         if 2 * seen.sum() < len(search.names):

@@ -81,9 +81,8 @@ class RayDerivatives:
     @property
     def directions(self) -> list[Any]:
         """The derivatives of the world's unit directions, by x and by y."""
-        turned = (
-            matvec(cofactors(self.pose.basis), cross(self.direction, derivative)) for derivative in self.direction_by
-        )
+        crossed = (cross(self.direction, derivative) for derivative in self.direction_by)
+        turned = (matvec(cofactors(self.pose.basis), product) for product in crossed)
         ahead = matvec(self.pose.basis, self.direction)
         return [tuple(component / self._cube for component in cross(product, ahead)) for product in turned]
 

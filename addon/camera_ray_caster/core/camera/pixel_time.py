@@ -9,7 +9,7 @@ the same picture turned. Scanner: beam by beam, as the model says; see ``cameras
 Source: G. Levin, An Informal Catalogue of Slit-Scan Video Artworks (2005).
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -131,11 +131,19 @@ def pixel_time_from(raw: BlenderCamera, raster: Raster, firing: Firing | None) -
     model says, from the current frame on. Raises InputError for an unknown mode, equal or non-finite ends, an image
     that is missing or has pixels that are not finite, and a sweep of a model that does not fire.
     """
-    if MODE.name not in raw.settings or MODE.read(raw) == NONE:
+    mode = MODE.read(raw) if MODE.name in raw.settings else NONE
+    if mode == NONE:
         return None
-    if MODE.read(raw) == SWEEP:
+    if mode == SWEEP:
         return _sweep(raw, raster, firing)
-    return MAKERS[MODE.read(raw)](raw, raster)
+    if mode == ROLLING_SHUTTER:
+        return _rolling_shutter(raw, raster)
+    start, end = span(raw, START, END, low=-LAST_FRAME, high=LAST_FRAME)
+    if mode == IMAGE:
+        return ImageTime(start + _image_share(raw, raster) * (end - start), *_effort(raw))
+    if mode == ROWS:
+        return _linear(raw, start, 0.0, (end - start) / raster.height, raster)
+    return _linear(raw, start, (end - start) / raster.width, 0.0, raster)
 
 
 def _sweep(raw: BlenderCamera, raster: Raster, firing: Firing | None) -> SweepTime:
@@ -152,21 +160,6 @@ def _sweep(raw: BlenderCamera, raster: Raster, firing: Firing | None) -> SweepTi
     )  # fmt: skip
     _check_range(raw, sweep.first, sweep.last)
     return sweep
-
-
-def _rows(raw: BlenderCamera, raster: Raster) -> LinearTime:
-    start, end = _ends(raw)
-    return _linear(raw, start, 0.0, (end - start) / raster.height, raster)
-
-
-def _columns(raw: BlenderCamera, raster: Raster) -> LinearTime:
-    start, end = _ends(raw)
-    return _linear(raw, start, (end - start) / raster.width, 0.0, raster)
-
-
-def _image(raw: BlenderCamera, raster: Raster) -> ImageTime:
-    start, end = _ends(raw)
-    return ImageTime(start + _image_share(raw, raster) * (end - start), *_effort(raw))
 
 
 def _rolling_shutter(raw: BlenderCamera, raster: Raster) -> LinearTime:
@@ -200,18 +193,6 @@ def rolling_shutter(readout: str, offsets: Sequence[float], size: Sequence[int])
     values = {MODE: ROLLING_SHUTTER, READOUT: readout, POSITION: where, SHUTTER: shutter, DURATION: duration}
     defaults = {setting.name: setting.default for setting in SETTINGS[ROLLING_SHUTTER]}
     return defaults | {setting.name: value for setting, value in values.items()}, times
-
-
-MAKERS: dict[str, Callable[[BlenderCamera, Raster], PixelTime]] = {
-    ROWS: _rows,
-    COLUMNS: _columns,
-    IMAGE: _image,
-    ROLLING_SHUTTER: _rolling_shutter,
-}
-
-
-def _ends(raw: BlenderCamera) -> tuple[float, float]:
-    return span(raw, START, END, low=-LAST_FRAME, high=LAST_FRAME)
 
 
 def _effort(raw: BlenderCamera) -> tuple[float, int]:

@@ -183,9 +183,8 @@ class SphericalStereo(Model):
     def pixel_rounding(self, x, y):
         """See Model: the rounding of the lens, plus that of D in pixels, since ``side`` turns fast near a pole."""
         here = self.lens.rays(x, y)[1]
-        moves = [
-            norm(difference(self.lens.rays(*near)[1], here)) for near in ((x + RAY_SPACING, y), (x, y + RAY_SPACING))
-        ]
+        beside = (x + RAY_SPACING, y), (x, y + RAY_SPACING)
+        moves = [norm(difference(self.lens.rays(*pixel)[1], here)) for pixel in beside]
         rounding = self._amplified * gamma(32) * norm(here) * RAY_SPACING / np.maximum(*moves)
         return tuple(of_lens + rounding for of_lens in self.lens.pixel_rounding(x, y))
 

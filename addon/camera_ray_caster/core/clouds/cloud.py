@@ -126,9 +126,8 @@ def scan(
     device whose quantum is not known, for shapes that appear or disappear between the times of pixels, and for what
     ``cast`` refuses.
     """
-    noise, dropout = (
-        arguments.number(value, name, LARGEST, 0.0) for value, name in ((noise, "noise"), (dropout, "dropout"))
-    )
+    noise = arguments.number(noise, "noise", LARGEST, 0.0)
+    dropout = arguments.number(dropout, "dropout", LARGEST, 0.0)
     if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
         raise InputError(f"seed is {arguments.shown(seed)}: it must be a whole number, 0 or more")
     categories = {} if categories is None else categories

@@ -34,9 +34,9 @@ def fit(
     """
     if not isinstance(camera, Camera):
         raise TypeError(f"fit takes a camera, not {type(camera).__name__}")
-    old = dict(zip(("within", "free"), others, strict=False)) | (
-        {"within": settings.pop("region")} if "region" in settings else {}
-    )
+    old = dict(zip(("within", "free"), others, strict=False))
+    if "region" in settings:
+        old["within"] = settings.pop("region")
     if old:
         deprecated(f"fit takes keywords here: {', '.join(f'{name}=' for name in old)}")
         return fit(camera, model, **{"within": within, "free": free, **settings, **old})

@@ -147,9 +147,8 @@ class Scratch:
     @property
     def size(self) -> int:
         """Number of bytes of all the arrays."""
-        return sum(array.nbytes for array in self._arrays.values()) + sum(
-            scratch.size for scratch in self._parts.values()
-        )
+        parts = sum(scratch.size for scratch in self._parts.values())
+        return parts + sum(array.nbytes for array in self._arrays.values())
 
 
 _unused: list[Scratch] = []

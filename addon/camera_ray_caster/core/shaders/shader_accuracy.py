@@ -40,9 +40,8 @@ def ray_bounds(camera: Camera, x, y, shift: tuple[float, float]) -> RayBounds:
     ]
     numbers = rounded(ray_record(replace(camera, aperture=None)), (*places, Rounded(0.0), Rounded(0.0)))
     origin, direction = numbers[:3], numbers[3:]
-    off, turn = (
-        norm([np.broadcast_to(component.error, x.shape) for component in vector]) for vector in (origin, direction)
-    )
+    errors = ([np.broadcast_to(component.error, x.shape) for component in vector] for vector in (origin, direction))
+    off, turn = map(norm, errors)
     length = norm([component.value for component in direction])
     reach = norm([component.value for component in origin]) + np.abs(camera.pose.eye).sum()
     return RayBounds(off + WORLD * reach, np.where(np.isinf(off + turn), np.inf, turn / length + WORLD))

@@ -52,9 +52,8 @@ def dual_arithmetic(count: int) -> Arithmetic:
     }
 
     def flat(function: Callable) -> Callable:
-        return lambda *operands: Dual(
-            function(*(operand.value if isinstance(operand, Dual) else operand for operand in operands)), zero
-        )
+        plain = lambda operand: operand.value if isinstance(operand, Dual) else operand  # noqa: E731
+        return lambda *operands: Dual(function(*map(plain, operands)), zero)
 
     others = {name: flat(function) for name, function in NUMPY.items()}
     return others | {name: _with_slopes(name) for name in SLOPES} | special

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from .number import NotRecordable, Parameter, Recorded, Tape
+from .number import Parameter, Recorded, Tape
 from .record import NUMERIC, NUMPY, Record
 
 
@@ -119,5 +119,3 @@ def _as_objects(operand) -> np.ndarray:
     array[...] = operand
     return array
 
-
-__all__ = ["Known", "NotRecordable", "record_known"]

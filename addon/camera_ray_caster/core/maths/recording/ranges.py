@@ -65,10 +65,8 @@ def _negative(a: Range) -> Range:
 
 
 def _absolute(a: Range) -> Range:
-    greatest = np.maximum(-a.low, a.high)
-    return Range(
-        np.where((a.low < 0) & (a.high > 0), 0.0, np.minimum(np.abs(a.low), np.abs(a.high))), greatest, a.has_gaps
-    )
+    least = np.where((a.low < 0) & (a.high > 0), 0.0, np.minimum(np.abs(a.low), np.abs(a.high)))
+    return Range(least, np.maximum(-a.low, a.high), a.has_gaps)
 
 
 def _product(a: Range, b: Range) -> Range:
