@@ -44,4 +44,3 @@ class UnifiedCamera(Unified):
     def formula_values(self, x, y):
         """See Model: the undistorted coordinates."""
         return self.undistorted(x, y)
-

@@ -118,4 +118,3 @@ def _as_objects(operand) -> np.ndarray:
     array = np.empty(np.shape(operand), object)
     array[...] = operand
     return array
-
