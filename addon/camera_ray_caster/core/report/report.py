@@ -82,8 +82,7 @@ class Report:
     indices: Mapping[str, Any] = field(default_factory=dict)
     """Meanings of the numbers in the index passes, by view layer: see ``indices_of``."""
     made: Mapping[str, Any] = field(default_factory=dict)
-    """``of``: the sources of the frame; ``files``: the files next to the report, and their bytes;
-    ``rows``: the first row of the arrays of NPZ files, "bottom" or "top"."""
+    """``of``: the frame's sources; ``files``: files next to the report, in bytes; ``rows``: the first of NPZ arrays."""
 
     @property
     def rays_per_second(self) -> float | None:
