@@ -284,29 +284,6 @@ def test_a_rolling_shutter_sees_a_point_at_the_time_of_its_row():
     assert not images["flow_hidden"].any()
 
 
-def test_a_face_that_is_divided_otherwise_moves_as_it_was_divided_before():
-    """Of two squares one has the other diagonal in the next frame, where both are one unit to the right."""
-    corners = [(x, y, 0.0) for y in (-1, 1) for x in (-2, 0, 2)]
-    halves = [(0, 1, 4), (0, 4, 3), (1, 2, 5), (1, 5, 4)]
-    others = [(0, 1, 3), (1, 4, 3), *halves[2:]]
-    faces = np.array([0, 0, 1, 1], np.int32)
-    right = [(x + 1, y, z) for x, y, z in corners]
-    now, same, divided, broken = (
-        meshes.shapes_of((meshes.mesh_of(places, triangles, polygon=faces), (0, 0, -5), 1.0))
-        for places, triangles in (
-            (corners, halves), (right, halves), (right, others), (right, [(0, 1, 5), (0, 4, 3), *halves[2:]])
-        )
-    )  # fmt: skip
-    passes = "flow_forward", "shape_index"
-    expected, found, none = (
-        cast(*with_others(camera_at(), now, camera_at(), after), passes=passes) for after in (same, divided, broken)
-    )
-    hit = expected["shape_index"] == 0
-    assert np.isfinite(expected["flow_forward"][hit]).any()
-    np.testing.assert_array_equal(found["flow_forward"], expected["flow_forward"])
-    assert np.isnan(none["flow_forward"]).all()
-
-
 def test_a_frame_that_was_not_read_is_named():
     with pytest.raises(InputError, match=r"flow_forward.* next frame, which was not read: .*with_timeline.next="):
         cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0)), passes=("depth", "flow_forward"))

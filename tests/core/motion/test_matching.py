@@ -12,6 +12,7 @@ from camera_ray_caster.core.records import PLANE, SPHERE, no_shapes
 
 from ..casting.neighbors import with_others
 from ..casting.test_cast import camera_at, shapes_of
+from ..shapes import meshes
 
 
 def test_shapes_are_known_by_their_names():
@@ -32,3 +33,26 @@ def test_shapes_are_known_by_their_names():
     assert (flow["shape_index"] >= 0).any()
     assert np.isnan(flow["flow_forward"]).all()
     assert not flow["flow_hidden"].any()
+
+
+def test_a_face_that_is_divided_otherwise_moves_as_it_was_divided_before():
+    """Of two squares one has the other diagonal in the next frame, where both are one unit to the right."""
+    corners = [(x, y, 0.0) for y in (-1, 1) for x in (-2, 0, 2)]
+    halves = [(0, 1, 4), (0, 4, 3), (1, 2, 5), (1, 5, 4)]
+    others = [(0, 1, 3), (1, 4, 3), *halves[2:]]
+    faces = np.array([0, 0, 1, 1], np.int32)
+    right = [(x + 1, y, z) for x, y, z in corners]
+    now, same, divided, broken = (
+        meshes.shapes_of((meshes.mesh_of(places, triangles, polygon=faces), (0, 0, -5), 1.0))
+        for places, triangles in (
+            (corners, halves), (right, halves), (right, others), (right, [(0, 1, 5), (0, 4, 3), *halves[2:]])
+        )
+    )  # fmt: skip
+    passes = "flow_forward", "shape_index"
+    expected, found, none = (
+        cast(*with_others(camera_at(), now, camera_at(), after), passes=passes) for after in (same, divided, broken)
+    )
+    hit = expected["shape_index"] == 0
+    assert np.isfinite(expected["flow_forward"][hit]).any()
+    np.testing.assert_array_equal(found["flow_forward"], expected["flow_forward"])
+    assert np.isnan(none["flow_forward"]).all()
