@@ -60,12 +60,12 @@ def _header(data, position):
 
 def _channels(value):
     """(name, type) of each channel, in the order in which a line holds them."""
-    found = []
+    channels = []
     while value[0]:
-        name, rest = value.split(b"\0", 1)
-        found.append((name.decode(), struct.unpack_from("<i", rest)[0]))
-        value = rest[16:]
-    return found
+        name, remainder = value.split(b"\0", 1)
+        channels.append((name.decode(), struct.unpack_from("<i", remainder)[0]))
+        value = remainder[16:]
+    return channels
 
 
 def _unzip(packed):

@@ -111,8 +111,8 @@ def added_models(path):
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = module  # dataclasses look their module up
     spec.loader.exec_module(module)
-    classes = [one for one in vars(module).values() if isinstance(one, type) and one.__module__ == spec.name]
-    models = tuple(one for one in classes if issubclass(one, Model))
+    classes = [value for value in vars(module).values() if isinstance(value, type) and value.__module__ == spec.name]
+    models = tuple(kind for kind in classes if issubclass(kind, Model))
     for model in models:
         register_model(model)
     return models
@@ -121,7 +121,9 @@ def added_models(path):
 def of_models(items, models):
     """The tests that have one of these models, or its key, as a parameter."""
     wanted = [*models, *(model.key for model in models)]
-    return [item for item in items if any(one is value or one == value for value in _words(item) for one in wanted)]
+    return [
+        item for item in items if any(marked is value or marked == value for value in _words(item) for marked in wanted)
+    ]
 
 
 def _parameters(item):

@@ -132,6 +132,6 @@ def main(archive, picture, report):
 if __name__ == "__main__":
     sys.addaudithook(lambda event, arguments: NAMES.add(str(arguments[1])) if event == "ctypes.dlsym" else None)
     with ExitStack() as stack:
-        for one in what_is_not_listed():
-            stack.enter_context(one)
+        for context in what_is_not_listed():
+            stack.enter_context(context)
         main(*sys.argv[sys.argv.index("--") + 1 :])

@@ -16,8 +16,8 @@ IMPORT = re.compile(r"^(\s*(?:import|from) )camera_ray_caster\b", re.MULTILINE)
 def blocks(readme):
     """The blocks, each with the lines before it, so that an error names the README's own line."""
     text = Path(readme).read_text(encoding="utf-8")
-    for found in re.finditer(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
-        yield "\n" * text.count("\n", 0, found.start(1)) + found[1]
+    for block in re.finditer(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
+        yield "\n" * text.count("\n", 0, block.start(1)) + block[1]
 
 
 def main(readme, package):
@@ -34,8 +34,8 @@ def main(readme, package):
             source = IMPORT.sub(rf"\g<1>{INSTALLED}", block) if is_installed else block
             exec(compile(source, readme, "exec"), names)
             count += 1
-    own = {name for name in sys.modules if name.split(".")[0] == "camera_ray_caster"}
-    assert bool(own) != is_installed, own
+    modules = {name for name in sys.modules if name.split(".")[0] == "camera_ray_caster"}
+    assert bool(modules) != is_installed, modules
     assert hasattr(bpy.types.Scene, "camera_ray_caster") == is_installed
     print(f"blocks run: {count}")
 

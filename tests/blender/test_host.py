@@ -61,7 +61,7 @@ def threads(monkeypatch):
 
 def blenders(calls):
     """What of Blender the threads could reach: objects, and names that their functions look up."""
-    objects = [item for given in calls.given for item in reached(given) if isinstance(item, OF_BLENDER)]
+    objects = [item for argument in calls.given for item in reached(argument) if isinstance(item, OF_BLENDER)]
     return objects, {name for code in calls.codes for name in code.co_names} & {"bpy", "gpu", "context", "bmesh"}
 
 

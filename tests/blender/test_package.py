@@ -51,10 +51,10 @@ def test_every_name_of_the_package_is_there():
 
 
 def test_nothing_is_imported_before_it_is_asked_for():
-    own = "print(*(name for name in sys.modules if name.startswith('camera_ray_caster.') or name in ('bpy', 'numpy')))"
+    code = "print(*(name for name in sys.modules if name.startswith('camera_ray_caster.') or name in ('bpy', 'numpy')))"
     start = "import sys, camera_ray_caster as crc"
-    assert python(start, own) == []
-    loaded = set(python(start, "crc.cast", own))
+    assert python(start, code) == []
+    loaded = set(python(start, "crc.cast", code))
     assert {"camera_ray_caster.core.cast", "numpy"} <= loaded
     assert not any(name == "bpy" or ".blender" in name for name in loaded)
 
@@ -155,7 +155,7 @@ def test_a_class_that_another_has_removed_is_gone_and_the_rest_is_removed(plain,
 def test_handlers_and_properties_that_another_has_removed_are_gone_and_the_rest_is_removed(plain):
     crc.register()
     for handlers in (bpy.app.handlers.load_pre, bpy.app.handlers.undo_post, bpy.app.handlers.frame_change_post):
-        for handler in [one for one in handlers if one.__module__.startswith(crc.__name__)]:
+        for handler in [function for function in handlers if function.__module__.startswith(crc.__name__)]:
             handlers.remove(handler)
     del bpy.types.Scene.camera_ray_caster, bpy.types.Scene.camera_ray_caster_overlay
     crc.unregister()

@@ -59,8 +59,8 @@ def test_a_rig_stands_below_an_empty_and_a_trajectory_moves_it(blender, camera_s
     assert left.data.camera_ray_caster.calibration_file == chain
     assert frames_of([left]) == [1, 13]
     go_to(camera_scene, 13)
-    place = np.array(right.matrix_world)
-    assert np.allclose(place[:3, 3], (1, 2.1, 3), atol=1e-6)
+    matrix = np.array(right.matrix_world)
+    assert np.allclose(matrix[:3, 3], (1, 2.1, 3), atol=1e-6)
     camera_scene.render.resolution_x, camera_scene.render.resolution_y = right["resolution"]
     cam = read_camera(camera_scene, right)
     assert cam.model.key == "DOUBLE_SPHERE"
@@ -206,19 +206,19 @@ def test_cameras_of_different_sizes_are_cast_into_one_folder(blender, camera_sce
     assert commands.main("cast", [*words, "--annotations", "--output", str(out)], "it") == 0
     assert file.read_bytes() == content
     sizes = {path.stem: np.load(path)["depth"].shape for path in out.glob("*.npz")}
-    own = {"cam0": (60, 80), "cam1": (50, 50), "pano": (16, 32)}
-    assert sizes == {f"{name}_{frame:04}": size for name, size in own.items() for frame in (1, 3)}
+    expected = {"cam0": (60, 80), "cam1": (50, 50), "pano": (16, 32)}
+    assert sizes == {f"{name}_{frame:04}": size for name, size in expected.items() for frame in (1, 3)}
     images = json.loads((out / "annotations.json").read_text())["images"]
-    assert {(one["width"], one["height"]) for one in images} == {(80, 60), (50, 50), (32, 16)}
+    assert {(image["width"], image["height"]) for image in images} == {(80, 60), (50, 50), (32, 16)}
     assert commands.main("export", [*words[:4], "--format", "json", "--output", str(tmp_path / "j")], "it") == 0
     cameras = json.loads((tmp_path / "j" / "camera.json").read_text())["cameras"]
-    assert [one["all_frames"]["record"]["resolution_x"] for one in cameras] == [80, 50, 32]
+    assert [camera["all_frames"]["record"]["resolution_x"] for camera in cameras] == [80, 50, 32]
     for key in ("json", "masks", "preview", "nerf"):
         assert commands.main("export", [str(out), "--format", key, "--output", str(tmp_path / key)], "it") == 2 * (
             key == "nerf"
         )
     exported = json.loads((tmp_path / "json" / "camera.json").read_text())["cameras"]
-    assert {one["all_frames"]["record"]["resolution_x"] for one in exported} == {80, 50, 32}
+    assert {camera["all_frames"]["record"]["resolution_x"] for camera in exported} == {80, 50, 32}
     assert "NeRF cannot represent" in capfd.readouterr().err
     assert commands.main("export", [str(out), "--format", "json", "--resolution", "8x6"], "it") == 2
     assert "--resolution does not apply to a finished data set" in capfd.readouterr().err
@@ -261,6 +261,6 @@ def test_a_rolling_shutter_of_a_file_is_that_of_the_scene(blender, camera_scene,
     camera_scene.render.resolution_x, camera_scene.render.resolution_y = 32, 16
     camera_scene.camera = item
     _, (again,) = exports.write(camera_scene, "nerfstudio", [item], [1, 3], tmp_path / "again")
-    for one, other in zip(text["frames"], json.loads(again.read_text())["frames"], strict=True):
+    for entry, other in zip(text["frames"], json.loads(again.read_text())["frames"], strict=True):
         for name in ("transform_matrix", "transform_matrix_rs", "rolling_shutter_offsets"):
-            np.testing.assert_allclose(other[name], one[name], rtol=0, atol=1e-5)
+            np.testing.assert_allclose(other[name], entry[name], rtol=0, atol=1e-5)

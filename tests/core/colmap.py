@@ -44,9 +44,9 @@ def errors(folder):
     reconstruction = pycolmap.Reconstruction(folder)
     results = []
     for point in reconstruction.points3D.values():
-        own = [(reconstruction.images[one.image_id], one.point2D_idx) for one in point.track.elements]
-        apart = [numpy.abs(image.project_point(point.xyz) - image.points2D[k].xy).max() for image, k in own]
-        results.append((max(apart), len(own)))
+        seen = [(reconstruction.images[element.image_id], element.point2D_idx) for element in point.track.elements]
+        apart = [numpy.abs(image.project_point(point.xyz) - image.points2D[k].xy).max() for image, k in seen]
+        results.append((max(apart), len(seen)))
     return results
 
 
@@ -61,8 +61,8 @@ def seen(folder, image, points):
     """The pixels at which an image of a model sees points of the world."""
     import pycolmap
 
-    one = pycolmap.Reconstruction(folder).images[image]
-    return [one.project_point(point) for point in points]
+    picture = pycolmap.Reconstruction(folder).images[image]
+    return [picture.project_point(point) for point in points]
 
 
 @cache

@@ -3,7 +3,7 @@
 from camera_ray_caster.core.casting.pass_needs import WITHOUT_PIXEL
 from camera_ray_caster.core.casting.passes import PASSES
 
-STILL = tuple(name for name, one in PASSES.items() if not one.frames)
+STILL = tuple(name for name, declared in PASSES.items() if not declared.frames)
 """Those that look into no other frame."""
 
 

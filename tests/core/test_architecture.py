@@ -121,7 +121,7 @@ OUTSIDE = {
 def name_of(path):
     """The dotted name of a module inside the package; a folder's ``__init__`` has the folder's name."""
     parts = path.relative_to(PACKAGE).with_suffix("").parts
-    return ".".join(part for part in parts if part != "__init__")
+    return ".".join(name for name in parts if name != "__init__")
 
 
 NAMES = {name_of(path) for path in MODULES}
@@ -138,9 +138,9 @@ def trees():
 def statements(node):
     """The statements in a node, at any depth; walking through expressions, too, takes ten times as long."""
     for name in ("body", "orelse", "finalbody", "handlers", "cases"):
-        for one in getattr(node, name, ()):
-            yield one
-            yield from statements(one)
+        for child in getattr(node, name, ()):
+            yield child
+            yield from statements(child)
 
 
 def imports(path):
@@ -179,7 +179,7 @@ def fits(name, package):
 
 def longest(name, table):
     """The entry of the longest part that a module is in."""
-    return table[max((part for part in table if fits(name, part)), key=len)]
+    return table[max((room for room in table if fits(name, room)), key=len)]
 
 
 def test_only_blender_imports_blender_and_nobody_the_package_by_name():
@@ -192,7 +192,7 @@ def test_only_blender_imports_blender_and_nobody_the_package_by_name():
 def test_arrows_point_down():
     findings = {}
     for name, (inside, _) in all_imports().items():
-        findings[name] = {other for other in inside if not any(fits(other, part) for part in longest(name, MAY_IMPORT))}
+        findings[name] = {other for other in inside if not any(fits(other, room) for room in longest(name, MAY_IMPORT))}
     assert offenders(findings) == {}
 
 
@@ -221,7 +221,7 @@ def test_no_arrow_comes_back():
 
 
 def test_the_table_names_what_exists():
-    assert {part for part in MAY_IMPORT if "." in part} <= NAMES
+    assert {room for room in MAY_IMPORT if "." in room} <= NAMES
 
 
 def test_a_room_of_tests_is_named_as_the_room_that_it_tests():

@@ -24,9 +24,9 @@ def test_every_room_is_shown_and_every_import_follows_arrows():
         assert folders <= set(arrows)
         for name, (inside, _) in all_imports().items():
             rooms = {other.split(".")[1] for other in inside if other.startswith(f"{band}.")}
-            own = name.split(".")[1] if name.startswith(f"{band}.") else None
-            if own is not None:
-                assert rooms - {own} <= reach(arrows, own), name
+            room = name.split(".")[1] if name.startswith(f"{band}.") else None
+            if room is not None:
+                assert rooms - {room} <= reach(arrows, room), name
 
 
 def test_the_picture_has_each_room_once():
@@ -34,4 +34,4 @@ def test_the_picture_has_each_room_once():
     shown = re.findall(r"<text[^>]*>(\w+)</text>", picture)
     arrows = [architecture.rooms_of(MAY_IMPORT, band) for band in ("blender", "core")]
     assert sorted(shown) == sorted(["camera_ray_caster", "blender", "core", *arrows[0], *arrows[1]])
-    assert picture.count("<path") == 2 + sum(len(others) for one in arrows for others in one.values())
+    assert picture.count("<path") == 2 + sum(len(others) for targets in arrows for others in targets.values())

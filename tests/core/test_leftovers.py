@@ -27,11 +27,11 @@ def left_by_a_run(folder, text="new", names=NAMES, token="0123456789abcdef"):
 
 def tree(folder):
     """All that is in a folder and below it, with what it holds or leads to; links are not followed."""
-    found = {}
+    files = {}
     for path in folder.rglob("*"):
         kept = os.readlink(path) if path.is_symlink() else path.read_text() if path.is_file() else "folder"
-        found[str(path.relative_to(folder))] = kept
-    return found
+        files[str(path.relative_to(folder))] = kept
+    return files
 
 
 @pytest.mark.parametrize("journal", [None, "", '{"token": "01', "[" * 100_000, "\0"])

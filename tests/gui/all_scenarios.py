@@ -113,7 +113,7 @@ def export_all(user, scenes):
     folder /= "toys_json"
     yield from user.until(lambda: run.latest() == f"Wrote {folder / 'camera.json'}", "it has exported")
     cameras = json.loads((folder / "camera.json").read_text())["cameras"]
-    assert [len(one["frames"]) for one in cameras] == [200, 200]
+    assert [len(camera["frames"]) for camera in cameras] == [200, 200]
     assert kept(scene) == before
     yield from user.wait(0.5)
     user.screenshot("export_all")

@@ -17,15 +17,15 @@ def by_hand(user, scenes):
     yield from load(user, scenes, "toys")
     scene, region = bpy.context.scene, user.region("WINDOW", "PROPERTIES")
     camera = scene.camera.data
-    own, scene.render.engine, scene.render.resolution_percentage = camera.camera_ray_caster, "CAMERA_RAY_CASTER", 10
-    own.model, bpy.context.view_layer.objects.active = "OPENCV_PINHOLE", scene.camera
+    group, scene.render.engine, scene.render.resolution_percentage = camera.camera_ray_caster, "CAMERA_RAY_CASTER", 10
+    group.model, bpy.context.view_layer.objects.active = "OPENCV_PINHOLE", scene.camera
     yield from user.wait(0.5)
     user.area("PROPERTIES").spaces.active.context = "DATA"
     yield from user.wait(0.7)
     yield from over(user, "calibration_file", region, "i")
     assert camera.animation_data is None or camera.animation_data.action is None
 
-    own.model = "DOME_MASTER"
+    group.model = "DOME_MASTER"
     yield from user.press(f"{BUTTON}see_through(")
     yield from user.wait(0.7)
     plain = user.picture("animated_plain")
@@ -34,7 +34,7 @@ def by_hand(user, scenes):
     keyed = user.picture("animated_keyed")
     assert is_colored(user, plain, keyed, "fov", region)
     yield from to_frame(user, 2)
-    own.fov /= 2
+    group.fov /= 2
     yield from over(user, "fov", region, "i")
     assert len(curves(camera)[0].keyframe_points) == 2
     yield from differ(user, "fov")
@@ -52,7 +52,7 @@ def by_hand(user, scenes):
     lesson.clicked.choose([(9, 9)])
     for frame in FRAMES:
         yield from to_frame(user, frame)
-        assert abs(own.tilt - frame / 4) < 1e-6
+        assert abs(group.tilt - frame / 4) < 1e-6
         numbers.append(lesson.lessons(bpy.context)[9, 9].steps)
     lesson.forget()
     assert numbers[0] != numbers[1]
@@ -64,7 +64,7 @@ def by_hand(user, scenes):
         yield from user.until(lambda before=before: reports.latest(scene) is not before, "it is cast")
         settings = reports.latest(scene).camera["settings"]
         assert abs(settings["tilt"] - 0.5) < 1e-6
-        assert settings["fov"] == own.fov
+        assert settings["fov"] == group.fov
     yield from user.see_render()
 
 
@@ -86,24 +86,24 @@ def every_kind(user, scenes):
     """The view follows a keyed setting of each kind."""
     yield from load(user, scenes, "toys")
     scene = bpy.context.scene
-    own, ball = scene.camera.data.camera_ray_caster, bpy.data.objects["Ball"].camera_ray_caster
+    group, ball = scene.camera.data.camera_ray_caster, bpy.data.objects["Ball"].camera_ray_caster
     bpy.ops.camera_ray_caster.add_line(setting="slit_1")
-    slit, settings = own.slit_1, scene.camera_ray_caster
+    slit, settings = group.slit_1, scene.camera_ray_caster
     cast_through(user)
-    own.model = "DOME_MASTER"
+    group.model = "DOME_MASTER"
     yield from user.press(f"{BUTTON}see_through(")
     for model, owner, name, values in (
-        ("CAMERA_OBSCURA", own, "obscura_depth", (0.05, 0.1)),
-        ("DOME_MASTER", own, "tilt", (1.4, 0.7)),
-        ("OPENCV_PINHOLE", own, "calibration_width", (1920, 960)),
-        ("GENERAL_LINEAR", own, "ray_1", ((0, 0, -1, -1), (0, 0, 0, 0))),
-        ("PENCIL", own, "pencil_slide", (0.0, 0.5)),
-        ("OMNIMAX", own, "model", ("OMNIMAX", "OPENCV_FISHEYE")),
+        ("CAMERA_OBSCURA", group, "obscura_depth", (0.05, 0.1)),
+        ("DOME_MASTER", group, "tilt", (1.4, 0.7)),
+        ("OPENCV_PINHOLE", group, "calibration_width", (1920, 960)),
+        ("GENERAL_LINEAR", group, "ray_1", ((0, 0, -1, -1), (0, 0, 0, 0))),
+        ("PENCIL", group, "pencil_slide", (0.0, 0.5)),
+        ("OMNIMAX", group, "model", ("OMNIMAX", "OPENCV_FISHEYE")),
         ("PUSHBROOM", slit, "location", ((0, 0, 0), (0, 1, 0))),
         ("OPENCV_PINHOLE", ball, "primitive", ("SPHERE", "IGNORE")),
         ("OPENCV_PINHOLE", settings, "shading", ("MATERIAL", "GRID")),
     ):
-        own.model = model
+        group.model = model
         for frame, value in zip(FRAMES, values, strict=True):
             setattr(owner, name, value)
             assert owner.keyframe_insert(name, frame=frame)

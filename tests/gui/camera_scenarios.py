@@ -34,9 +34,9 @@ def camera_settings(user, scenes):
     yield from user.press(f"{BUTTON}add_line(", region)
     yield from user.press(f"{BUTTON}add_line(", region)
     user.screenshot("camera_with_slits")
-    own = camera.camera_ray_caster
-    assert None not in (own.slit_1, own.slit_2)
-    assert own.slit_1 != own.slit_2
+    group = camera.camera_ray_caster
+    assert None not in (group.slit_1, group.slit_2)
+    assert group.slit_1 != group.slit_2
     assert addon("read").read_camera(scene).rays().valid.all()
     area.ui_type = "VIEW_3D"
 
@@ -49,25 +49,25 @@ def model_gallery(user, scenes):
     """A picture of the gallery is a button: a click sets its model, after a direct move or the mouse wheel, in turn."""
     yield from load(user, scenes, "toys")
     camera, keys = bpy.context.scene.camera.data, [it.key for it in addon("ui.gallery_panels").pictured()]
-    own = camera.camera_ray_caster
+    group = camera.camera_ray_caster
     yield from user.find(MODELS, share=0.3)
     button = user.region().x + user.region().width - 75, user.known[MODELS]
     for key, steps in zip(keys[::7], cycle((0, 3)), strict=False):
         if key in addon("ui.gallery_panels").TIMES:
-            own.time_mode = "NONE"
-        own.model = "PENCIL" if key != "PENCIL" else "OMNIMAX"
+            group.time_mode = "NONE"
+        group.model = "PENCIL" if key != "PENCIL" else "OMNIMAX"
         yield from user.click(*button)
         yield from user.wait(0.7)
         cell = marked(user.picture("gallery"), button)
-        place = keys.index(key), keys.index(own.model)
-        (across, up), (left, bottom) = ([n % 8 for n in place], [n // 8 for n in place]), cell[:2]
+        numbers = keys.index(key), keys.index(group.model)
+        (across, up), (left, bottom) = ([n % 8 for n in numbers], [n // 8 for n in numbers]), cell[:2]
         x = left + (across[0] - across[1] + 0.5) * cell[2]
         for _ in range(steps):
             user.send("click", 5)
             yield
         yield from user.click(x, bottom + (up[1] - up[0] + 0.6) * cell[3])
         yield from user.wait(0.3)
-        chosen = own.time_mode if key in addon("ui.gallery_panels").TIMES else camera.camera_ray_caster_gallery
+        chosen = group.time_mode if key in addon("ui.gallery_panels").TIMES else camera.camera_ray_caster_gallery
         assert chosen == key, (key, chosen, steps)
     yield from user.click(user.region().x + 60, button[1])
     yield from user.wait(0.5)
@@ -87,15 +87,15 @@ def search(user, scenes):
     """A search (F3) finds Cast and Verify."""
     yield from load(user, scenes, "spheres_and_planes")
     view = user.region("WINDOW")
-    for word, found in (("verify", addon("output.reports").verified), ("cast", addon("output.reports").latest)):
-        assert found() is None or word == "cast"
+    for word, result in (("verify", addon("output.reports").verified), ("cast", addon("output.reports").latest)):
+        assert result() is None or word == "cast"
         yield from user.point(view.x + view.width // 3, view.y + view.height // 3)
         yield from user.key("F3")
         user.send("type", word)
         yield from user.wait(1)
         user.screenshot(f"search_{word}")
         yield from user.key("Return")
-        yield from user.until(found, f"{word} has been found and has run")
+        yield from user.until(result, f"{word} has been found and has run")
 
 
 def told(user, scenes):
@@ -104,15 +104,15 @@ def told(user, scenes):
     scene, space = bpy.context.scene, user.area().spaces.active
     text, written = addon("view3d.text"), []
     write = text.write
-    text.write = lambda context, lines, place: (
+    text.write = lambda context, lines, corner: (
         written.append([line for _, line in lines]),
-        write(context, lines, place),
+        write(context, lines, corner),
     )
     camera, overlay = scene.camera.data, scene.camera_ray_caster_overlay
     camera.camera_ray_caster.time_mode, camera.dof.use_dof = "ROWS", True
     scene.render.engine = "CAMERA_RAY_CASTER"
-    told = [("CAMERA", "RENDERED", True), ("CAMERA", "RENDERED", False), ("PERSP", "SOLID", True)]
-    for view, shading, has_overlays in (*told, ("PERSP", "RENDERED", False), ("CAMERA", "SOLID", False)):
+    notified = [("CAMERA", "RENDERED", True), ("CAMERA", "RENDERED", False), ("PERSP", "SOLID", True)]
+    for view, shading, has_overlays in (*notified, ("PERSP", "RENDERED", False), ("CAMERA", "SOLID", False)):
         space.region_3d.view_perspective, space.shading.type = view, shading
         space.overlay.show_overlays = overlay.show = has_overlays
         yield from user.wait(2)
@@ -120,7 +120,7 @@ def told(user, scenes):
         user.area().tag_redraw()
         yield from user.wait(1)
         user.screenshot(f"told_{view}_{shading}_{has_overlays}".lower())
-        if (view, shading, has_overlays) in told:
+        if (view, shading, has_overlays) in notified:
             *time, blur = written[-1]
             if shading == "SOLID":
                 assert time[0].startswith(f"Every pixel is shown at frame {scene.frame_current}; in a render"), time

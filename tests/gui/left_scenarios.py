@@ -100,10 +100,10 @@ def live_mishaps(user, scenes):
         bpy.ops.wm.window_new()
     second = bpy.context.window_manager.windows[-1]
     yield from user.wait(1)
-    area = next(one for one in second.screen.areas if one.type == "VIEW_3D" or one.width > 100)
+    area = next(item for item in second.screen.areas if item.type == "VIEW_3D" or item.width > 100)
     area.type = "VIEW_3D"
     yield from user.wait(1)
-    region = next(one for one in area.regions if one.type == "WINDOW")
+    region = next(item for item in area.regions if item.type == "WINDOW")
     with bpy.context.temp_override(window=second, area=area, region=region):
         if not addon("ui.see_through").is_seen_through(bpy.context):
             bpy.ops.camera_ray_caster.see_through()
@@ -143,12 +143,12 @@ def live_mishaps(user, scenes):
         yield from user.wait(0.5)
     yield from draws("a move after undo and redo")
     scene, count = bpy.context.scene, next(iter(live._live[space.as_pointer()].values())).count
-    own = scene.camera
+    active = scene.camera
     scene.camera = next(item for item in scene.objects if item.type == "LIGHT")
     yield from user.wait(1)
     user.screenshot("live_lamp")
     assert next(iter(live._live[space.as_pointer()].values())).count == count
-    scene.camera = own
+    scene.camera = active
     yield from draws("the camera again")
     bpy.data.objects.remove(scene.camera)
     yield from user.wait(1)

@@ -32,13 +32,13 @@ def step_through(user, scenes):
     assert len(lesson.clicked.pixels) == 2
     yield from user.key("Escape")
     user.screenshot("step_through")
-    one = lesson.lessons(bpy.context)[first]
-    hit = camera.project(one.point)
+    steps = lesson.lessons(bpy.context)[first]
+    hit = camera.project(steps.point)
     assert np.abs(hit - np.add(first, 0.5)).max() < 1e-9
     yield from user.press(f"{BUTTON}copy_steps(")
-    said = bpy.context.window_manager.clipboard
-    assert said.count("View coordinates [-1, 1]²") == 2
-    assert f"({first[0]}, {first[1]}) of {camera.raster.width}" in said
+    copied = bpy.context.window_manager.clipboard
+    assert copied.count("View coordinates [-1, 1]²") == 2
+    assert f"({first[0]}, {first[1]}) of {camera.raster.width}" in copied
     space.region_3d.view_perspective = "PERSP"
     space.region_3d.view_distance = 26
     yield from user.wait(0.7)
@@ -171,7 +171,7 @@ def sides_marked(picture, view, image, column, row):
     """On how many sides of a pixel there is a mark's color."""
     sides = [place_in(view, image, column + x, row + y) for x, y in ((0, 0.5), (1, 0.5), (0.5, 0), (0.5, 1))]
     around = [picture[y - 2 : y + 3, x - 2 : x + 3, :3] for x, y in sides]
-    return sum(np.abs(part - addon("view3d.pixel_lessons").RAY[:3]).max(axis=2).min() < 0.1 for part in around)
+    return sum(np.abs(pixels - addon("view3d.pixel_lessons").RAY[:3]).max(axis=2).min() < 0.1 for pixels in around)
 
 
 def examples(user, scenes):
@@ -210,7 +210,7 @@ def look_from(user, side):
 def lecture(user, scenes):
     """A lecture shows the formula large on the picture, its steps by Page Down and Page Up, its ray from all sides."""
     yield from load(user, scenes, "toys")
-    lesson, place = addon("view3d.pixel_lessons"), bpy.context.window_manager.camera_ray_caster_place
+    lesson, chosen = addon("view3d.pixel_lessons"), bpy.context.window_manager.camera_ray_caster_place
     view, panel = user.area().spaces.active.region_3d, user.region()
     view.view_perspective = "CAMERA"
     lesson.clicked.choose([(150, 120)])
@@ -221,7 +221,7 @@ def lecture(user, scenes):
     user.known |= {f"{BUTTON}ray_view(side='{side}'": row for side in SIDES}
     yield from look_from(user, "ABOVE")
     yield from user.click(panel.x + panel.width // 3, row + ROW)
-    assert place.lecture
+    assert chosen.lecture
     user.known |= {f"{BUTTON}ray_view(side='{side}'": row - ROW for side in SIDES}  # More Digits is above them
     for side in ("BACK", "OUTSIDE", "SIDE", "ABOVE", "BACK"):
         yield from look_from(user, side)
@@ -232,12 +232,12 @@ def lecture(user, scenes):
     yield from user.point(*place_of(user, 300, 200))
     for key, step in (("Next", 1), ("Next", 2), ("Next", 3), ("Next", 4), ("Prior", 3)):
         yield from user.key(key)
-        yield from user.until(lambda step=step: place.step == step, f"{key} shows step {step}")
+        yield from user.until(lambda step=step: chosen.step == step, f"{key} shows step {step}")
     user.screenshot("lecture_numbers")
-    place.all_digits = True
+    chosen.all_digits = True
     yield from user.wait(0.5)
     user.screenshot("lecture_all_digits")
-    place.lecture, place.all_digits, place.step = False, False, 0
+    chosen.lecture, chosen.all_digits, chosen.step = False, False, 0
     lesson.forget()
 
 

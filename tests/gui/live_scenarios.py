@@ -30,17 +30,17 @@ def live_picture(user, scenes):
     yield from load(user, scenes, "living_room")
     scene, space, view = bpy.context.scene, user.area().spaces.active, user.region("WINDOW")
     items, engine = [item for item in scene.objects if item.type == "MESH"], scene.render.engine
-    for place, item in enumerate(items):
-        item.color = (*hsv_to_rgb(place * 0.618 % 1, 1 - place % 3 / 4, 1 - place % 4 / 6), 1)
+    for number, item in enumerate(items):
+        item.color = (*hsv_to_rgb(number * 0.618 % 1, 1 - number % 3 / 4, 1 - number % 4 / 6), 1)
     space.overlay.show_overlays, space.shading.light, space.shading.color_type = False, "FLAT", "OBJECT"
     space.show_gizmo_navigate = False  # Blender draws it over the picture
     scene.display.viewport_aa = "OFF"
     bpy.context.preferences.system.viewport_aa = "OFF"
     space.shading.show_cavity = space.shading.show_object_outline = space.shading.show_shadows = False
-    own, cast = scene.camera.data.camera_ray_caster, addon("view3d.mouse_gizmo").probe.__globals__["passes_at"]
+    group, cast = scene.camera.data.camera_ray_caster, addon("view3d.mouse_gizmo").probe.__globals__["passes_at"]
     yield from user.press(f"{BUTTON}see_through(")
     for model in ("DOME_MASTER", "OMNIMAX", "CYLINDRICAL", "FISHEYE_STEREOGRAPHIC", "FISHEYE_ORTHOGRAPHIC", "UCM"):
-        own.model = model
+        group.model = model
         yield from user.wait(1.2)
         shown = user.picture(f"live_{model.lower()}")
         seen = addon("read.scene_cache").cached_scene(bpy.context)
@@ -55,10 +55,10 @@ def live_picture(user, scenes):
             if len(set(index)) > 1 or index[0] < 0:
                 continue
             name = seen.shapes.names[seen.shapes.name_index[index[0]]]
-            color, found = np.array(bpy.data.objects[name].color[:3]), shown[int(at[1]), int(at[0]), :3]
-            found = np.where(found < 0.04045, found / 12.92, ((found + 0.055) / 1.055) ** 2.4)
+            color, color_seen = np.array(bpy.data.objects[name].color[:3]), shown[int(at[1]), int(at[0]), :3]
+            color_seen = np.where(color_seen < 0.04045, color_seen / 12.92, ((color_seen + 0.055) / 1.055) ** 2.4)
             compared += 1
-            off += [(name, tuple(at), found, color)] if np.abs(found - color).max() > 0.03 else []
+            off += [(name, tuple(at), color_seen, color)] if np.abs(color_seen - color).max() > 0.03 else []
         print(f"{model}: {compared} pixels, {len(off)} off")
         assert compared > 100
         assert not off, (model, len(off), compared, off[:3])
@@ -80,8 +80,8 @@ def live_ends(user, scenes):
     """
     yield from load(user, scenes, "toys")
     scene, space, live = bpy.context.scene, user.area().spaces.active, addon("view3d.live")
-    own, engine, button = scene.camera.data.camera_ray_caster, scene.render.engine, f"{BUTTON}see_through("
-    own.model = "DOME_MASTER"
+    group, engine, button = scene.camera.data.camera_ray_caster, scene.render.engine, f"{BUTTON}see_through("
+    group.model = "DOME_MASTER"
     yield from user.wait(0.5)
     before = space.region_3d.view_perspective, space.shading.type, space.shading.use_world_space_lighting, engine
 
@@ -99,11 +99,11 @@ def live_ends(user, scenes):
     yield from user.press(button)
     yield from user.wait(0.5)
     user.screenshot("live_toys")
-    own.model = "TWISTED_ORTHOGRAPHIC"
+    group.model = "TWISTED_ORTHOGRAPHIC"
     yield from user.until(lambda: now() == ("CAMERA", "RENDERED", False, "CAMERA_RAY_CASTER"), "it is cast")
     yield from user.wait(1)
     user.screenshot("live_cast_instead")
-    own.model = "DOME_MASTER"
+    group.model = "DOME_MASTER"
     yield from user.until(lambda: now() == ("CAMERA", "SOLID", True, engine), "it is live again")
     path = str(user.folder / "live.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)

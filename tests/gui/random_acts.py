@@ -22,7 +22,7 @@ ACTS = 250
 
 def context(user):
     """The override of a 3D View, or of the window alone if there is none."""
-    area = next((one for one in user.window.screen.areas if one.type == "VIEW_3D"), None)
+    area = next((item for item in user.window.screen.areas if item.type == "VIEW_3D"), None)
     if area is None:
         return {"window": user.window}
     return {"window": user.window, "area": area, "region": next(r for r in area.regions if r.type == "WINDOW")}
@@ -52,10 +52,10 @@ class Acts:
         scene = addon("read.scene_cache").cached_scene(bpy.context)
         if "area" in context(self.user) and scene.camera is not None and not bpy.context.screen.show_fullscreen:
             try:
-                place = place_of(self.user, *(self.dice.randrange(-20, side + 20) for side in scene.camera.raster.size))
+                pixel = place_of(self.user, *(self.dice.randrange(-20, side + 20) for side in scene.camera.raster.size))
             except TypeError:  # no view through the camera
                 return
-            yield from self.user.click(*place)
+            yield from self.user.click(*pixel)
 
     def ours(self):
         """Press one of our buttons."""

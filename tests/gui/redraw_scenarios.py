@@ -146,9 +146,9 @@ def redraws_of_models(user, scenes):
         print(f"{name}, Solid: {(yield from moved()):.0f} ms of processor time a redraw")
         scene.render.engine, space.shading.type, watch = "CAMERA_RAY_CASTER", "RENDERED", Watch()
         for model in SIX:
-            own = camera.data.camera_ray_caster
-            own.model = model if model in own.bl_rna.properties["model"].enum_items else "BLENDER"
-            if own.model == "BLENDER" and model != "PERSP":
+            group = camera.data.camera_ray_caster
+            group.model = model if model in group.bl_rna.properties["model"].enum_items else "BLENDER"
+            if group.model == "BLENDER" and model != "PERSP":
                 camera.data.type, camera.data.panorama_type = "PANO", model
             watch.spent.clear()
             whole = yield from moved()

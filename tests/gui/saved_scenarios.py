@@ -114,8 +114,8 @@ def every_handler():
     """How often each of our functions is called by Blender."""
     lists = {name: getattr(bpy.app.handlers, name) for name in dir(bpy.app.handlers)}
     return {
-        name: [one.__qualname__ for one in found if "camera_ray_caster" in one.__module__]
-        for name, found in lists.items() if isinstance(found, list)
+        name: [function.__qualname__ for function in handlers if "camera_ray_caster" in function.__module__]
+        for name, handlers in lists.items() if isinstance(handlers, list)
     }  # fmt: skip
 
 

@@ -149,18 +149,18 @@ def ray_under_mouse(user, scenes):
     scene, view = bpy.context.scene, user.region("WINDOW")
     user.area().spaces.active.region_3d.view_perspective = "CAMERA"
     scene.camera_ray_caster_overlay.show = True
-    told = []
+    written_lines = []
     gizmo = addon("view3d.mouse_gizmo")
     write = gizmo._write
-    gizmo._write = lambda context, mouse, lines: (told.append(dict(lines)), write(context, mouse, lines))
+    gizmo._write = lambda context, mouse, lines: (written_lines.append(dict(lines)), write(context, mouse, lines))
     yield from user.point(view.x + view.width // 2, view.y + view.height // 2)
-    yield from user.until(lambda: told, "the mouse is told")
+    yield from user.until(lambda: written_lines, "the mouse is told")
     yield from user.wait(0.5)
     user.screenshot("ray_under_mouse")
-    column, row = map(int, told[-1]["Pixel"].removesuffix(" from the bottom left").split(", "))
+    column, row = map(int, written_lines[-1]["Pixel"].removesuffix(" from the bottom left").split(", "))
     assert abs(column - scene.render.resolution_x / 2) < 10
     assert abs(row - scene.render.resolution_y / 2) < 10
-    assert told[-1]["Hit"] in bpy.data.objects
+    assert written_lines[-1]["Hit"] in bpy.data.objects
     gizmo._write = write
 
 

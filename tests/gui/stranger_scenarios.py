@@ -43,14 +43,14 @@ def choose(user, command, rows, share, text):
     yield from user.wait(0.7)
 
 
-def choose_model(user, own, key, label):
+def choose_model(user, group, key, label):
     """Open the menu above the button See Through Camera, type the name of a model, and take it."""
     yield from open_menu(user, f"{BUTTON}see_through(", -1, 0.4)
     user.screenshot(f"models_{key}")
     user.send("type", label)
     yield from user.wait(0.7)
     yield from user.key("Return")
-    yield from user.until(lambda: own.model == key, f"the model is {key}")
+    yield from user.until(lambda: group.model == key, f"the model is {key}")
     yield from user.wait(0.7)
 
 
@@ -79,24 +79,24 @@ def cast_a_cube(user, scenes):
 def see_through(user, scenes):
     """A model is chosen, and a button shows what the camera sees; a slit is added, undone, selected and dragged."""
     yield from default_scene(user)
-    view, own = user.region("WINDOW"), bpy.context.scene.camera.data.camera_ray_caster
+    view, group = user.region("WINDOW"), bpy.context.scene.camera.data.camera_ray_caster
     button = f"{BUTTON}see_through("
-    yield from choose_model(user, own, "OMNIMAX", "Omnimax")
+    yield from choose_model(user, group, "OMNIMAX", "Omnimax")
     before = bpy.context.scene.render.engine
     yield from user.press(button)
     yield from user.wait(2)
     seen = user.cut(user.picture("stranger_omnimax"), view)
     assert bpy.context.scene.render.engine == before  # Blender's own drawing, through the model
-    yield from choose_model(user, own, "CROSS_SLIT", "Cross-Slit")
+    yield from choose_model(user, group, "CROSS_SLIT", "Cross-Slit")
     user.screenshot("stranger_slits_missing")
     yield from user.press(f"{BUTTON}add_line(")
-    yield from user.until(lambda: own.slit_1, "the slit is added")
+    yield from user.until(lambda: group.slit_1, "the slit is added")
     yield from user.point(*middle(view))
     yield from user.key("ctrl+z")
     yield from user.wait(2)
     user.screenshot("stranger_slit_undone")
-    own, shows = bpy.context.scene.camera.data.camera_ray_caster, addon("ui.see_through").shows_cast
-    assert own.slit_1 is None
+    group, shows = bpy.context.scene.camera.data.camera_ray_caster, addon("ui.see_through").shows_cast
+    assert group.slit_1 is None
     assert shows(user.area().spaces.active, bpy.context.scene)
     yield from user.press(f"{BUTTON}add_line(")
     yield from user.press(f"{BUTTON}add_line(")
@@ -104,15 +104,15 @@ def see_through(user, scenes):
     first = user.cut(user.picture("stranger_slits"), view)
     assert np.abs(first - seen).max() > 0.1
     slit = bpy.context.object
-    assert slit == own.slit_2
-    place = slit.matrix_world.translation.copy()
+    assert slit == group.slit_2
+    start = slit.matrix_world.translation.copy()
     yield from user.point(view.x + view.width // 3, view.y + view.height // 3)
     yield from user.key("g")
     yield from user.point(view.x + view.width // 3 + 90, view.y + view.height // 3 + 40)
     yield from user.click(view.x + view.width // 3 + 90, view.y + view.height // 3 + 40)
     yield from user.wait(2)
     after = user.cut(user.picture("stranger_slit_dragged"), view)
-    assert (slit.matrix_world.translation - place).length > 0.01
+    assert (slit.matrix_world.translation - start).length > 0.01
     assert np.count_nonzero(np.abs(after - first).max(axis=2) > 0.1) > 1000
     yield from user.press(button)
     space = user.area().spaces.active

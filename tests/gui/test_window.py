@@ -81,11 +81,11 @@ def walked(folder, *names):
             stderr=subprocess.STDOUT,
             timeout=LIMIT,
         )
-    found = folder / "result.json"
-    said = (folder / "log.txt").read_text()
-    assert found.is_file(), f"Blender ended before its time:\n{said}"
-    assert "Traceback" not in said, said
-    return json.loads(found.read_text())
+    result = folder / "result.json"
+    log_text = (folder / "log.txt").read_text()
+    assert result.is_file(), f"Blender ended before its time:\n{log_text}"
+    assert "Traceback" not in log_text, log_text
+    return json.loads(result.read_text())
 
 
 @pytest.mark.parametrize("name", SCENARIOS)

@@ -64,7 +64,7 @@ def shown(user, name, space):
                          for i, size, count in zip((u, v), rendered.shape[1::-1], BLOCKS, strict=True))  # fmt: skip
         if x.stop < view.width - 300:  # left of the sidebar
             both = picture[y, x, :3], rendered[rows, columns, :3]
-            off.append(np.abs(np.subtract(*(part.mean(axis=(0, 1)) for part in both))).max())
+            off.append(np.abs(np.subtract(*(picture.mean(axis=(0, 1)) for picture in both))).max())
     assert len(off) > 80, len(off)
     assert np.quantile(off, 0.95) < 0.06, np.sort(off)[-30:]  # one ray a pixel meets the lines of the grid or not
 

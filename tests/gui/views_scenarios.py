@@ -38,17 +38,17 @@ def quad_and_local_views(user, scenes):
     yield from load(user, scenes, "living_room_omnimax")
     area, button = user.area(), f"{BUTTON}see_through("
     space, before = area.spaces.active, overlays(area.spaces.active)
-    own, live = bpy.context.scene.camera.data.camera_ray_caster, addon("view3d.live")._live
+    group, live = bpy.context.scene.camera.data.camera_ray_caster, addon("view3d.live")._live
     in_view = {"window": user.window, "area": area, "region": user.region("WINDOW")}
     for enter in (bpy.ops.screen.region_quadview, bpy.ops.view3d.localview):
         with bpy.context.temp_override(**in_view):
             enter()
         yield from user.wait(0.5)
-        own.model = "OMNIMAX"
+        group.model = "OMNIMAX"
         yield from user.press(button)
-        yield from user.until(lambda: any(one.count for one in live[space.as_pointer()].values()), "it is live")
+        yield from user.until(lambda: any(picture.count for picture in live[space.as_pointer()].values()), "it is live")
         user.screenshot(f"live_{enter.idname_py().rpartition('.')[2]}")
-        own.model = "GENERAL_LINEAR"
+        group.model = "GENERAL_LINEAR"
         yield from user.until(lambda: not any(overlays(space).values()), "they are hidden")
         yield from user.wait(1)
         user.screenshot(f"view_{enter.idname_py().rpartition('.')[2]}")

@@ -17,7 +17,7 @@ def slit_scan_movie(user, scenes):
     """An artist: from the default cube to a movie in which each row of a frame has its own time."""
     yield from default_scene(user)
     scene, view = bpy.context.scene, user.region("WINDOW")
-    cube, own = bpy.data.objects["Cube"], scene.camera.data.camera_ray_caster
+    cube, group = bpy.data.objects["Cube"], scene.camera.data.camera_ray_caster
     yield from user.point(*middle(view))
     yield from user.key("i")
     scene.frame_set(25)
@@ -32,7 +32,7 @@ def slit_scan_movie(user, scenes):
     yield from user.wait(1)
     user.screenshot("walk_search")
     yield from user.key("Return")
-    yield from user.until(lambda: own.time_mode == "ROWS", "each row has its own time")
+    yield from user.until(lambda: group.time_mode == "ROWS", "each row has its own time")
     yield from user.wait(0.7)
     user.screenshot("walk_engine")
     yield from user.press(f"{BUTTON}use_this_engine(")
@@ -42,7 +42,7 @@ def slit_scan_movie(user, scenes):
     yield from user.press(f"{BUTTON}follow_timeline(")
     yield from user.until(lambda: scene.camera.data.animation_data, "the times go with the timeline")
     scene.frame_set(3)
-    assert (own.time_start, own.time_end) == (3, 27)
+    assert (group.time_start, group.time_end) == (3, 27)
     scene.frame_set(1)
     scene.frame_end, scene.render.resolution_percentage = MOVIE, 10
     scene.render.filepath, form = str(user.folder / "movie_"), scene.render.image_settings
@@ -76,14 +76,14 @@ def drag_x_before_a_class(user, scenes):
     yield from user.wait(1.5)
     yield from user.press(f"{BUTTON}step_through(")
     raster = addon("read.scene_cache").cached_scene(context).camera.raster
-    start, end = (place_of(user, raster.width * part, raster.height / 2) for part in (0.35, 0.6))
+    start, end = (place_of(user, raster.width * fraction, raster.height / 2) for fraction in (0.35, 0.6))
     yield from user.point(*start)
     user.send("mousedown", 1)
     yield from user.wait(0.3)
     (first,) = lesson.clicked.pixels
     before = lesson.lessons(context)[first].steps
-    for part in range(1, 11):
-        x = round(start[0] + (end[0] - start[0]) * part / 10)
+    for step in range(1, 11):
+        x = round(start[0] + (end[0] - start[0]) * step / 10)
         user.send("mousemove", x, user.window.height - 1 - round(start[1]))
         yield from user.wait(0.1)
     user.send("mouseup", 1)
@@ -93,8 +93,8 @@ def drag_x_before_a_class(user, scenes):
     assert last[0] > first[0] + raster.width / 5
     assert lesson.lessons(context)[last].steps != before
     yield from user.key("Escape")
-    place = context.window_manager.camera_ray_caster_place
-    place.x = -0.5
+    chosen = context.window_manager.camera_ray_caster_place
+    chosen.x = -0.5
     yield from user.wait(0.7)
     user.screenshot("walk_slider")
     assert lesson.clicked.pixels[0][0] == round(raster.width / 4)

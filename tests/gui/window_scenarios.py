@@ -45,14 +45,14 @@ def set_frame(user, scenes):
     render.resolution_x, render.resolution_y = 1920, 1080
     yield from user.wait(0.7)
     user.screenshot("set_frame")
-    engine, said = addon("engine.engine"), []
+    engine, sizes = addon("engine.engine"), []
     asked_size = engine.asked_size
-    engine.asked_size = lambda raw: said.append(asked_size(raw)) or said[-1]
+    engine.asked_size = lambda raw: sizes.append(asked_size(raw)) or sizes[-1]
     yield from user.point(*middle(user.region("WINDOW")))
     yield from user.key("F12")
-    yield from user.until(lambda: said, "the render warns")
+    yield from user.until(lambda: sizes, "the render warns")
     engine.asked_size = asked_size
-    assert said[0].sentence.startswith("the picture is stretched: the frame has 96 × 54 pixels"), said
+    assert sizes[0].sentence.startswith("the picture is stretched: the frame has 96 × 54 pixels"), sizes
     yield from user.see_render()
     yield from user.wait(0.5)
     yield from user.press(f"{BUTTON}set_frame(")
@@ -77,22 +77,22 @@ def set_frame(user, scenes):
 def other_engine(user, scenes):
     """F12 by an engine that does not know the model says so in the status bar, and the panel has what would work."""
     yield from load(user, scenes, "toys")
-    scene, said, other = bpy.context.scene, [], addon("ui.other_engine")
+    scene, texts, other = bpy.context.scene, [], addon("ui.other_engine")
     scene.camera.data.camera_ray_caster.model, scene.render.engine = "OMNIMAX", "BLENDER_WORKBENCH"
     scene.render.resolution_percentage = 10
     show = other.show
-    other.show = lambda text: (said.append(text), show(text))
+    other.show = lambda text: (texts.append(text), show(text))
     yield from user.wait(0.5)
     yield from user.point(*middle(user.region("WINDOW")))
     yield from user.key("F12")
-    yield from user.until(lambda: said, "the status bar says it")
-    assert said[0].startswith("Workbench renders a perspective view, not Omnimax"), said
+    yield from user.until(lambda: texts, "the status bar says it")
+    assert texts[0].startswith("Workbench renders a perspective view, not Omnimax"), texts
     yield from user.see_render("other_engine_f12")
     yield from user.wait(0.5)
     user.screenshot("other_engine")
     yield from user.press(f"{BUTTON}use_this_engine(")
     yield from user.until(lambda: scene.render.engine == "CAMERA_RAY_CASTER", "the engine is set")
-    yield from user.until(lambda: None in said, "the status bar is Blender's again")
+    yield from user.until(lambda: None in texts, "the status bar is Blender's again")
     other.show = show
 
 
@@ -118,13 +118,13 @@ def marks(user, scenes):
     overlay.show, overlay.rays, overlay.show_normals, overlay.show_ray = True, 6, False, False
     yield from user.wait(2)
     shown = user.picture("marks_of_the_overlay")
-    color, found = addon("view3d.overlay").STYLES["hits"][0], 0
+    color, count = addon("view3d.overlay").STYLES["hits"][0], 0
     rows = round(6 * raster.height / raster.width)  # as square a grid as that of the columns
     for column in (np.arange(6) + 0.5) / 6 * raster.width:
         for row in (np.arange(rows) + 0.5) / rows * raster.height:
             x, y = map(round, place_of(user, column - 0.5, row - 0.5))
-            found += near(shown, x, y, color) <= 3
-    assert found > 12, found
+            count += near(shown, x, y, color) <= 3
+    assert count > 12, count
     overlay.show = False
 
 
@@ -158,22 +158,22 @@ def click_seen(user, scenes):
     user.screenshot("click_seen")
     for keys, expected in (("ctrl+z", names[-2]), ("ctrl+shift+z", name)):
         yield from user.key(keys)
-        yield from user.until(lambda expected=expected: [one.name for one in context.selected_objects] == [expected],
+        yield from user.until(lambda expected=expected: [item.name for item in context.selected_objects] == [expected],
                               f"{keys} of a click")  # fmt: skip
-    own, asked = addon("ui.select_seen"), []
-    object_at = own.object_at
-    own.object_at = lambda *given: (asked.append(given), object_at(*given))[1]
+    select_seen, asked = addon("ui.select_seen"), []
+    object_at = select_seen.object_at
+    select_seen.object_at = lambda *arguments: (asked.append(arguments), object_at(*arguments))[1]
     sides = np.add(place_of(user, 0, height / 2), (-20, 0)), np.add(place_of(user, width / 3, 0), (0, -20))
     yield from user.click(*next(side for side in sides if side[0] > view.x + 100))
     user.send("keydown", "shift")
     yield from user.click(*place_of(user, *pixel))
     user.send("keyup", "shift")
-    own.object_at = object_at
+    select_seen.object_at = object_at
     assert not asked, "outside of the frame and with a modifier key Blender selects"
 
     tool(user, "builtin.select")
     item = bpy.data.objects[name]
-    place = item.matrix_world.translation.copy()
+    was_at = item.matrix_world.translation.copy()
     start = place_of(user, *pixel)
     yield from user.point(*start)
     user.send("mousedown", 1)
@@ -183,8 +183,8 @@ def click_seen(user, scenes):
         yield
     user.send("mouseup", 1)
     yield from user.wait(0.5)
-    assert [one.name for one in context.selected_objects] == [name]
-    assert (item.matrix_world.translation - place).length > 0.01, "what is dragged moves"
+    assert [selected.name for selected in context.selected_objects] == [name]
+    assert (item.matrix_world.translation - was_at).length > 0.01, "what is dragged moves"
     tool(user, "builtin.select_box")
 
     stored = str(user.folder / "hidden.blend")
@@ -221,7 +221,7 @@ def drag_a_ray(user, scenes):
     yield from user.press(f"{BUTTON}step_through(")
     yield from user.wait(1)
     marks = lesson.draw_in_picture
-    lesson.draw_in_picture = lambda *given: (drawn.append((time.monotonic(), *lesson.clicked.pixels)), marks(*given))
+    lesson.draw_in_picture = lambda *args: (drawn.append((time.monotonic(), *lesson.clicked.pixels)), marks(*args))
     start = place_of(user, 300, 270)
     yield from user.click(*start)
     yield from user.until(lambda: lesson.clicked.pixels, "a pixel is clicked")
@@ -242,20 +242,20 @@ def drag_a_ray(user, scenes):
     assert lesson.clicked.held, "the view is not drawn while its mark moves"
     places = [place_of(user, *pixel) for pixel in (lesson.clicked.pixels[0], first)]
     shown = user.picture("dragging")
-    assert [near(shown, *map(round, place), lesson.RAY) <= 8 for place in places] == [True, False]
+    assert [near(shown, *map(round, point), lesson.RAY) <= 8 for point in places] == [True, False]
     user.send("mouseup", 1)
     yield from user.wait(0.5)
     assert not lesson.clicked.held
     shown = user.picture("dragged")
-    assert [near(shown, *map(round, place), lesson.RAY) <= 8 for place in places] == [True, False]
+    assert [near(shown, *map(round, point), lesson.RAY) <= 8 for point in places] == [True, False]
     assert len(lesson.clicked.pixels) == 1
     held = lesson.clicked.pixels[0]
     yield from user.point(*place_of(user, 600, 400))
     yield from user.wait(0.3)
     assert lesson.clicked.pixels == [held], "the mark stays where it was dropped"
     yield from user.key("Escape")
-    place = bpy.context.window_manager.camera_ray_caster_place
-    place.x = 0.5
+    chosen = bpy.context.window_manager.camera_ray_caster_place
+    chosen.x = 0.5
     yield from user.until(lambda: drawn[-1][1][0] == round((0.5 + 1) / 2 * 960), "the view shows the slider's pixel")
     user.screenshot("slid")
     lesson.draw_in_picture = marks
@@ -264,14 +264,14 @@ def drag_a_ray(user, scenes):
 
 def near(picture, x, y, color, most=12):
     """The distance in pixels from a place in a picture to the nearest pixel of a color; inf if there is none."""
-    part = picture[y - most : y + most + 1, x - most : x + most + 1, :3]
-    rows, columns = np.nonzero(np.abs(part - color[:3]).max(axis=2) < 0.12)
+    square = picture[y - most : y + most + 1, x - most : x + most + 1, :3]
+    rows, columns = np.nonzero(np.abs(square - color[:3]).max(axis=2) < 0.12)
     return np.hypot(rows - most, columns - most).min(initial=np.inf)
 
 
-def middle(part):
+def middle(region):
     """The middle of an area or a region, in the window."""
-    return part.x + part.width // 2, part.y + part.height // 2
+    return region.x + region.width // 2, region.y + region.height // 2
 
 
 def dialog(user):

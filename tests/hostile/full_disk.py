@@ -34,16 +34,16 @@ def mounted(folder, size):
 def said_by(commands, name, *words):
     """Return the status of a command and what is on standard error, by C code, too."""
     kept = os.dup(2)
-    with tempfile.TemporaryFile("w+") as said, contextlib.redirect_stderr(said):
-        os.dup2(said.fileno(), 2)
+    with tempfile.TemporaryFile("w+") as output, contextlib.redirect_stderr(output):
+        os.dup2(output.fileno(), 2)
         try:
             status = commands.main(name, list(map(str, words)), f"{name}.py")
         finally:
             os.dup2(kept, 2)
             os.close(kept)
-        said.flush()
-        said.seek(0)
-        return status, said.read()
+        output.flush()
+        output.seek(0)
+        return status, output.read()
 
 
 def of_commands(commands, folder, plain, compressed):
@@ -57,8 +57,8 @@ def of_commands(commands, folder, plain, compressed):
         ("dataset", plain, "--frames", "1:1", *out),
     ):
         with mounted(folder, 4 if name == "export" else 16):
-            status, said = said_by(commands, name, *words)
-            yield {"command": name, "status": status, "said": said, "left": sorted(state(folder))}
+            status, output = said_by(commands, name, *words)
+            yield {"command": name, "status": status, "said": output, "left": sorted(state(folder))}
 
 
 def tried(commands, folder, old, new, size):
@@ -67,12 +67,12 @@ def tried(commands, folder, old, new, size):
         for path in old.iterdir():
             shutil.copy(path, folder)
         before = state(folder)
-        status, said = said_by(commands, "cast", new, "--output", folder)
+        status, output = said_by(commands, "cast", new, "--output", folder)
         after = state(folder)
         return {
             "size": size,
             "status": status,
-            "said": said,
+            "said": output,
             "names": sorted(after),
             "same": sorted(name for name in before if after.get(name) == before[name]),
             "whole": b"IEND" in after["scene.png"][-12:],
@@ -91,10 +91,10 @@ def main(folder, old, new, *sizes):
     camera_ray_caster.register()
     with contextlib.redirect_stdout(io.StringIO()):
         if sizes == ("COMMANDS",):
-            found = list(of_commands(commands, Path(folder), old, new))
+            outcomes = list(of_commands(commands, Path(folder), old, new))
         else:
-            found = [tried(commands, Path(folder), Path(old), Path(new), int(size)) for size in sizes]
-    print(json.dumps(found), file=printed, flush=True)
+            outcomes = [tried(commands, Path(folder), Path(old), Path(new), int(size)) for size in sizes]
+    print(json.dumps(outcomes), file=printed, flush=True)
     os._exit(0)  # bpy 4.5 may hang in its own clean-up
 
 

@@ -41,11 +41,11 @@ def check_set(status, out, errors, folder):
     """A data set has its arrays, and annotations whose boxes lie in the picture and whose numbers are numbers."""
     assert status == 0, f"status {status}: {errors[-3000:] or out[:1500]}"
     assert errors == "", f"standard error has {errors[-2000:]!r}"
-    found = json.loads((folder / "out" / "annotations.json").read_text(encoding="utf-8"), parse_constant=_refuse)
-    sizes = {image["id"]: (image["width"], image["height"]) for image in found["images"]}
+    document = json.loads((folder / "out" / "annotations.json").read_text(encoding="utf-8"), parse_constant=_refuse)
+    sizes = {image["id"]: (image["width"], image["height"]) for image in document["images"]}
     assert sizes
-    for one in found["annotations"]:
-        (width, height), (x, y, wide, high) = sizes[one["image_id"]], one["bbox"]
+    for annotation in document["annotations"]:
+        (width, height), (x, y, wide, high) = sizes[annotation["image_id"]], annotation["bbox"]
         assert 0 <= x <= x + wide <= width
         assert 0 <= y <= y + high <= height
     for path in folder.rglob("*_0*.npz"):
@@ -92,26 +92,26 @@ def check_pixels(channels):
         names = sorted(channel for channel in channels if channel.rpartition(".")[0] == f"{layer}.{name}")
         passes.setdefault(layer, {})[name] = np.stack([channels[channel] for channel in names], axis=-1).astype(float)
     assert passes
-    for found in passes.values():
+    for entries in passes.values():
         for name, check in CHECKS.items():
-            if name in found:
-                bad = ~check(found[name])
-                assert not bad.any(), f"{name}: {found[name][bad][:3]}"
-        if {"Valid", "Ray Origin", "Ray Direction", "Distance", "Position"} <= set(found):
-            check_rays(found)
+            if name in entries:
+                bad = ~check(entries[name])
+                assert not bad.any(), f"{name}: {entries[name][bad][:3]}"
+        if {"Valid", "Ray Origin", "Ray Direction", "Distance", "Position"} <= set(entries):
+            check_rays(entries)
 
 
-def check_rays(found):
+def check_rays(layer):
     """Where there is a ray its direction is a unit vector, and where it hits the place is on it; elsewhere no hit."""
-    valid, distance = found["Valid"][..., 0] == 1, found["Distance"]
-    lengths = np.linalg.norm(found["Ray Direction"], axis=-1)
+    valid, distance = layer["Valid"][..., 0] == 1, layer["Distance"]
+    lengths = np.linalg.norm(layer["Ray Direction"], axis=-1)
     assert (np.abs(lengths[valid] - 1) <= 4 * EPS).all(), f"directions of length {lengths[valid]}"
     hit = np.isfinite(distance[..., 0]) & (distance[..., 0] < FLOAT32)
     assert not (hit & ~valid).any(), "a hit without a ray"
-    place, origin, along = (found[name][hit] for name in ("Position", "Ray Origin", "Ray Direction"))
+    position, origin, along = (layer[name][hit] for name in ("Position", "Ray Origin", "Ray Direction"))
     with np.errstate(invalid="ignore", over="ignore"):
-        off = np.abs(place - (origin + distance[hit] * along)).max(axis=-1)
-        size = np.abs(place).max(axis=-1) + np.abs(origin).max(axis=-1) + distance[hit][..., 0]
+        off = np.abs(position - (origin + distance[hit] * along)).max(axis=-1)
+        size = np.abs(position).max(axis=-1) + np.abs(origin).max(axis=-1) + distance[hit][..., 0]
     assert (off <= 4 * EPS * size).all(), f"places {off[~(off <= 4 * EPS * size)]} beside their rays"
 
 

@@ -27,16 +27,16 @@ class Pool:
         # this checkout's add-on, not that which pip has installed; scripts find what lies beside them
         places = os.environ | {"PYTHONPATH": os.pathsep.join(str(ROOT / name) for name in ("addon", "scripts"))}
         pipes = dict.fromkeys(("stdin", "stdout"), subprocess.PIPE)
-        with self.told.open("w") as told:  # a pipe that nobody reads would stop Blender, which says much about drivers
-            self.process = subprocess.Popen(words, cwd=ROOT, env=places, text=True, stderr=told, **pipes)
+        with self.told.open("w") as file:  # a pipe that nobody reads would stop Blender, which says much about drivers
+            self.process = subprocess.Popen(words, cwd=ROOT, env=places, text=True, stderr=file, **pipes)
 
     def tried(self, kind, number):
         """What came of an input: a dict with ``what`` it is, the ``outcome`` and what was ``said``.
 
         A crash counts where a new process crashes, too: an earlier file may have spoiled Blender's memory.
         """
-        found = self._tried(kind, number)
-        return self._tried(kind, number) if found["outcome"] == "crashed" else found
+        outcome = self._tried(kind, number)
+        return self._tried(kind, number) if outcome["outcome"] == "crashed" else outcome
 
     def _tried(self, kind, number):
         if self.process is None:
@@ -53,12 +53,12 @@ class Pool:
 
     def _crashed(self):
         self.process.wait(10)
-        told, log = self.told.read_text(errors="replace")[-2000:], self.log.read_text()
+        errors, log = self.told.read_text(errors="replace")[-2000:], self.log.read_text()
         self.process = None
         stack = log.partition("Current thread")[2].partition("\n\n")[0].splitlines()
         ours = next((line for line in stack if "camera_ray_caster" in line or "tests/hostile" in line), "")
-        said = told + "\n".join([*log.splitlines()[:1], *stack[:12]])
-        return {"what": "", "outcome": "opening crashed" if OPENING in ours else "crashed", "said": said}
+        output = errors + "\n".join([*log.splitlines()[:1], *stack[:12]])
+        return {"what": "", "outcome": "opening crashed" if OPENING in ours else "crashed", "said": output}
 
     def close(self):
         """End the process."""

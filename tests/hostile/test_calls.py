@@ -113,24 +113,24 @@ def name_of(function):
 
 def check(bpy, count):
     """Call, and see that each call gave what it is for or refused in one line; and that some did either."""
-    told = Counter()
+    counts = Counter()
     for number, (function, arguments) in enumerate(calls(bpy, count)):
         what = f"call {number} of {name_of(function)}"
         try:
             function(**arguments)
         except Cancelled:  # progress has returned what is not true
-            told["done"] += 1
+            counts["done"] += 1
         except (crc.InputError, TypeError) as error:
-            told["refused"] += 1
-            said = str(error)
-            assert said, what
-            assert "\n" not in said, what
-            assert len(said) <= LONGEST, what
+            counts["refused"] += 1
+            message = str(error)
+            assert message, what
+            assert "\n" not in message, what
+            assert len(message) <= LONGEST, what
         except Exception as error:
             raise AssertionError(what) from error
         else:
-            told["done"] += 1
-    assert min(told["refused"], told["done"]) > count / 50
+            counts["done"] += 1
+    assert min(counts["refused"], counts["done"]) > count / 50
 
 
 def test_a_few_calls_end_well_or_in_one_line(blender):

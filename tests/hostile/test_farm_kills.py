@@ -38,23 +38,23 @@ def reference(registered, tmp_path_factory):
 
 def finished(out):
     """Of each file of a frame whose files are all there what changes where it is written."""
-    found = {}
+    files = {}
     for report in out.glob("*_0*.json"):
         names = report.name, *json.loads(report.read_text())["made"]["files"]
         with suppress(FileNotFoundError):  # a worker that is alive moves them, one by one
             states = [(out / name).stat() for name in names]
-            found |= {name: (one.st_ino, one.st_mtime_ns) for name, one in zip(names, states, strict=True)}
-    return found
+            files |= {name: (state.st_ino, state.st_mtime_ns) for name, state in zip(names, states, strict=True)}
+    return files
 
 
 def workers(run):
     """The processes that a run has started and that are alive."""
-    found = []
+    children = []
     for child in psutil.Process(run.pid).children(recursive=True):
         with suppress(psutil.NoSuchProcess):  # it has just ended, or is not waited for yet
             if any("spawn_main" in word for word in child.cmdline()):
-                found.append(child)
-    return found
+                children.append(child)
+    return children
 
 
 def kill(reference, out, name, random):
@@ -73,19 +73,19 @@ def kill(reference, out, name, random):
         if victim is run:
             psutil.wait_procs(started, 30)  # they notice
         before = finished(out)
-    said = run.communicate(timeout=300)[1]
-    assert "Traceback" not in said, said
+    errors = run.communicate(timeout=300)[1]
+    assert "Traceback" not in errors, errors
     if name == "worker":
-        assert (run.returncode, complaints(said)) == (0, [])
+        assert (run.returncode, complaints(errors)) == (0, [])
     done = script("dataset", scene, *WORDS, "--output", out)
     assert (done.returncode, complaints(done.stderr)) == (0, [])
     after = finished(out)
     assert before == {file: after[file] for file in before}
     assert left(out) == left(whole)
     for path in whole.glob("*.npz"):
-        with np.load(path) as expected, np.load(out / path.name) as found:
-            assert found.keys() == expected.keys()
-            assert all((found[key] == expected[key]).all() for key in expected)
+        with np.load(path) as expected, np.load(out / path.name) as file:
+            assert file.keys() == expected.keys()
+            assert all((file[key] == expected[key]).all() for key in expected)
 
 
 @pytest.mark.parametrize("name", ["worker", "run"])
@@ -103,9 +103,9 @@ def test_many_moments(reference, tmp_path, name, moment):
 
 def port():
     """A port that nobody uses."""
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
+    with socket.socket() as server:
+        server.bind(("127.0.0.1", 0))
+        return server.getsockname()[1]
 
 
 @pytest.fixture
@@ -138,17 +138,17 @@ def test_a_scheduler_that_begins_anew_goes_on(reference, tmp_path, dask):
         scheduler = dask("dask_scheduler", "--host", "127.0.0.1", "--port", number)
         return scheduler, [dask("dask_worker", address, "--nthreads", "1", "--no-nanny") for _ in range(2)]
 
-    scheduler, own = begin()
+    scheduler, workers_begun = begin()
     time.sleep(4)
     run = start(ROOT / "scripts" / "dataset.py", scene, *WORDS, "--scheduler", address, "--output", out)
     while run.poll() is None and len(list(out.glob("*_0*.json"))) < 8:
         time.sleep(0.01)
     assert run.poll() is None
-    for process in (scheduler, *own):
+    for process in (scheduler, *workers_begun):
         process.kill()
         process.wait(30)
     begin()
-    said = run.communicate(timeout=150)
-    assert (run.returncode, complaints(said[1])) == (0, [])
+    outputs = run.communicate(timeout=150)
+    assert (run.returncode, complaints(outputs[1])) == (0, [])
     assert left(out) == left(whole)
     assert len(finished(out)) == len(finished(whole))

@@ -66,20 +66,27 @@ def try_sizes(registered, tmp_path_factory):
     return try_sizes
 
 
-def check(found):
+def check(outcomes):
     """Each is one of the two outcomes, and both are there."""
-    for one in found:
-        assert one["names"] == ["report.json", "scene.exr", "scene.png"], one
-        if one["status"] == 0:
-            assert (one["same"], one["whole"], one["report"], one["said"]) == ([], True, NEW * NEW, ""), one
-            assert one["exr"] == pytest.approx(max(one["exr"] for one in found), rel=0.01)  # it notes the time, too
+    for outcome in outcomes:
+        assert outcome["names"] == ["report.json", "scene.exr", "scene.png"], outcome
+        if outcome["status"] == 0:
+            assert (outcome["same"], outcome["whole"], outcome["report"], outcome["said"]) == (
+                [],
+                True,
+                NEW * NEW,
+                "",
+            ), outcome
+            assert outcome["exr"] == pytest.approx(
+                max(outcome["exr"] for outcome in outcomes), rel=0.01
+            )  # it notes the time, too
         else:
-            assert one["status"] == 2, one
-            assert one["same"] == one["names"], one
-            (line,) = one["said"].splitlines()
-            assert "cannot write into" in line, one
-            assert "No space left on device" in line, one
-    assert {one["status"] for one in found} == {0, 2}
+            assert outcome["status"] == 2, outcome
+            assert outcome["same"] == outcome["names"], outcome
+            (line,) = outcome["said"].splitlines()
+            assert "cannot write into" in line, outcome
+            assert "No space left on device" in line, outcome
+    assert {outcome["status"] for outcome in outcomes} == {0, 2}
 
 
 def test_a_few_sizes(try_sizes):
@@ -95,9 +102,9 @@ def test_every_command_says_in_one_line_that_the_disk_is_full(registered, tmp_pa
     plain, compressed = small(registered, tmp_path / "small.blend"), tmp_path / "compressed.blend"
     registered.ops.wm.save_as_mainfile(filepath=str(compressed), copy=True, compress=True)
     (tmp_path / "disk").mkdir()
-    for one in inside(tmp_path / "disk", plain, compressed, "COMMANDS"):
-        assert one["status"] == 2, one
-        (line,) = one["said"].splitlines()
-        assert line.startswith(f"{one['command']}.py: cannot write"), one
-        assert ": No space left on device; choose another " in line, one
-        assert one["left"] in ([], ["dataset.json"]), one
+    for outcome in inside(tmp_path / "disk", plain, compressed, "COMMANDS"):
+        assert outcome["status"] == 2, outcome
+        (line,) = outcome["said"].splitlines()
+        assert line.startswith(f"{outcome['command']}.py: cannot write"), outcome
+        assert ": No space left on device; choose another " in line, outcome
+        assert outcome["left"] in ([], ["dataset.json"]), outcome

@@ -18,10 +18,10 @@ def broken(pool, kind, numbers):
     allowed = ["cast", "refused"]
     if kind == "blend_bytes":
         allowed.append("opening crashed")  # in Blender's own code, before there is any scene
-    found = {number: pool.tried(kind, number) for number in numbers}
+    outcomes = {number: pool.tried(kind, number) for number in numbers}
     return "\n\n".join(
         f"{kind} {number} {it['outcome']}: {it['what']}\n{it['said']}"
-        for number, it in found.items()
+        for number, it in outcomes.items()
         if it["outcome"] not in allowed
     )
 
@@ -33,11 +33,11 @@ def test_there_are_a_thousand():
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_few_inputs_of_each_kind(pool, kind):
     step = KINDS[kind].COUNT // FEW
-    assert not (found := broken(pool, kind, range(step // 2, KINDS[kind].COUNT, step))), found
+    assert not (faults := broken(pool, kind, range(step // 2, KINDS[kind].COUNT, step))), faults
 
 
 @pytest.mark.hostile
 @pytest.mark.parametrize(("kind", "first"), PARTS)
 def test_all_inputs(pool, kind, first):
     numbers = range(first, min(first + PART, KINDS[kind].COUNT))
-    assert not (found := broken(pool, kind, numbers)), found
+    assert not (faults := broken(pool, kind, numbers)), faults

@@ -28,17 +28,17 @@ FEW = 1
 
 def ended(run, name, was_killed):
     """How a run ended: it was killed, or stopped, or done, or ended before or after Python hears; never in words."""
-    said = run.communicate(timeout=300)[1]
-    assert "Traceback" not in said, said
+    errors = run.communicate(timeout=300)[1]
+    assert "Traceback" not in errors, errors
     allowed = {0, 130, -getattr(signal, name)} if was_killed else {0}
-    assert run.returncode in allowed, (run.returncode, said)
+    assert run.returncode in allowed, (run.returncode, errors)
     return run.returncode
 
 
 def check_set(folder, ends):
     """All files are whole and of one set; what else is there only a SIGKILL leaves, and the next run removes."""
-    found = {path.name for path in folder.iterdir()}
-    left = found - set(FILES)
+    names = {path.name for path in folder.iterdir()}
+    left = names - set(FILES)
     assert not left or -signal.SIGKILL in ends, left
     assert all(name.startswith(".writing_") for name in left)
     write_next(folder)

@@ -47,8 +47,8 @@ def check(whole, out):
     assert left(out) == left(whole)
     for path in whole.iterdir():
         if path.suffix == ".npz":
-            with np.load(path) as expected, np.load(out / path.name) as found:
-                assert all((found[key] == expected[key]).all() for key in expected)
+            with np.load(path) as expected, np.load(out / path.name) as file:
+                assert all((file[key] == expected[key]).all() for key in expected)
         elif path.name in ("dataset.json", "annotations.json", "reader.py"):
             assert (out / path.name).read_bytes() == path.read_bytes()
 

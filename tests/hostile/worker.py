@@ -53,8 +53,8 @@ def run(command, words, folder):
             status = command(words)
         except SystemExit as ended:
             status = ended.code
-    said = [line for line in errors.getvalue().splitlines(keepends=True) if not any(words in line for words in RIGHT)]
-    return status, out.getvalue(), "".join(said)
+    lines = [line for line in errors.getvalue().splitlines(keepends=True) if not any(words in line for words in RIGHT)]
+    return status, out.getvalue(), "".join(lines)
 
 
 def of_add_on(name):
@@ -145,8 +145,8 @@ def tried(kind, number) -> dict:
     """Return what came of an input."""
     import bpy
 
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as place:
-        made, folder = Path(place) / "made", Path(place) / "run"
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as directory:
+        made, folder = Path(directory) / "made", Path(directory) / "run"
         made.mkdir()
         folder.mkdir()
         small_scene()

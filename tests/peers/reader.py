@@ -36,16 +36,16 @@ def ply(path):
     from plyfile import PlyData
 
     vertex = PlyData.read(path)["vertex"]
-    return {one.name: np.array(vertex[one.name]) for one in vertex.properties}
+    return {column.name: np.array(vertex[column.name]) for column in vertex.properties}
 
 
 def open3d(path):
     """The attributes of the points."""
     import open3d as o3d
 
-    found = {name: values.numpy() for name, values in o3d.t.io.read_point_cloud(path).point.items()}
-    places, normals = (found.pop(name) for name in ("positions", "normals"))
-    columns = {name: values[:, 0] for name, values in found.items()}
+    columns_of = {name: values.numpy() for name, values in o3d.t.io.read_point_cloud(path).point.items()}
+    places, normals = (columns_of.pop(name) for name in ("positions", "normals"))
+    columns = {name: values[:, 0] for name, values in columns_of.items()}
     return columns | {name: places[:, k] for k, name in enumerate("xyz")} | {"normals": normals}
 
 
@@ -62,8 +62,8 @@ def las(path):
     import laspy
 
     cloud = laspy.read(path)
-    found = {name: np.array(cloud[name]) for name in cloud.point_format.dimension_names}
-    return found | {"x": np.array(cloud.x), "y": np.array(cloud.y), "z": np.array(cloud.z)}
+    columns = {name: np.array(cloud[name]) for name in cloud.point_format.dimension_names}
+    return columns | {"x": np.array(cloud.x), "y": np.array(cloud.y), "z": np.array(cloud.z)}
 
 
 def colmap(path):
@@ -74,13 +74,13 @@ def colmap(path):
     images = list(model.images.values())
     apart = []
     for image in images:
-        seen = [one for one in image.points2D if one.has_point3D()]
-        places = image.cam_from_world() * np.array([model.points3D[one.point3D_id].xyz for one in seen])
+        seen = [point for point in image.points2D if point.has_point3D()]
+        places = image.cam_from_world() * np.array([model.points3D[point.point3D_id].xyz for point in seen])
         pixels = image.camera.img_from_cam(places)
-        own = np.array([one.xy for one in seen])
-        off = np.abs(pixels - own)
+        expected = np.array([point.xy for point in seen])
+        off = np.abs(pixels - expected)
         if image.camera.model.name == "EQUIRECTANGULAR":  # the columns meet at the poles
-            off[:, 0] *= np.sin(np.pi * own[:, 1] / image.camera.height)
+            off[:, 0] *= np.sin(np.pi * expected[:, 1] / image.camera.height)
         apart.append(off.max())
     return {
         "name": [image.name for image in images], "lens": [image.camera.model.name for image in images],
@@ -92,13 +92,13 @@ def coco(path):
     """Of each image, by its name: the shape that each pixel shows, by its mask; -1 for none."""
     from pycocotools.coco import COCO
 
-    known, found = COCO(path), {}
+    known, shown = COCO(path), {}
     for image in known.loadImgs(known.getImgIds()):
         shapes = np.full((image["height"], image["width"]), -1)
-        for one in known.loadAnns(known.getAnnIds(image["id"])):
-            shapes[known.annToMask(one) == 1] = one["shape_index"]
-        found[image["file_name"]] = shapes
-    return found
+        for annotation in known.loadAnns(known.getAnnIds(image["id"])):
+            shapes[known.annToMask(annotation) == 1] = annotation["shape_index"]
+        shown[image["file_name"]] = shapes
+    return shown
 
 
 def fisheyes(path):
@@ -107,8 +107,8 @@ def fisheyes(path):
     """
     import cv2
 
-    with np.load(path) as given:
-        depths, K, D, turns, shifts, other_K, other_D = (given[name] for name in given)
+    with np.load(path) as file:
+        depths, K, D, turns, shifts, other_K, other_D = (file[name] for name in file)
     rows, columns = np.indices(depths[0].shape)
     pixels = np.stack((columns, rows), axis=-1).reshape(-1, 1, 2).astype(float)
     until = cv2.TERM_CRITERIA_COUNT + cv2.TERM_CRITERIA_EPS, 100, 1e-15
@@ -118,7 +118,7 @@ def fisheyes(path):
     still = np.zeros(3)
     points = [rays * depth.reshape(-1, 1) @ turn.T + shift
               for depth, turn, shift in zip(depths, turns, shifts, strict=True)]  # fmt: skip
-    seen = [cv2.fisheye.projectPoints(one[:, None], still, still, other_K, other_D)[0][:, 0] for one in points]
+    seen = [cv2.fisheye.projectPoints(view[:, None], still, still, other_K, other_D)[0][:, 0] for view in points]
     return {"points": points, "pixels": seen}
 
 
@@ -131,9 +131,9 @@ def optiland(path):
     def through(rows, origin, direction):
         lens = Optic()
         lens.surfaces.add(index=0, z=rows[0, 0] - 1.0, material=IdealMaterial(rows[0, 3]))
-        for place, (z, curvature, rim, _, behind) in enumerate(rows, 1):
+        for number, (z, curvature, rim, _, behind) in enumerate(rows, 1):
             radius, rim = 1 / curvature if curvature else np.inf, 2 * rim if rim < np.inf else None
-            lens.surfaces.add(index=place, z=z, radius=radius, aperture=rim, material=IdealMaterial(behind))
+            lens.surfaces.add(index=number, z=z, radius=radius, aperture=rim, material=IdealMaterial(behind))
         light, length = np.ones(len(origin)), np.full(len(origin), 0.5875618)
         rays = lens.surfaces.trace(RealRays(*origin.T, *direction.T, light, length), skip=1)
         ends = np.stack((rays.x, rays.y, rays.z, rays.L, rays.M, rays.N), axis=1)
@@ -173,9 +173,9 @@ def traced(path, through):
     """Points and directions of rays behind the last surface, (n, 6), NaN where they do not pass, of each bundle of an
     NPZ file: NAME_rows (z, curvature, rim, index before and behind), NAME_origin and NAME_direction, (n, 3).
     """
-    with np.load(path) as given:
-        names = [name.removesuffix("_rows") for name in given if name.endswith("_rows")]
-        return {name: through(*(given[f"{name}_{part}"] for part in ("rows", "origin", "direction"))) for name in names}
+    with np.load(path) as file:
+        names = [name.removesuffix("_rows") for name in file if name.endswith("_rows")]
+        return {name: through(*(file[f"{name}_{end}"] for end in ("rows", "origin", "direction"))) for name in names}
 
 
 if __name__ == "__main__":

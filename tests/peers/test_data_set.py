@@ -57,10 +57,10 @@ def tum():
 
 def bodies():
     """The body's matrix in each frame, by the formula of quaternions."""
-    for place, turn in zip(PLACES, TURNS, strict=True):
+    for location, turn in zip(PLACES, TURNS, strict=True):
         x, y, z, w = turn / np.linalg.norm(turn)
         matrix = np.eye(4)
-        matrix[:3, 3] = place
+        matrix[:3, 3] = location
         matrix[:3, :3] = (
             (1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)),
             (2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)),
@@ -73,7 +73,7 @@ def length(vectors):
     return np.linalg.norm(vectors, axis=-1)
 
 
-def consistent(there, points, own, pixels, eye):
+def consistent(there, points, passes, pixels, eye):
     """Which points another view shows, of those that it cannot but show.
 
     These lie between four pixels of their own shape, and face the eye. Two points of a surface, one with the normal n,
@@ -82,18 +82,18 @@ def consistent(there, points, own, pixels, eye):
     """
     height, width = there["shape_index"].shape
     column, row = np.floor(pixels).astype(int).T  # pixels have their centers at whole numbers, row 0 is at the top
-    facing = ((eye - points) * own["normal"]).sum(axis=-1) > 0
+    facing = ((eye - points) * passes["normal"]).sum(axis=-1) > 0
     inside = (column >= 0) & (column < width - 1) & (row >= 0) & (row < height - 1) & facing
     shown, right = inside.copy(), np.ones_like(inside)
     column, row = np.where(inside, column, 0), np.where(inside, row, 0)
     for k in range(4):
-        one = {name: values[row + k // 2, column + k % 2] for name, values in there.items()}
-        shown &= one["shape_index"] == own["shape_index"]
-        way = points - one["position"]
-        rounding = own["position_bound"] + one["position_bound"] + BLENDER * (1 + length(points - eye))
-        rounding += (own["normal_bound"] + one["normal_bound"] + BLENDER) * length(way)
-        bend = length(own["normal"] - one["normal"]) * length(way)
-        right &= np.abs((way * one["normal"]).sum(axis=-1)) <= bend + rounding
+        beside = {name: values[row + k // 2, column + k % 2] for name, values in there.items()}
+        shown &= beside["shape_index"] == passes["shape_index"]
+        way = points - beside["position"]
+        rounding = passes["position_bound"] + beside["position_bound"] + BLENDER * (1 + length(points - eye))
+        rounding += (passes["normal_bound"] + beside["normal_bound"] + BLENDER) * length(way)
+        bend = length(passes["normal"] - beside["normal"]) * length(way)
+        right &= np.abs((way * beside["normal"]).sum(axis=-1)) <= bend + rounding
     return right[shown]
 
 
@@ -125,8 +125,8 @@ def test_a_rig_from_files_is_a_data_set_that_others_read(read, tmp_path):
     flipped = np.diag((1.0, -1, -1, 1))
     mounted = {"cam0": np.eye(4), "cam1": np.linalg.inv(BESIDE), front: IN_BODY, "pano": PANORAMA @ flipped}
     for frame, body in enumerate(bodies(), 1):
-        for name, place in mounted.items():
-            expected = np.linalg.inv(body @ place)[:3]
+        for name, pose in mounted.items():
+            expected = np.linalg.inv(body @ pose)[:3]
             assert np.abs(poses[f"{name}_{frame:04}"] - expected).max() < 10 * BLENDER  # from the origin
 
     masks = read("coco", folder / "annotations.json")
@@ -150,16 +150,16 @@ def check_fisheyes(read, path, pairs):
     (K, D), (other_K, other_D) = ((((fx, 0, cx), (0, fy, cy), (0, 0, 1)), D) for (fx, fy, cx, cy), D in LENSES)
     turns = [other[:, :3] @ pose[:, :3].T for _, (pose, other) in pairs]
     shifts = [other[:, 3] - turn @ pose[:, 3] for turn, (_, (pose, other)) in zip(turns, pairs, strict=True)]
-    depths = np.array([own["depth"] for (own, _), _ in pairs])
+    depths = np.array([view["depth"] for (view, _), _ in pairs])
     hits = np.isfinite(depths)
     shares = []
     for scale in (1.0, 1.0001):
         np.savez(path, depth=np.where(hits, depths, 1) * scale, K=K, D=D, turn=turns, shift=shifts, other_K=other_K,
                  other_D=other_D)  # fmt: skip
-        found = read("fisheyes", path)
-        for k, ((own, there), (_, other)) in enumerate(pairs):
-            of_pixels = {name: values[hits[k]] for name, values in own.items()}
-            seen = {name: values[k][hits[k].ravel()] for name, values in found.items()}
+        read_back = read("fisheyes", path)
+        for k, ((view, there), (_, other)) in enumerate(pairs):
+            of_pixels = {name: values[hits[k]] for name, values in view.items()}
+            seen = {name: values[k][hits[k].ravel()] for name, values in read_back.items()}
             points = (seen["points"] - other[:, 3]) @ other[:, :3]
             if scale == 1:
                 bound = of_pixels["position_bound"] + of_pixels["distance_bound"]

@@ -22,8 +22,8 @@ MIRROR = np.array([1.0, 1.0, -1.0])
 def cameras():
     """Cameras with some pixels and points of the aperture, within the disc and beyond it."""
     rng, made = np.random.default_rng(0), {}
-    for place, (name, distance) in enumerate((name, distance) for name in LENSES for distance in DISTANCES):
-        stop = {"use_dof": True, "aperture_fstop": (1.0, 5.6)[place % 2]}
+    for number, (name, distance) in enumerate((name, distance) for name in LENSES for distance in DISTANCES):
+        stop = {"use_dof": True, "aperture_fstop": (1.0, 5.6)[number % 2]}
         camera = crc.camera("REAL_LENS", (1920, 1280), lens_file=name, focus_distance=distance, **stop)
         x, y, points = rng.uniform(0, 1920, COUNT), rng.uniform(0, 1280, COUNT), rng.uniform(-1, 1, (2, COUNT))
         made[f"{name} at {distance}"] = camera, x, y, points
@@ -40,8 +40,8 @@ def test_rays_of_the_aperture_pass_as_in_programs_of_optical_design(read, tmp_pa
         a, b = model.window.plane_from_pixels(x, y)
         crossing, film = model.chief.crossing(a * a + b * b), np.full(COUNT, float(model.film))
         start = np.stack((-a, -b, film), axis=1)
-        place = pupil.disc * points - crossing * np.stack((a, b))
-        ahead = np.stack((*place, np.full(COUNT, pupil.plane)), axis=1) - start
+        crossed = pupil.disc * points - crossing * np.stack((a, b))
+        ahead = np.stack((*crossed, np.full(COUNT, pupil.plane)), axis=1) - start
         ahead *= np.sign(-ahead[:, 2:]) / np.linalg.norm(ahead, axis=1)[:, None]
         bundles |= bundle(name, surfaces[::-1], False, start, ahead)
     theirs = followed(read, tmp_path, kind, bundles)
@@ -100,7 +100,7 @@ def followed(read, folder, kind, bundles):
 
 def compare(model, ours, theirs, passes, most):
     """Whether origins, in mm of the lens, and directions of rays that pass are the same."""
-    origin, direction = (np.stack(np.broadcast_arrays(*part), axis=1)[passes] for part in ours)
+    origin, direction = (np.stack(np.broadcast_arrays(*vectors), axis=1)[passes] for vectors in ours)
     origin = origin / model.unit + [0.0, 0.0, model.pupil]
     assert np.abs(origin - theirs[passes, :3]).max() < most[0]
     assert np.abs(direction - theirs[passes, 3:]).max() < most[1]

@@ -40,13 +40,13 @@ def unit(kind):
 def test_rays_and_origins_are_those_of_ousters_library(read, tmp_path, kind):
     path = tmp_path / "unit.json"
     path.write_text(json.dumps(unit(kind)))
-    found, cam = read("ouster", path), crc.load_calibration(path)
+    decoded, cam = read("ouster", path), crc.load_calibration(path)
     rays = cam.rays()
-    direction = (found["far"] - found["near"]) / 10
-    origin = found["near"] - (10 - found["behind"]) * direction
-    for own, expected in ((rays.directions, direction), (rays.origins, origin)):
+    direction = (decoded["far"] - decoded["near"]) / 10
+    origin = decoded["near"] - (10 - decoded["behind"]) * direction
+    for vectors, expected in ((rays.directions, direction), (rays.origins, origin)):
         x, y, z = np.moveaxis(expected[::-1], -1, 0)  # row 0 is at the top there; ahead, left, up
-        assert np.abs(own - np.stack((-y, z, -x), axis=-1)).max() < 1e-9
+        assert np.abs(vectors - np.stack((-y, z, -x), axis=-1)).max() < 1e-9
 
 
 def packets(columns, distance, azimuth_step):
@@ -64,21 +64,21 @@ def test_shots_are_those_of_the_decoder_of_velodynes_packets(read, tmp_path):
     """At 10.05 revolutions a second firings are 0.2 degrees apart, which packets can tell."""
     rate, columns, distance = 0.2 / 360 / 55.296e-6, 1800, 60.0
     (tmp_path / "packets.bin").write_bytes(packets(columns, distance, 0.2))
-    found = read("velodyne", tmp_path / "packets.bin")
+    decoded = read("velodyne", tmp_path / "packets.bin")
     cam = crc.camera("SCANNER", (columns, 16), scanner_device="VLP_16", scanner_rate=rate,
                      time_mode="SWEEP", fps=1_000_000, frame=0.0)  # fmt: skip
     assert cam.model.columns == columns
     rays = cam.rays()
     points = rays.origins + distance * rays.directions
-    row, column = found["ring"].astype(int), found["column"].astype(int)
+    row, column = decoded["ring"].astype(int), decoded["column"].astype(int)
     assert len(row) == 16 * columns
-    own = points[row, column]
-    x, y, z = -own[:, 2], -own[:, 0], own[:, 1]
-    apart = np.degrees(np.angle(np.exp(1j * (np.arctan2(y, x) - np.arctan2(found["y"], found["x"])))))
+    fired = points[row, column]
+    x, y, z = -fired[:, 2], -fired[:, 0], fired[:, 1]
+    apart = np.degrees(np.angle(np.exp(1j * (np.arctan2(y, x) - np.arctan2(decoded["y"], decoded["x"])))))
     assert np.abs(apart).max() < 0.0051  # it rounds azimuths to hundredths of a degree
-    assert np.abs(np.hypot(x, y) - np.hypot(found["x"], found["y"])).max() < 2e-5  # float32
-    assert np.abs(z - found["z"]).max() < 5e-5  # the manual's offsets have a tenth of a millimeter
-    times = found["time"] - found["time"].min()
+    assert np.abs(np.hypot(x, y) - np.hypot(decoded["x"], decoded["y"])).max() < 2e-5  # float32
+    assert np.abs(z - decoded["z"]).max() < 5e-5  # the manual's offsets have a tenth of a millimeter
+    times = decoded["time"] - decoded["time"].min()
     assert np.abs(times - 1e-6 * rays.time[row, column]).max() < 1e-6  # packets tell microseconds
 
 
@@ -94,30 +94,30 @@ COLUMNS = "range", "true_range", "time", "ring", "column", "instance", "category
 )  # fmt: skip
 def test_other_programs_read_the_fields_of_points(read, tmp_path, key, kind, axes, digits):
     (path,) = crc.save_points(CLOUD, tmp_path / "points", key, axes=axes).paths
-    found = read(kind, path)
-    seen = np.isfinite(found["x"])
+    fields = read(kind, path)
+    seen = np.isfinite(fields["x"])
     order: object = slice(None)
     if key == "pcd":  # by rows from the top
         assert len(seen) == CLOUD.size[0] * CLOUD.size[1]
-        order = np.argsort(found["column"][seen] * 100 + found["ring"][seen], kind="stable")
+        order = np.argsort(fields["column"][seen] * 100 + fields["ring"][seen], kind="stable")
     points = CLOUD.sensor if axes == "sensor" else CLOUD.world
     for k, name in enumerate("xyz"):
-        np.testing.assert_array_equal(found[name][seen][order], points[:, k].astype(digits))
+        np.testing.assert_array_equal(fields[name][seen][order], points[:, k].astype(digits))
     for name in COLUMNS:
-        stored = found[name].dtype
-        np.testing.assert_array_equal(found[name][seen][order], getattr(CLOUD, name).astype(stored), err_msg=name)
+        stored = fields[name].dtype
+        np.testing.assert_array_equal(fields[name][seen][order], getattr(CLOUD, name).astype(stored), err_msg=name)
     if kind == "open3d":
         normals = CLOUD.sensor_normal if axes == "sensor" else CLOUD.normal
-        np.testing.assert_array_equal(found["normals"], normals.astype("f4"))
+        np.testing.assert_array_equal(fields["normals"], normals.astype("f4"))
 
 
 def test_laspy_reads_the_points_and_their_extra_dimensions(read, tmp_path):
     (path,) = crc.save_points(CLOUD, tmp_path / "points", "las", axes="world").paths
-    found = read("las", path)
+    fields = read("las", path)
     for k, name in enumerate("xyz"):
-        assert np.abs(found[name] - CLOUD.world[:, k]).max() < 0.5001e-4
-    np.testing.assert_array_equal(found["classification"], CLOUD.category)
-    np.testing.assert_array_equal(found["gps_time"], CLOUD.time)
-    np.testing.assert_array_equal(found["true range"], CLOUD.true_range.astype("f4"))
+        assert np.abs(fields[name] - CLOUD.world[:, k]).max() < 0.5001e-4
+    np.testing.assert_array_equal(fields["classification"], CLOUD.category)
+    np.testing.assert_array_equal(fields["gps_time"], CLOUD.time)
+    np.testing.assert_array_equal(fields["true range"], CLOUD.true_range.astype("f4"))
     for name in ("ring", "column", "instance"):
-        np.testing.assert_array_equal(found[name], getattr(CLOUD, name))
+        np.testing.assert_array_equal(fields[name], getattr(CLOUD, name))

@@ -40,14 +40,14 @@ def small(scene):
 
 def unambiguous(scene):
     """Return where rays a little aside meet the same face, (h, w) bool: found without Cycles."""
-    data, found = scene.camera.data, []
+    data, indices = scene.camera.data, []
     x, y = data.shift_x, data.shift_y
     for dx, dy in ((0, 0), (OFF, OFF), (OFF, -OFF), (-OFF, OFF), (-OFF, -OFF)):
         data.shift_x, data.shift_y = x + dx / 160, y + dy / 160
         images = cast(read_camera(scene), read_shapes(scene), passes=("shape_index", "face_index"))
-        found.append(np.stack((images["shape_index"], images["face_index"])))
+        indices.append(np.stack((images["shape_index"], images["face_index"])))
     data.shift_x, data.shift_y = x, y
-    return (np.array(found) == found[0]).all(axis=(0, 1))
+    return (np.array(indices) == indices[0]).all(axis=(0, 1))
 
 
 @pytest.mark.cases(1)

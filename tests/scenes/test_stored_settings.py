@@ -137,9 +137,9 @@ def is_registered(request, unregister):
 @pytest.mark.parametrize("name", sorted(path.stem for path in FOLDER.glob("*.blend")))
 def test_a_file_opens_with_its_settings(blender, name):
     model, expected = STORED.get(name, ("PERSP", {}))
-    found = record(blender, name)
-    settings = {**found.camera.record.settings, **found.camera.settings}
-    key = found.camera.model.key
+    opened = record(blender, name)
+    settings = {**opened.camera.record.settings, **opened.camera.settings}
+    key = opened.camera.model.key
     assert key == model, f"{name}.blend has {key}: STORED of test_stored_settings.py says {model}"
     assert (settings["time_mode"] != "NONE") == ("time_mode" in expected)
     for setting, value in expected.items():
@@ -158,8 +158,8 @@ def record(bpy, name):
 
 
 def test_objects_are_cast_as_they_were_told(blender, is_registered):
-    found = record(blender, "cast_as")
-    shapes = found.shapes
+    opened = record(blender, "cast_as")
+    shapes = opened.shapes
     kinds = {shapes.names[k]: int(kind) for k, kind in zip(shapes.name_index, shapes.kind, strict=True)}
     assert kinds == {"Floor": 2, "Cube": 0, "Monkey": 1}
     assert dict(shapes.left_out) == {"Nothing": "its Cast As setting is Ignore"}
@@ -170,7 +170,7 @@ def test_objects_are_cast_as_they_were_told(blender, is_registered):
 
 def test_the_settings_of_the_scene_are_as_they_were_saved(blender, is_registered):
     if is_registered:
-        own = opened(blender, "thin_lens").camera_ray_caster
-        assert (own.shading, own.samples) == ("GRID", 64)
-        own = opened(blender, "spheres_and_planes").camera_ray_caster
-        assert (own.shading, own.samples) == ("MATERIAL", 1)
+        settings = opened(blender, "thin_lens").camera_ray_caster
+        assert (settings.shading, settings.samples) == ("GRID", 64)
+        settings = opened(blender, "spheres_and_planes").camera_ray_caster
+        assert (settings.shading, settings.samples) == ("MATERIAL", 1)

@@ -65,9 +65,9 @@ def nodes(bpy):
     steps[1].pair_with_output(steps[3])
     steps[2].inputs["Translation"].default_value = 0.03, 0, 0.07
     steps[2].inputs["Rotation"].default_value = 0.02, 0.01, 0.03
-    for one, other in pairwise(steps):
-        given = next(socket for socket in one.outputs if socket.type == "GEOMETRY")
-        tree.links.new(given, next(socket for socket in other.inputs if socket.type == "GEOMETRY"))
+    for node, other in pairwise(steps):
+        output = next(socket for socket in node.outputs if socket.type == "GEOMETRY")
+        tree.links.new(output, next(socket for socket in other.inputs if socket.type == "GEOMETRY"))
     _named(bpy, "Body").modifiers.new("Simulation", "NODES").node_group = tree
 
 

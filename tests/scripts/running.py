@@ -20,9 +20,9 @@ def script(name, *arguments, folder=None):
 def start(*words, action=signal.SIG_DFL, **options):
     """Start a Python with the signals as a shell in front of a user hands them over: one in the background may not."""
     hear = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
-    given = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True} | options
+    streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True} | options
     words = [sys.executable, *map(str, words)]
-    return subprocess.Popen(words, preexec_fn=lambda: [signal.signal(number, action) for number in hear], **given)
+    return subprocess.Popen(words, preexec_fn=lambda: [signal.signal(number, action) for number in hear], **streams)
 
 
 def complaints(stderr):

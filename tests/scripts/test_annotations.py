@@ -13,10 +13,10 @@ def scene(registered, tmp_path_factory):
     bpy = registered
     path = small(bpy, tmp_path_factory.mktemp("annotations") / "small.blend")
     sphere = bpy.data.objects["Sphere"]
-    for name, place in (("Top of it", (0, 0, 1.0001)), ("Below", (0, 0, -2))):
+    for name, location in (("Top of it", (0, 0, 1.0001)), ("Below", (0, 0, -2))):
         empty = bpy.data.objects.new(name, None)
         bpy.context.scene.collection.objects.link(empty)
-        empty.location = place
+        empty.location = location
     bpy.data.objects["Top of it"].parent = sphere
     pole = max(sphere.data.vertices, key=lambda vertex: vertex.co.z)
     group = sphere.vertex_groups.new(name="pole")
@@ -64,11 +64,11 @@ def test_a_data_set_has_one_file_of_them_too_whatever_shows_the_picture(command,
 
 
 @pytest.mark.cases(1)
-@pytest.mark.parametrize(("words", "said"), [
+@pytest.mark.parametrize(("words", "message"), [
     (["--keypoints", "Nobody"], "no key point 'Nobody'"),
     (["--keypoints", "Top"], "no key point 'Top'"),
     (["--keypoints", "ALL", "Below"], "ALL already includes all names"),
 ])  # fmt: skip
-def test_bad_names_are_refused_in_one_line(command, scene, tmp_path, words, said):
-    assert said in refused(command("cast", scene, *words, "--output", tmp_path / "out"))
+def test_bad_names_are_refused_in_one_line(command, scene, tmp_path, words, message):
+    assert message in refused(command("cast", scene, *words, "--output", tmp_path / "out"))
     assert not (tmp_path / "out").exists()

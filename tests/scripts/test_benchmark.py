@@ -96,12 +96,12 @@ def test_data_sets_are_timed(registered, monkeypatch, capsys):
 
 @pytest.mark.cases(1)
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [(("--size", "1920"), "size"), (("--rounds", "0"), "from 1 up"), (("--threads", "-2"), "from 1 up"),
      (("--json", "no/such/folder/x.json"), "no folder"), (("--fast",), "--fast")],
 )  # fmt: skip
-def test_bad_input_is_refused_in_one_line(tmp_path, words, said):
-    assert said in refused(script("benchmark", *words, folder=tmp_path))
+def test_bad_input_is_refused_in_one_line(tmp_path, words, message):
+    assert message in refused(script("benchmark", *words, folder=tmp_path))
 
 
 @pytest.mark.full

@@ -49,7 +49,7 @@ def test_models_stand_where_blender_has_their_objects(command, blender, scene, m
     models = made.parent / "bop" / "models"
     assert left(models) == ["models_info.json", *(f"obj_00000{k}.ply" for k in (1, 2, 3))]
     info = json.loads((models / "models_info.json").read_text())
-    numbers = {one["name"]: int(key) for key, one in info.items()}
+    numbers = {entry["name"]: int(key) for key, entry in info.items()}
     truth = json.loads((made.parent / "bop" / "test" / "000000" / "scene_gt.json").read_text())["2"]
     camera = json.loads((made.parent / "bop" / "test" / "000000" / "scene_camera.json").read_text())["2"]
     to_camera = np.eye(4)
@@ -57,12 +57,17 @@ def test_models_stand_where_blender_has_their_objects(command, blender, scene, m
     for item in (blender.data.objects[name] for name in ("Wedge", "Sphere")):
         number = numbers[item.data.name]
         vertices, triangles, normals = read(models / f"obj_{number:06}.ply")
-        (one,) = (one for one in truth if one["obj_id"] == number)
-        seen = vertices @ np.reshape(one["cam_R_m2c"], (3, 3)).T + one["cam_t_m2c"]
+        (entry,) = (entry for entry in truth if entry["obj_id"] == number)
+        seen = vertices @ np.reshape(entry["cam_R_m2c"], (3, 3)).T + entry["cam_t_m2c"]
         a, b, c = np.moveaxis(vertices[triangles], 1, 0)
         volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6e9
         if item.name == "Wedge":
-            world = np.array([(*(item.matrix_world @ one.co), 1) for one in item.data.vertices]) * (1e3, 1e3, 1e3, 1)
+            world = np.array([(*(item.matrix_world @ vertex.co), 1) for vertex in item.data.vertices]) * (
+                1e3,
+                1e3,
+                1e3,
+                1,
+            )
             assert np.abs(seen - (world @ to_camera.T)[:, :3]).max() < 1e-3  # millimeters: float32
             assert volume == pytest.approx(0.06)
             far = max(np.linalg.norm(p - q) for p in vertices for q in vertices)
@@ -81,10 +86,10 @@ def test_depths_and_masks_are_of_the_models(command, scene, made):
     done = exported(command, made, "--models", scene)
     assert "cast anew, with meshes as meshes" in done.stdout
     folder = made.parent / "bop" / "test" / "000000"
-    truth, camera, facts = (json.loads((folder / f"scene_{one}.json").read_text())["1"]
-                            for one in ("gt", "camera", "gt_info"))  # fmt: skip
+    truth, camera, facts = (json.loads((folder / f"scene_{name}.json").read_text())["1"]
+                            for name in ("gt", "camera", "gt_info"))  # fmt: skip
     models = json.loads((made.parent / "bop" / "models" / "models_info.json").read_text())
-    (k,) = (k for k, one in enumerate(truth) if models[str(one["obj_id"])]["name"] == "Sphere")
+    (k,) = (k for k, entry in enumerate(truth) if models[str(entry["obj_id"])]["name"] == "Sphere")
     depth = cv2.imread(str(folder / "depth" / "000001.png"), cv2.IMREAD_UNCHANGED) * camera["depth_scale"]
     seen = cv2.imread(str(folder / "mask_visib" / f"000001_{k:06}.png"), cv2.IMREAD_UNCHANGED) > 0
     assert seen.sum() == facts[k]["px_count_visib"] > 50
@@ -99,25 +104,25 @@ def test_depths_and_masks_are_of_the_models(command, scene, made):
     assert np.abs(away).max() < camera["depth_scale"]  # millimeters; the exact sphere is up to 9.6 away
     report = json.loads((made / "small_0001.json").read_text() if (made / "small_0001.json").is_file() else
                         (made / "report_0001.json").read_text())  # fmt: skip
-    assert any("the exact shape is up to 0.96% of its radius away from the mesh" in one for one in report["noted"])
+    assert any("the exact shape is up to 0.96% of its radius away from the mesh" in note for note in report["noted"])
 
 
 @pytest.mark.cases(1)
 @pytest.mark.parametrize("case", ["gone", "size", "no file", "format"])
 def test_another_file_than_that_of_the_set_is_refused(command, blender, scene, made, case):
-    words, said = ("--models", scene), "has no shape of 'Wedge': give the file that the set is of"
+    words, message = ("--models", scene), "has no shape of 'Wedge': give the file that the set is of"
     if case == "gone":
         blender.data.objects.remove(blender.data.objects["Wedge"])
     elif case == "size":
         blender.data.objects["Wedge"].scale *= 2
-        said = "'Wedge' is of another size in the file of --models"
+        message = "'Wedge' is of another size in the file of --models"
     elif case == "no file":
-        words, said = ("--models", made / "none.blend"), "none.blend"
+        words, message = ("--models", made / "none.blend"), "none.blend"
     blender.ops.wm.save_as_mainfile(filepath=str(scene))
     if case == "format":
-        said = "--models applies to --format bop-scenes only"
+        message = "--models applies to --format bop-scenes only"
         done = command("export", made, "--format", "masks", *words, "--output", made.parent / "bop")
     else:
         done = exported(command, made, *words)
-    assert said in refused(done)
+    assert message in refused(done)
     assert not (made.parent / "bop").exists()

@@ -136,10 +136,10 @@ def test_each_eye_has_its_files(command, blender, tmp_path):
     assert (done.returncode, done.stderr) == (0, "")
     names = [f"stereo_{eye}.{kind}" for eye in "LR" for kind in ("exr", "png")]
     assert left(tmp_path / "out") == ["report.json", *names]
-    for eye, place in ("L", -0.25), ("R", 0.25):
+    for eye, eye_x in ("L", -0.25), ("R", 0.25):
         (x,) = (image for name, image in read_exr(tmp_path / "out" / f"stereo_{eye}.exr").items()
                 if "Ray Origin" in name and name.endswith("X"))  # fmt: skip
-        assert (x == place).all()
+        assert (x == eye_x).all()
 
 
 def test_the_report_of_a_cast_has_the_bounds_of_the_hits(command, blender, tmp_path):
@@ -147,11 +147,11 @@ def test_the_report_of_a_cast_has_the_bounds_of_the_hits(command, blender, tmp_p
     done = command("cast", scene, "--output", tmp_path / "out")
     assert (done.returncode, done.stderr) == (0, "")
     report = json.loads((tmp_path / "out" / "report.json").read_text())
-    found = report["accuracy"]
-    assert found["sampled_pixels"] == 32 * 24
+    accuracy = report["accuracy"]
+    assert accuracy["sampled_pixels"] == 32 * 24
     depth = read_exr(tmp_path / "out" / "small.exr")["ViewLayer.Depth.Z"]
-    assert found["hits"] == np.count_nonzero(depth < 1e9)
-    distance = found["distance"]
+    assert accuracy["hits"] == np.count_nonzero(depth < 1e9)
+    distance = accuracy["distance"]
     assert distance["unit"] == "world units"
     assert 0 < distance["median_bound"] <= distance["worst_bound"] < 1e-11
     assert report["seconds"]["accuracy"] > 0

@@ -88,13 +88,13 @@ WRONG = {
 
 @pytest.mark.parametrize("case", WRONG)
 def test_bad_words_are_refused(command, scene, tmp_path, case):
-    words, said = WRONG[case]
-    assert said in refused(command("cast", scene, *words, "--output", tmp_path / "out"))
+    words, message = WRONG[case]
+    assert message in refused(command("cast", scene, *words, "--output", tmp_path / "out"))
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.parametrize(("lacks", "said"), [("Cycles", "Cycles is disabled"), ("OSL", "Open Shading Language")])
-def test_a_blender_that_cannot_is_refused(command, scene, tmp_path, monkeypatch, lacks, said):
+@pytest.mark.parametrize(("lacks", "message"), [("Cycles", "Cycles is disabled"), ("OSL", "Open Shading Language")])
+def test_a_blender_that_cannot_is_refused(command, scene, tmp_path, monkeypatch, lacks, message):
     import _cycles
     import addon_utils
 
@@ -105,7 +105,7 @@ def test_a_blender_that_cannot_is_refused(command, scene, tmp_path, monkeypatch,
     try:
         for name, words in ("cast", WORDS), ("to_cycles", ()):
             output = tmp_path / ("out" if name == "cast" else "copy.blend")
-            assert said in refused(command(name, scene, *words, "--output", output))
+            assert message in refused(command(name, scene, *words, "--output", output))
             assert not output.exists()
     finally:
         addon_utils.enable("cycles")

@@ -30,8 +30,8 @@ def origin(path):
 def test_each_camera_and_frame_has_its_files(command, scene, tmp_path):
     done = command("cast", scene, *WORDS, "--format", "npz", "--output", tmp_path / "out")
     assert (done.returncode, done.stderr) == (0, "")
-    said, note = done.stdout.splitlines()
-    assert said == f"Wrote 4 pictures into {tmp_path / 'out'}"
+    summary, note = done.stdout.splitlines()
+    assert summary == f"Wrote 4 pictures into {tmp_path / 'out'}"
     assert note.startswith("'Sphere': the exact shape is up to 0.96% of its radius away from the mesh")
     stems = [f"{camera}_{frame}" for camera in ("Side", "Top") for frame in ("0001", "0003")]
     assert left(tmp_path / "out") == [f"{stem}.{kind}" for stem in stems for kind in ("json", "npz", "png")]
@@ -105,8 +105,8 @@ def test_bounds_hold_for_what_16_bits_store_and_what_they_cannot_hold_is_refused
             off = np.abs(off) if off.ndim == 1 else np.linalg.norm(off, axis=-1)
             assert off.max() > 1e-6
             assert (off <= half[f"{bound}_bound"][met]).all(), name
-    said = json.loads((tmp_path / "half" / "report.json").read_text())["accuracy"]
-    assert said["rounding_when_stored"] == 2.0**-11
+    accuracy = json.loads((tmp_path / "half" / "report.json").read_text())["accuracy"]
+    assert accuracy["rounding_when_stored"] == 2.0**-11
     blender.context.scene.camera.data.clip_end = 1e6
     for item in blender.context.scene.objects:
         item.location *= 1e5
@@ -137,13 +137,13 @@ def test_the_resolution_is_the_whole_picture_s(command, blender, tmp_path):
 
 
 def test_shards_are_together_all_frames_once(command, scene, tmp_path):
-    found = {}
+    frames = {}
     for number in range(1, 4):
         out = tmp_path / f"{number}"
         words = ("--frames", "2:9", "--passes", "depth", "--shard", f"{number}/3", "--output", out)
         assert command("cast", scene, *words).returncode == 0
-        found[number] = [int(path.stem[-4:]) for path in sorted(out.glob("*.png"))]
-    assert found == {1: [2, 5, 8], 2: [3, 6, 9], 3: [4, 7]}
+        frames[number] = [int(path.stem[-4:]) for path in sorted(out.glob("*.png"))]
+    assert frames == {1: [2, 5, 8], 2: [3, 6, 9], 3: [4, 7]}
 
 
 def test_finished_files_are_taken(command, scene, tmp_path):
@@ -155,8 +155,8 @@ def test_finished_files_are_taken(command, scene, tmp_path):
     (out / "Top_0001.json").write_text('{"made": [')
     done = command("cast", scene, *WORDS, "--skip-existing", "--output", out)
     assert (done.returncode, done.stderr) == (0, "")
-    said = done.stdout.splitlines()[0]
-    assert said == f"Wrote 3 of 4 pictures into {out}; the other pictures were already finished"
+    summary = done.stdout.splitlines()[0]
+    assert summary == f"Wrote 3 of 4 pictures into {out}; the other pictures were already finished"
     after = states(out)
     assert after.keys() == before.keys()
     kept = {name for name in after if after[name] == before[name]}
@@ -262,21 +262,21 @@ def test_progress_has_rate_failures_and_the_time_that_is_left(blender, capsys, m
     shown = progress.Progress(5, "it", tmp_path / "log")
     for made, failed in (False, False), (True, False), (True, False), (False, True), (True, False):
         shown.add(made, failed)
-    said = capsys.readouterr().err
+    output = capsys.readouterr().err
     lines = [
         "it: 2 pictures a minute, 0 failed, 2 of 5, 0:01:30 left",
         "it: 2 pictures a minute, 1 failed, 4 of 5, 0:00:20 left",
         "it: 2.4 pictures a minute, 1 failed, 5 of 5, 0:00:00 left",
     ]
     if is_terminal:
-        assert [line.split("| ")[1].removesuffix("\033[K") for line in said.strip().split("\r")] == [
+        assert [line.split("| ")[1].removesuffix("\033[K") for line in output.strip().split("\r")] == [
             "1/5 [0:00:01<?, ? pictures/min, 0 failed]",
             "2/5 [0:00:30<0:01:30, 2 pictures/min, 0 failed]",
             "3/5 [0:00:35<0:00:35, 3.43 pictures/min, 0 failed]",
             "4/5 [0:01:00<0:00:20, 2 pictures/min, 1 failed]",
             "5/5 [0:01:15<0:00:00, 2.4 pictures/min, 1 failed]",
         ]
-        assert said.split("\r")[3].startswith(f" 60%|{'#' * 18:30}|")
+        assert output.split("\r")[3].startswith(f" 60%|{'#' * 18:30}|")
     else:
-        assert said.splitlines() == lines
+        assert output.splitlines() == lines
     assert (tmp_path / "log").read_text().splitlines() == lines

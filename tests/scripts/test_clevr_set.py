@@ -45,7 +45,7 @@ def test_a_set_has_pictures_passes_cameras_and_annotations_and_fits_together(mad
     with np.load(made / "clevr_0001.npz") as passes:
         assert passes["combined"].shape == (48, 64, 4)
         assert set(np.unique(passes["object_index"])) == set(range(6))
-    objects = {one["object"] for one in json.loads((made / "annotations.json").read_text())["annotations"]}
+    objects = {entry["object"] for entry in json.loads((made / "annotations.json").read_text())["annotations"]}
     assert len(objects) == 6
     done = script("check_set", made)
     assert done.returncode == 0, done.stdout + done.stderr
@@ -77,10 +77,10 @@ def test_a_broken_view_is_refused_in_one_line(made, check_set, tmp_path, content
             np.savez(folder / "clevr_0001.npz", distance=file["distance"])
     else:
         (folder / "clevr_0001.npz").write_bytes(content)
-    said = "clevr_0001.npz has no pass shape_index" if content is None else "clevr_0001.npz' cannot be read"
+    message = "clevr_0001.npz has no pass shape_index" if content is None else "clevr_0001.npz' cannot be read"
     done = check_set(folder)
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
-    assert said in done.stderr
+    assert message in done.stderr
 
 
 def test_any_set_is_checked_and_a_camera_that_moved_is_found_out(check_set, tmp_path):

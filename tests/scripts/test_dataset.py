@@ -37,8 +37,8 @@ def test_rays_of_a_camera_that_stands_still_are_written_once(command, scene, out
     stems = [f"{camera}_{of}" for camera in ("Side", "Top") for of in ("0001", "0002", "rays")]
     assert left(out) == [*(f"{stem}.{kind}" for stem in stems for kind in ("json", "npz")), "dataset.json",
                          "preview.png", "reader.py"]  # fmt: skip
-    said = subprocess.run([sys.executable, out / "reader.py"], capture_output=True, text=True, check=True).stdout
-    assert [line.split()[0] for line in said.splitlines()] == stems
+    output = subprocess.run([sys.executable, out / "reader.py"], capture_output=True, text=True, check=True).stdout
+    assert [line.split()[0] for line in output.splitlines()] == stems
     assert [view.name for view in read_set(out)] == [stem for stem in stems if "rays" not in stem]
     has_rays = {stem: "ray_origin" in np.load(out / f"{stem}.npz") for stem in stems}
     assert [stem for stem in stems if has_rays[stem]] == ["Side_rays", "Top_0002", "Top_rays"]
@@ -48,9 +48,9 @@ def test_rays_of_a_camera_that_stands_still_are_written_once(command, scene, out
     command("cast", scene, *WORDS, "--format", "npz", "--output", tmp_path / "cast")
     for stem in stems:
         if "rays" not in stem:
-            found, expected = read(out, stem), dict(np.load(tmp_path / "cast" / f"{stem}.npz"))
-            assert found.keys() == expected.keys()
-            assert all((found[name] == expected[name]).all() for name in expected)
+            passes, expected = read(out, stem), dict(np.load(tmp_path / "cast" / f"{stem}.npz"))
+            assert passes.keys() == expected.keys()
+            assert all((passes[name] == expected[name]).all() for name in expected)
 
 
 def test_a_map_that_has_gone_is_made_again_with_the_frames_that_need_it(command, scene, out):
@@ -76,17 +76,17 @@ def test_cameras_and_frames_are_the_file_s_where_none_are_named(command, blender
 @pytest.mark.parametrize("case", ["passes", "sha256", "a word", "a list"])
 def test_the_folder_of_another_data_set_is_refused(command, blender, scene, out, case):
     command("dataset", scene, *WORDS, "--output", out)
-    words, said = WORDS, "not the file of a data set"
+    words, message = WORDS, "not the file of a data set"
     if case == "passes":
-        words, said = (*WORDS[:-1], "depth"), "a data set that differs in passes:"
+        words, message = (*WORDS[:-1], "depth"), "a data set that differs in passes:"
     elif case == "sha256":
         blender.data.objects["Sphere"].location.x = 0.25
         blender.ops.wm.save_as_mainfile(filepath=str(scene))
-        said = "a data set that differs in sha256:"
+        message = "a data set that differs in sha256:"
     else:
         (out / "dataset.json").write_text({"a word": "word", "a list": "[1]"}[case])
     before = {path.name: path.stat().st_mtime_ns for path in out.iterdir()}
-    assert said in refused(command("dataset", scene, *words, "--output", out))
+    assert message in refused(command("dataset", scene, *words, "--output", out))
     assert {path.name: path.stat().st_mtime_ns for path in out.iterdir()} == before
 
 
@@ -137,11 +137,11 @@ def test_no_space_leaves_whole_frames(command, scene, out, monkeypatch):
 
     save = arrays.save
 
-    def full(path, *given):
+    def full(path, *arguments):
         if path.stem == "Top_0001":
             path.write_bytes(b"cut off")
             raise OSError(errno.ENOSPC, "No space left on device")
-        save(path, *given)
+        save(path, *arguments)
 
     monkeypatch.setattr(arrays, "save", full)
     assert "No space left on device" in refused(command("dataset", scene, *WORDS, "--output", out))
@@ -215,8 +215,8 @@ def test_two_workers_make_what_one_process_makes(scene, out, tmp_path):
     done = script("dataset", scene, *WORDS, "--workers", "2", "--output", out)
     assert (done.returncode, complaints(done.stderr)) == (0, [])
     alone = script("dataset", scene, *WORDS, "--output", tmp_path / "one")
-    said, *notes = done.stdout.splitlines()
-    assert said == f"Wrote 4 pictures into {out}"
+    summary, *notes = done.stdout.splitlines()
+    assert summary == f"Wrote 4 pictures into {out}"
     assert notes == alone.stdout.splitlines()[1:]
     assert left(out) == left(tmp_path / "one")
     for path in out.glob("*.npz"):
@@ -225,14 +225,14 @@ def test_two_workers_make_what_one_process_makes(scene, out, tmp_path):
 
 @pytest.mark.full
 def test_a_cast_by_workers_is_one_by_this_process(scene, tmp_path):
-    one, two = tmp_path / "one", tmp_path / "two"
-    alone = script("cast", scene, *WORDS, "--format", "npz", "--output", one)
+    single, two = tmp_path / "one", tmp_path / "two"
+    alone = script("cast", scene, *WORDS, "--format", "npz", "--output", single)
     done = script("cast", scene, *WORDS, "--format", "npz", "--workers", "2", "--output", two)
     assert (done.returncode, complaints(done.stderr)) == (0, [])
-    assert done.stdout == alone.stdout.replace(str(one), str(two))
-    assert left(one) == left(two)
+    assert done.stdout == alone.stdout.replace(str(single), str(two))
+    assert left(single) == left(two)
     for path in two.glob("*.npz"):
-        assert path.read_bytes() == (one / path.name).read_bytes()
+        assert path.read_bytes() == (single / path.name).read_bytes()
 
 
 @pytest.fixture
@@ -264,8 +264,8 @@ def test_any_cluster_of_dask_makes_them_and_what_its_workers_refuse_is_one_line(
     words = ("--passes", "depth", "--scheduler", scheduler, "--output", out)
     done = script("dataset", scene, *WORDS[:3], "1:2", *words)
     assert (done.returncode, complaints(done.stderr)) == (0, [])
-    said, note = done.stdout.splitlines()
-    assert said == f"Wrote 4 pictures into {out}"
+    summary, note = done.stdout.splitlines()
+    assert summary == f"Wrote 4 pictures into {out}"
     assert note.startswith("'Sphere': the exact shape is up to 0.96% of its radius away from the mesh")
     bad = script("dataset", scene, *WORDS[:3], "1:3", *words)
     (line,) = complaints(bad.stderr)

@@ -108,11 +108,11 @@ def test_a_stop_during_the_imports_is_one_line(name, tmp_path):
                 time.sleep(0.001)
             time.sleep(random.uniform(0, 0.35))
             run.send_signal(random.choice((signal.SIGINT, signal.SIGTERM, signal.SIGHUP)))
-            said = run.stderr.read()
+            errors = run.stderr.read()
         # -n: at its very end, when Python has given the signals back
-        assert run.returncode == 130 or (run.returncode <= 0 and name != "cast"), said
+        assert run.returncode == 130 or (run.returncode <= 0 and name != "cast"), errors
         if run.returncode == 130:
-            assert said == f"{name}.py: stopped; no unfinished files were left behind\n"
+            assert errors == f"{name}.py: stopped; no unfinished files were left behind\n"
     assert name != "cast" or list(tmp_path.iterdir()) == []
 
 
@@ -151,8 +151,8 @@ def test_the_status_is_the_script_s_own_after_fluids(tmp_path):
     made = subprocess.run(words, capture_output=True, timeout=300)
     assert made.returncode != 0, "Blender ends well by itself: this test is no longer needed"
     words = [sys.executable, ROOT / "scripts" / "cast.py", path, "--frames", "1:2", "--output", tmp_path / "out"]
-    own = {**os.environ, "TMPDIR": str(temporary)}
-    done = subprocess.run(words, capture_output=True, text=True, timeout=300, env=own)
+    environment = {**os.environ, "TMPDIR": str(temporary)}
+    done = subprocess.run(words, capture_output=True, text=True, timeout=300, env=environment)
     assert done.returncode == 0, done.stderr
     assert done.stdout.endswith(f"Wrote 2 pictures into {tmp_path / 'out'}\n")
     assert len(list((tmp_path / "out").iterdir())) == 6

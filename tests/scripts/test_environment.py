@@ -20,8 +20,8 @@ def test_the_newest_bpy_of_a_python(python, bpy):
 
 @pytest.mark.parametrize("python", [(2, 7), (3, 6), (3, 10), (3, 12), (3, 14)])
 def test_another_python_is_named_with_those_that_fit(python):
-    found = ".".join(map(str, python))
-    assert environment.bpy_for(python) == f"needs Python 3.11 or 3.13, found {found}"
+    version = ".".join(map(str, python))
+    assert environment.bpy_for(python) == f"needs Python 3.11 or 3.13, found {version}"
 
 
 def test_each_bpy_is_tested_and_the_newest_by_all_tests_and_hostile_inputs(monkeypatch, capsys):

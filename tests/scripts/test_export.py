@@ -69,10 +69,10 @@ WRONG = {
 
 @pytest.mark.parametrize("case", WRONG)
 def test_bad_input_is_refused_and_leaves_nothing(command, scene, monkeypatch, case):
-    words, said = WRONG[case]
+    words, message = WRONG[case]
     monkeypatch.chdir(scene.parent)
     before = left(scene.parent)
-    assert said in refused(command("export", "small.blend", *words))
+    assert message in refused(command("export", "small.blend", *words))
     assert left(scene.parent) == before
 
 
@@ -96,5 +96,5 @@ def test_a_set_of_mixed_lenses_is_exported_camera_by_camera(command, tmp_path):
     assert "does not apply to --format depth16" in refused(command(*words, "depth16", "--validation", "0.2"))
     assert "'1.5' is not a part between 0 and 1" in refused(command(*words, "yolo", "--validation", "1.5"))
     for key in ("depth16", "normals"):
-        said = command("export", made, "--format", key, "--output", tmp_path / key).stdout
-        assert said == f"Wrote {10 + (key == 'depth16')} files into {tmp_path / key}\n"
+        summary = command("export", made, "--format", key, "--output", tmp_path / key).stdout
+        assert summary == f"Wrote {10 + (key == 'depth16')} files into {tmp_path / key}\n"

@@ -26,9 +26,9 @@ def file(blender, tmp_path):
     bpy.data.objects["Eye"].parent = bpy.data.objects["Monkey"]
     scene, objects = bpy.context.scene, [bpy.data.objects[name] for name in ("Camera", "Monkey", "Eye", "Slit")]
     scene.render.resolution_x, scene.render.resolution_y = 16, 12
-    for place, here in ((3, False), (1, True)):
+    for x, here in ((3, False), (1, True)):
         for item in objects:
-            item.location.x = 0 if item.parent else place
+            item.location.x = 0 if item.parent else x
         bpy.context.view_layer.update()
         if not here:
             bpy.data.libraries.write(str(tmp_path / "zoo.blend"), set(objects))
@@ -54,9 +54,9 @@ def test_both_cameras_make_pictures(command, file, tmp_path):
     assert [eye(tmp_path / "out" / f"{name}_0001.npz") for name in BOTH] == [[1, 0, 8], [3, 0, 8]]
     report = json.loads((tmp_path / "out" / f"{BOTH[1]}_0001.json").read_text())
     assert report["camera"]["name"] == BOTH[1]
-    for name, place in zip(BOTH, (1, 3), strict=True):
+    for name, x in zip(BOTH, (1, 3), strict=True):
         assert command("cast", file, "--camera", name, *words).returncode == 0
-        assert eye(tmp_path / "out" / "file.npz") == [place, 0, 8]
+        assert eye(tmp_path / "out" / "file.npz") == [x, 0, 8]
     line = refused(command("cast", file, "--camera", "Camera [no.blend]", *words))
     assert line.endswith("its cameras are: 'Camera', 'Camera [zoo.blend]'")
 
@@ -88,18 +88,18 @@ def test_key_points_belong_to_their_own_object(command, file, tmp_path):
     words = "--passes", "depth", "--keypoints", "ALL", "--output", tmp_path / "out"
     assert command("cast", file, *words).returncode == 0
     made = json.loads((tmp_path / "out" / "file_coco.json").read_text())
-    found = {entry["object"]: entry["keypoints"][:2] for key in ("annotations", "hidden") for entry in made[key]}
-    assert found.keys() == {"Monkey", "Monkey [zoo.blend]"}
-    assert found["Monkey"] != found["Monkey [zoo.blend]"]
+    key_points = {entry["object"]: entry["keypoints"][:2] for key in ("annotations", "hidden") for entry in made[key]}
+    assert key_points.keys() == {"Monkey", "Monkey [zoo.blend]"}
+    assert key_points["Monkey"] != key_points["Monkey [zoo.blend]"]
 
 
 @pytest.mark.full
 def test_a_slit_of_a_library_is_read(blender, file):
     blender.ops.wm.open_mainfile(filepath=str(file))
     scene = blender.context.scene
-    own = scene.camera.data.camera_ray_caster
-    own.model = "PUSHBROOM"
-    for library, place in ((None, 1), (blender.data.libraries[0].filepath, 3)):
-        own.slit_1 = blender.data.objects["Slit", library]
+    group = scene.camera.data.camera_ray_caster
+    group.model = "PUSHBROOM"
+    for library, x in ((None, 1), (blender.data.libraries[0].filepath, 3)):
+        group.slit_1 = blender.data.objects["Slit", library]
         _, matrix = read_scene(scene).camera.record.settings["slit_1"]
-        assert matrix[0, 3] == place
+        assert matrix[0, 3] == x

@@ -23,9 +23,9 @@ def test_the_template_is_valid(template):
 
 
 def test_its_tasks_are_shares_of_the_frames(scene, tmp_path):
-    given = {"File": scene, "Output": tmp_path / "out", "Frames": "1:3", "Shards": 2, "Passes": "depth",
+    parameters = {"File": scene, "Output": tmp_path / "out", "Frames": "1:3", "Shards": 2, "Passes": "depth",
              "Format": "NPZ", "Python": sys.executable}  # fmt: skip
-    words = [word for name, value in given.items() for word in ("-p", f"{name}={value}")]
+    words = [word for name, value in parameters.items() for word in ("-p", f"{name}={value}")]
     done = openjd("run", TEMPLATE, *words)
     assert done.returncode == 0, done.stdout
     assert done.stdout.count("Wrote 4 pictures into") == done.stdout.count("Wrote 2 pictures into") == 1
@@ -34,9 +34,9 @@ def test_its_tasks_are_shares_of_the_frames(scene, tmp_path):
 
 
 def test_shares_of_a_data_set_are_completed(scene, tmp_path):
-    given = {"File": scene, "Output": tmp_path / "out", "Frames": "1:3", "Shards": 2, "Passes": "depth",
+    parameters = {"File": scene, "Output": tmp_path / "out", "Frames": "1:3", "Shards": 2, "Passes": "depth",
              "Python": sys.executable}  # fmt: skip
-    done = openjd("run", DATA_SET, *(word for name, value in given.items() for word in ("-p", f"{name}={value}")))
+    done = openjd("run", DATA_SET, *(word for name, value in parameters.items() for word in ("-p", f"{name}={value}")))
     assert done.returncode == 0, done.stdout
     assert f"The 6 pictures in {tmp_path / 'out'} are a data set" in done.stdout
     assert {"dataset.json", "preview.png", "reader.py"} <= set(left(tmp_path / "out"))

@@ -109,8 +109,8 @@ def test_the_library_asks_for_a_bake_or_reads_it(blender):
     assert crc.read_scene(scene).shapes.names[0] == "Body", "the current frame is what Blender shows"
     with blender.context.temp_override(point_cache=scene.rigidbody_world.point_cache):
         blender.ops.ptcache.bake(bake=True)
-    found = crc.read_scene(scene, frame=8, passes=("flow_forward",))
-    height, then = (shapes.center[shapes.names.index("Body"), 2] for shapes in (found.shapes, found.next.shapes))
+    moving = crc.read_scene(scene, frame=8, passes=("flow_forward",))
+    height, then = (shapes.center[shapes.names.index("Body"), 2] for shapes in (moving.shapes, moving.next.shapes))
     assert height == pytest.approx(2 - 9.81 / 2 * (7 / 24) ** 2, abs=0.1), "it falls freely, but for damping"
     assert height - then == pytest.approx(9.81 * (7.5 / 24) / 24, rel=0.1)
 
@@ -119,9 +119,9 @@ def test_the_library_plays_simulation_nodes(blender):
     """Blender does not tell whether they are baked into the file."""
     nodes(blender)
     scene = blender.context.scene
-    start, found = crc.read_shapes(scene), crc.read_scene(scene, frame=8, passes=("flow_forward",))
+    start, moving = crc.read_shapes(scene), crc.read_scene(scene, frame=8, passes=("flow_forward",))
     step = np.hypot(0.03, 0.07)
-    first, now, then = (shapes.center[0] for shapes in (start, found.shapes, found.next.shapes))
+    first, now, then = (shapes.center[0] for shapes in (start, moving.shapes, moving.next.shapes))
     assert np.linalg.norm(now - first) == pytest.approx(7 * step, rel=0.1)
     assert np.linalg.norm(then - now) == pytest.approx(step, rel=0.2)
 

@@ -20,21 +20,21 @@ def test_kittis_sequence_of_a_run(command, scene, tmp_path):
     words = "--points", "kitti", "--frames", "1:2", "--passes", "depth", "--noise", "0.01", "--seed", "3"
     done = command("cast", scene, *words, "--output", tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
-    place = tmp_path / "sequences" / "00"
-    assert left(place) == ["calib.txt", "labels", "poses.txt", "times.txt", "velodyne"]
-    assert left(place / "labels") == ["000000.label", "000001.label"]
-    points = np.fromfile(place / "velodyne" / "000000.bin", np.float32).reshape(-1, 4)
-    labels = np.fromfile(place / "labels" / "000000.label", np.uint32)
+    sequence = tmp_path / "sequences" / "00"
+    assert left(sequence) == ["calib.txt", "labels", "poses.txt", "times.txt", "velodyne"]
+    assert left(sequence / "labels") == ["000000.label", "000001.label"]
+    points = np.fromfile(sequence / "velodyne" / "000000.bin", np.float32).reshape(-1, 4)
+    labels = np.fromfile(sequence / "labels" / "000000.label", np.uint32)
     assert len(points) == len(labels) > 50
     assert set(labels.tolist()) == {1 << 16 | 1}  # the first word, and the first shape
     off = np.linalg.norm(points[:, :3] - (5, 0, 0), axis=1) - 1
     assert 0.003 < np.abs(off).mean() < 0.02
-    poses = np.loadtxt(place / "poses.txt").reshape(-1, 3, 4)
+    poses = np.loadtxt(sequence / "poses.txt").reshape(-1, 3, 4)
     assert np.abs(poses[1][:, 3] - (1, 0, 0)).max() < 1e-6  # of a camera: x to the right
-    before = (place / "velodyne" / "000001.bin").read_bytes()
+    before = (sequence / "velodyne" / "000001.bin").read_bytes()
     again = command("cast", scene, *words, "--output", tmp_path, "--skip-existing")
     assert again.returncode == 0
-    assert (place / "velodyne" / "000001.bin").read_bytes() == before
+    assert (sequence / "velodyne" / "000001.bin").read_bytes() == before
 
 
 @pytest.mark.full
@@ -50,7 +50,7 @@ def test_a_data_set_by_workers_has_the_points_of_one_process(scene, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [
         (("--noise", "0.1"), "add --points"),
         (("--points", "ply", "--noise", "-1"), "noise"),
@@ -59,6 +59,6 @@ def test_a_data_set_by_workers_has_the_points_of_one_process(scene, tmp_path):
         (("--points", "e57"), "choose from"),
     ],
 )
-def test_what_has_no_meaning_is_refused_in_one_line(command, scene, tmp_path, words, said):
-    assert said in refused(command("cast", scene, *words, "--output", tmp_path / "out"))
+def test_what_has_no_meaning_is_refused_in_one_line(command, scene, tmp_path, words, message):
+    assert message in refused(command("cast", scene, *words, "--output", tmp_path / "out"))
     assert not (tmp_path / "out").exists() or left(tmp_path / "out") == []

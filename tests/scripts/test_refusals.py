@@ -58,15 +58,15 @@ def test_wrong_words_are_refused(scene, monkeypatch, command, case):
     from camera_ray_caster.core.records import InputError
 
     if command == "verify" and case in WRONG_FOR_CAST:
-        words, said = WRONG_FOR_CAST[case][0], "unrecognized arguments"
+        words, message = WRONG_FOR_CAST[case][0], "unrecognized arguments"
     else:
-        words, said = (WRONG_WORDS | WRONG_FOR_CAST)[case]
+        words, message = (WRONG_WORDS | WRONG_FOR_CAST)[case]
     monkeypatch.chdir(scene.parent)
     Path("text.blend").write_text("no .blend")
     before = left(scene.parent)
     with pytest.raises(InputError) as error:
         commands.COMMANDS[command](words, command)
-    assert said in str(error.value)
+    assert message in str(error.value)
     assert "\n" not in str(error.value)
     assert left(scene.parent) == before
 
@@ -76,10 +76,10 @@ def test_wrong_words_are_refused(scene, monkeypatch, command, case):
 @pytest.mark.parametrize("case", ["missing", "no .blend", "no such camera", "no such option"])
 def test_a_refusal_is_one_line_and_status_2(scene, command, case):
     (scene.parent / "text.blend").write_text("no .blend")
-    words, said = WRONG_WORDS[case]
+    words, message = WRONG_WORDS[case]
     line = refused(script(command, *words, folder=scene.parent))
     assert line.startswith(f"{command}.py: ")
-    assert said in line
+    assert message in line
 
 
 @pytest.mark.cases(1)
@@ -104,11 +104,11 @@ UNCASTABLE = {
 }
 
 
-@pytest.mark.parametrize("said", UNCASTABLE)
-def test_a_scene_that_cannot_be_cast_is_refused_in_one_line(command, blender, scene, tmp_path, said):
-    UNCASTABLE[said](blender.context.scene)
+@pytest.mark.parametrize("case", UNCASTABLE)
+def test_a_scene_that_cannot_be_cast_is_refused_in_one_line(command, blender, scene, tmp_path, case):
+    UNCASTABLE[case](blender.context.scene)
     blender.ops.wm.save_as_mainfile(filepath=str(scene))
-    assert said in refused(command("cast", scene, "--output", tmp_path / "out"))
+    assert case in refused(command("cast", scene, "--output", tmp_path / "out"))
     assert not (tmp_path / "out").exists()
 
 

@@ -57,6 +57,6 @@ def test_the_picture_is_of_that_scene(command, file):
     ],
 )
 def test_what_is_refused_names_the_scenes(command, file, words, line):
-    said = refused(command("cast", file, *words, *WORDS["cast"]))
-    assert all(re.search(re.escape(part), said) for part in line.split(".*"))
+    message = refused(command("cast", file, *words, *WORDS["cast"]))
+    assert all(re.search(re.escape(words), message) for words in line.split(".*"))
     assert not list((file.parent / "out").iterdir())

@@ -99,23 +99,23 @@ def stereo(bpy):
 def test_stereo_views_are_two_cameras(sets, command, tmp_path):
     for folder in sets(stereo):
         whole = json.loads((folder / "annotations.json").read_text())
-        assert [one["camera"] for one in whole["images"]] == ["Top_L", "Top_R"] * 2
+        assert [image["camera"] for image in whole["images"]] == ["Top_L", "Top_R"] * 2
         views = read_set(folder)
-        assert [one.name for one in views] == ["small_0001_L", "small_0002_L", "small_0001_R", "small_0002_R"]
+        assert [item.name for item in views] == ["small_0001_L", "small_0002_L", "small_0001_R", "small_0002_R"]
         done = command("export", folder, "--format", "nerfstudio-scene", "--output", tmp_path / f"{folder.name}_out")
         assert (done.returncode, done.stderr) == (0, "")
         frames = json.loads((tmp_path / f"{folder.name}_out" / "transforms.json").read_text())["frames"]
-        assert [one["file_path"] for one in frames] == [f"images/{one.name}.png" for one in views]
-        said = subprocess.run([sys.executable, folder / "reader.py"], capture_output=True, text=True, check=True).stdout
-        assert [line.split()[0] for line in said.splitlines()] == sorted(one.name for one in views)
+        assert [item["file_path"] for item in frames] == [f"images/{item.name}.png" for item in views]
+        text = subprocess.run([sys.executable, folder / "reader.py"], capture_output=True, text=True, check=True).stdout
+        assert [line.split()[0] for line in text.splitlines()] == sorted(item.name for item in views)
     seen = {}
     for view, frame in zip(views, frames, strict=True):  # the ball is where the camera of each eye says
-        own = view.annotations
-        (x, y, width, height), = (one["bbox_whole"] for one in own["annotations"] if one["object"] == "Small")
-        place = np.linalg.inv(frame["transform_matrix"]) @ (0.4, -0.6, 1, 1)
-        seen[view.name] = frame["fl_x"] * place[0] / -place[2] + frame["cx"]
+        annotated = view.annotations
+        (x, y, width, height), = (item["bbox_whole"] for item in annotated["annotations"] if item["object"] == "Small")
+        in_camera = np.linalg.inv(frame["transform_matrix"]) @ (0.4, -0.6, 1, 1)
+        seen[view.name] = frame["fl_x"] * in_camera[0] / -in_camera[2] + frame["cx"]
         assert abs(seen[view.name] - (x + width / 2)) < 1
-        assert abs(frame["fl_y"] * place[1] / place[2] + frame["cy"] - (y + height / 2)) < 1
+        assert abs(frame["fl_y"] * in_camera[1] / in_camera[2] + frame["cy"] - (y + height / 2)) < 1
     apart = seen["small_0001_L"] - seen["small_0001_R"]
     assert apart == pytest.approx(frames[0]["fl_x"] * 0.5 / 4, rel=1e-5)  # by triangles
 
@@ -126,8 +126,8 @@ def test_a_run_with_annotations_is_a_set_with_a_reader_and_a_preview(sets):
         picture = cv2.imread(str(folder / "preview.png"))
         assert picture.shape == (24, 4 * 32, 3)
         words = [sys.executable, folder / "reader.py"]
-        said = subprocess.run(words, capture_output=True, text=True, check=True).stdout
-        assert [line.split()[:3] for line in said.splitlines()] == [
+        output = subprocess.run(words, capture_output=True, text=True, check=True).stdout
+        assert [line.split()[:3] for line in output.splitlines()] == [
             [f"small_000{k}", "Perspective", f"{k}.0"] for k in (1, 2)
         ]
 
@@ -161,13 +161,13 @@ def test_an_exported_exr_set_is_an_exported_npz_set(command, sets, tmp_path, key
 
 @pytest.mark.full
 def test_an_exr_set_is_checked_as_an_npz_set(sets):
-    said = []
+    outcomes = []
     for folder in sets(words=("--cameras", "ALL", *WORDS)):
         done = script("check_set", folder)
         assert done.stderr == ""
-        said.append((done.returncode, done.stdout))
-    assert said[0] == said[1]
-    assert "Side_0001 to Top_0001" in said[0][1]
+        outcomes.append((done.returncode, done.stdout))
+    assert outcomes[0] == outcomes[1]
+    assert "Side_0001 to Top_0001" in outcomes[0][1]
 
 
 @pytest.mark.cases(1)

@@ -21,11 +21,11 @@ def content(path):
     if path.suffix == ".png":
         data = path.read_bytes()
         return data[data.index(b"IDAT") :]
-    found = json.loads(path.read_text()) if path.suffix == ".json" else path.read_text()
-    if "made" in found:
-        found = {name: value for name, value in found.items() if name not in ("seconds", "rays_per_second")}
-        del found["made"]["files"]  # sizes of reports and pictures, which have times in words
-    return found
+    written = json.loads(path.read_text()) if path.suffix == ".json" else path.read_text()
+    if "made" in written:
+        written = {name: value for name, value in written.items() if name not in ("seconds", "rays_per_second")}
+        del written["made"]["files"]  # sizes of reports and pictures, which have times in words
+    return written
 
 
 @pytest.fixture
@@ -109,18 +109,18 @@ def test_folders_hold_a_few_files_each_and_are_one_set(command, scene, whole, tm
     assert command("dataset", scene, *WORDS, "--folders", "10", "--output", out).returncode == 0
     places = sorted(path.name for path in out.iterdir() if path.is_dir())
     assert places == ["Side_0000", "Side_0002", "Top_0000", "Top_0002"]
-    assert all(len(list((out / place).iterdir())) <= 10 for place in places)
+    assert all(len(list((out / name).iterdir())) <= 10 for name in places)
     for path in whole.glob("*_000?*"):
         (moved,) = out.glob(f"*/{path.name}")
         assert content(moved).keys() == content(path).keys() if path.suffix == ".json" else True
         if path.suffix != ".json":
             assert content(moved) == content(path)
-    found, expected = (json.loads((folder / "annotations.json").read_text()) for folder in (out, whole))
-    assert [image.pop("file_name").rpartition("/")[2] for image in found["images"]] == [
+    merged, expected = (json.loads((folder / "annotations.json").read_text()) for folder in (out, whole))
+    assert [image.pop("file_name").rpartition("/")[2] for image in merged["images"]] == [
         image.pop("file_name") for image in expected["images"]
     ]
-    assert found == expected
-    assert (out / found["images"][0].get("file_name", "Side_0000/Side_0001.png")).is_file()
+    assert merged == expected
+    assert (out / merged["images"][0].get("file_name", "Side_0000/Side_0001.png")).is_file()
     again = command("dataset", scene, *WORDS, "--folders", "10", "--output", out)
     assert again.stdout.startswith("Wrote 0 of 6 pictures")
 
@@ -149,9 +149,9 @@ def test_shares_of_a_scanner_are_one_sequence_of_kitti(command, tmp_path):
     for k in (2, 1):
         assert command("dataset", *words, "--shard", f"{k}/2", "--output", tmp_path).returncode == 0
     assert command("dataset", tmp_path, "--complete").returncode == 0
-    place = tmp_path / "sequences" / "00"
-    assert [float(line) for line in (place / "times.txt").read_text().split()] == [0.0, 0.1]
-    assert len((place / "poses.txt").read_text().splitlines()) == 2
+    sequence = tmp_path / "sequences" / "00"
+    assert [float(line) for line in (sequence / "times.txt").read_text().split()] == [0.0, 0.1]
+    assert len((sequence / "poses.txt").read_text().splitlines()) == 2
     for k in (0, 1):
-        points = (place / "velodyne" / f"{k:06}.bin").read_bytes()
+        points = (sequence / "velodyne" / f"{k:06}.bin").read_bytes()
         assert points == (tmp_path / f"Camera_000{k + 1}.bin").read_bytes() != b""

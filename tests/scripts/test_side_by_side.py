@@ -50,13 +50,13 @@ def test_what_is_not_installed_is_said_and_the_others_are_compared(precision, mo
     tracers = {name: tracer for name, tracer in comparison.TRACERS.items() if "this" in name or "4" in name}
     monkeypatch.setattr(comparison, "TRACERS", tracers)
     cases = [case for case in precision.arithmetic.CASES if case.name == FAR]
-    names, found = comparison.compared(cases)
+    names, outcomes = comparison.compared(cases)
     assert names == [FAR]
-    ours, embree = found.values()
+    ours, embree = outcomes.values()
     assert 0 <= ours[0] < 1e-12
     assert embree == "not installed: embreex"
-    assert "| not installed: embreex | – |" in comparison.table(names, found)
-    assert comparison.details(names, found).splitlines()[-1].endswith("| not installed: embreex |")
+    assert "| not installed: embreex | – |" in comparison.table(names, outcomes)
+    assert comparison.details(names, outcomes).splitlines()[-1].endswith("| not installed: embreex |")
 
 
 def test_a_wrong_tracer_is_counted_as_wrong(precision, monkeypatch):
@@ -64,9 +64,9 @@ def test_a_wrong_tracer_is_counted_as_wrong(precision, monkeypatch):
     right = comparison.TRACERS["this caster"]
     tracers = {
         "right": right,
-        "a thousandth off": lambda case, given: right(case, given) * 1.001,
-        "misses all": lambda case, given: np.full(len(given.pixels), np.inf),
-        "cannot": lambda case, given: None,
+        "a thousandth off": lambda case, rays: right(case, rays) * 1.001,
+        "misses all": lambda case, rays: np.full(len(rays.pixels), np.inf),
+        "cannot": lambda case, rays: None,
     }
     monkeypatch.setattr(comparison, "TRACERS", tracers)
     cases = [case for case in precision.arithmetic.CASES if case.name == "eye inside"]
@@ -77,12 +77,12 @@ def test_a_wrong_tracer_is_counted_as_wrong(precision, monkeypatch):
     assert rows["cannot"][:2] == ["0", "0"]
 
 
-@pytest.mark.parametrize(("words", "said"), [
+@pytest.mark.parametrize(("words", "message"), [
     (["nothing like it"], "no extreme case has 'nothing like it' in its name"),
     (["--fast"], "unrecognized arguments: --fast"),
 ])  # fmt: skip
-def test_bad_words_are_refused_in_one_line(tmp_path, words, said):
+def test_bad_words_are_refused_in_one_line(tmp_path, words, message):
     line = refused(script("side_by_side", *words, folder=tmp_path))
     assert line.startswith("side_by_side.py: ")
-    assert said in line
+    assert message in line
     assert list(tmp_path.iterdir()) == []

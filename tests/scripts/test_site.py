@@ -45,9 +45,9 @@ class Page(HTMLParser):
 
     def handle_starttag(self, tag, attrs):
         """Keep links and anchors."""
-        found = dict(attrs)
-        self.anchors |= {found[key] for key in ("id", "name") if found.get(key)}
-        self.links += [found[key] for key in ("href", "src") if found.get(key)]
+        values = dict(attrs)
+        self.anchors |= {values[key] for key in ("id", "name") if values.get(key)}
+        self.links += [values[key] for key in ("href", "src") if values.get(key)]
 
 
 def children():
@@ -107,9 +107,9 @@ def test_every_model_has_its_page(key, site):
     """With its picture, all of its settings, its formula, and code that runs."""
     text = (site / "docs" / "cameras" / f"{key.lower()}.html").read_text(encoding="utf-8")
     assert re.search(r'<img alt="What this camera sees"[^>]* src="\.\./\.\./_images/\w+\.png"', text)
-    assert [one.name for one in crc.models()[key].SETTINGS if f">{one.name}<" not in text] == []
-    said = html.unescape(text)
-    assert [step for step in crc.models()[key].FORMULA if step.words not in said or step.symbols not in said] == []
+    assert [setting.name for setting in crc.models()[key].SETTINGS if f">{setting.name}<" not in text] == []
+    page = html.unescape(text)
+    assert [step for step in crc.models()[key].FORMULA if step.words not in page or step.symbols not in page] == []
     source = (ROOT / "docs" / "cameras" / f"{key.lower()}.md").read_text(encoding="utf-8")
     names = {}
     exec(re.search(r"^```python\n(.*?)^```$", source, re.MULTILINE | re.DOTALL)[1], names)

@@ -89,13 +89,13 @@ def test_a_signal_after_the_render_ends_the_run_before_files_are_written(blender
     path = small(blender, tmp_path / "small.blend")
     rendered, save, saved = frame_files._rendered, frame_files._save, []
 
-    def interrupted(*given):
-        report = rendered(*given)
+    def interrupted(*arguments):
+        report = rendered(*arguments)
         signals.stop()
         return report
 
     monkeypatch.setattr(frame_files, "_rendered", interrupted)
-    monkeypatch.setattr(frame_files, "_save", lambda *given: save(*given) or saved.append(given))
+    monkeypatch.setattr(frame_files, "_save", lambda *arguments: save(*arguments) or saved.append(arguments))
     assert commands.main("cast", [str(path), "--output", str(tmp_path / "out")], "cast.py") == 130
     assert saved == []
     assert not (tmp_path / "out").exists()
@@ -126,9 +126,9 @@ def test_a_stop_is_heard_while_many_objects_are_read(blender, moment, monkeypatc
         blender.context.collection.objects.link(plane.copy())
     seen, add = [], depsgraph_shapes._Scene.add
 
-    def counting(*given):
+    def counting(*arguments):
         seen.append(True)
-        return add(*given)
+        return add(*arguments)
 
     monkeypatch.setattr(depsgraph_shapes._Scene, "add", counting)
     depsgraph = blender.context.evaluated_depsgraph_get()

@@ -31,13 +31,13 @@ def test_the_copy_renders_our_rays_without_the_add_on(blender, tmp_path):
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout == f"Wrote {copy}\n"
     assert path.read_bytes() == before
-    rays, found = tmp_path / "rays.npy", read_camera(blender.context.scene, blender.data.objects["Side"]).rays()
+    rays, expected = tmp_path / "rays.npy", read_camera(blender.context.scene, blender.data.objects["Side"]).rays()
     words = [sys.executable, "-c", WITHOUT_ADD_ON, str(copy), str(ROOT), str(rays)]
     done = subprocess.run(words, capture_output=True, text=True, timeout=300)
     assert rays.exists(), done.stderr
     seen = np.load(rays)
-    assert np.array_equal(~np.isnan(seen[..., 0]), found.valid)
-    assert np.nanmax(np.linalg.norm(seen - found.directions, axis=-1)) <= 2e-6  # float32; see test_to_cycles
+    assert np.array_equal(~np.isnan(seen[..., 0]), expected.valid)
+    assert np.nanmax(np.linalg.norm(seen - expected.directions, axis=-1)) <= 2e-6  # float32; see test_to_cycles
 
 
 def test_what_was_changed_in_the_scene_is_printed(command, blender, tmp_path):
@@ -65,8 +65,8 @@ WRONG = {
 
 @pytest.mark.parametrize("case", WRONG)
 def test_bad_input_is_refused_and_leaves_nothing(command, scene, monkeypatch, case):
-    words, said = WRONG[case]
+    words, message = WRONG[case]
     monkeypatch.chdir(scene.parent)
     before = left(scene.parent)
-    assert said in refused(command("to_cycles", "small.blend", *words))
+    assert message in refused(command("to_cycles", "small.blend", *words))
     assert left(scene.parent) == before

@@ -29,26 +29,26 @@ def run(page, folder):
     (programs / "python").write_text(f'#!/bin/sh\nexec "{sys.executable}" "$@"\n')
     (programs / "python").chmod(0o755)
     clean = {key: value for key, value in os.environ.items() if key != "OCIO"}
-    found = {**clean, "PATH": f"{programs}:{clean['PATH']}", "PYTHONPATH": str(ROOT / "addon")}
+    environment = {**clean, "PATH": f"{programs}:{clean['PATH']}", "PYTHONPATH": str(ROOT / "addon")}
     words = [sys.executable, "-c", RUN, str(ROOT / "docs" / "tutorials" / page)]
-    done = subprocess.run(words, cwd=folder, env=found, capture_output=True, text=True, timeout=300)
+    done = subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout
 
 
 def test_a_data_set_in_ten_minutes(tmp_path):
-    said = run("data_set.md", tmp_path)
-    off, share, points = re.search(r"back within (\S+) pixels; (\d+)% of (\d+) points", said).groups()
+    output = run("data_set.md", tmp_path)
+    off, share, points = re.search(r"back within (\S+) pixels; (\d+)% of (\d+) points", output).groups()
     assert float(off) < 1e-6
     assert int(share) > 90
     assert int(points) > 10_000
-    assert "5 OpenCV Fisheye" in said
+    assert "5 OpenCV Fisheye" in output
     for name in ("toys/annotations.json", "toys/reader.py", "nerfstudio/transforms.json", "colmap/sparse"):
         assert (tmp_path / "out" / name).exists(), name
 
 
 def test_a_strange_camera_in_cycles(tmp_path):
-    said = run("strange_camera_in_cycles.md", tmp_path)
-    assert said.rstrip().endswith("CUSTOM Cross-Slit")
+    output = run("strange_camera_in_cycles.md", tmp_path)
+    assert output.rstrip().endswith("CUSTOM Cross-Slit")
     for name in ("cycles/toys_cross_slit.exr", "toys_in_cycles.blend"):
         assert (tmp_path / "out" / name).is_file(), name

@@ -35,10 +35,10 @@ def site(tmp_path_factory):
 
 def test_it_says_what_it_is_and_needs_numpy_only(site):
     (folder,) = site.glob("*.dist-info")
-    said = Parser().parsestr((folder / "METADATA").read_text(encoding="utf-8"))
-    assert said["Version"] in folder.name
-    assert said["Description-Content-Type"] == "text/markdown"
-    assert "Exact camera models" in said.get_payload()
+    metadata = Parser().parsestr((folder / "METADATA").read_text(encoding="utf-8"))
+    assert metadata["Version"] in folder.name
+    assert metadata["Description-Content-Type"] == "text/markdown"
+    assert "Exact camera models" in metadata.get_payload()
     needed = [line for line in Distribution.at(folder).requires if "extra ==" not in line]
     assert needed == ["numpy"]
     assert "camera-ray-caster = camera_ray_caster.__main__:main" in (folder / "entry_points.txt").read_text()

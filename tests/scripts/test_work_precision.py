@@ -87,9 +87,9 @@ def test_a_fault_of_the_caster_shows_in_the_figures(precision, work_precision, m
     monkeypatch.setattr(precision.arithmetic, "cast", faulty)
     rows, points, _ = work_precision("--only", "arithmetic", TURNED)
     assert {p["family"] for p in points} == {"arithmetic"}
-    found = named(points)
-    assert found["float64 robust"]["median_error"] == pytest.approx(1e-3, rel=1e-9)
-    assert found["float64 textbook"]["worst_error"] < 1e-6, "the textbook's is not the caster's"
+    figures = named(points)
+    assert figures["float64 robust"]["median_error"] == pytest.approx(1e-3, rel=1e-9)
+    assert figures["float64 textbook"]["worst_error"] < 1e-6, "the textbook's is not the caster's"
     assert rows[-1][-1] == "none", "no method is right to 1e-12"
 
 
@@ -97,8 +97,8 @@ def test_a_fault_of_the_caster_shows_in_the_figures(precision, work_precision, m
 def test_effort_buys_precision(everything, family):
     points = [p for p in everything[1] if p["family"] == family]
     for method in {p["method"] for p in points} - {"table and one step"}:
-        own = [p for p in points if p["method"] == method]
-        errors = [p["median_error" if family == "samples" else "worst_error"] for p in own]
+        of_method = [p for p in points if p["method"] == method]
+        errors = [p["median_error" if family == "samples" else "worst_error"] for p in of_method]
         assert errors == sorted(errors, reverse=True)
         assert errors[0] > 2 * errors[-1]
 
@@ -115,16 +115,16 @@ def test_a_blender_file_is_a_scene_too(blender, tmp_path):
     assert [line.split(" | ")[0] for line in lines] == ["| scene", lines[1], "| one", "| other"], "nothing of Blender's"
 
 
-@pytest.mark.parametrize(("words", "said"), [
+@pytest.mark.parametrize(("words", "message"), [
     (["nothing like it"], "no extreme case has 'nothing like it' in its name"),
     (["missing.blend"], "there is no file 'missing.blend'"),
     (["text.blend"], "'text.blend' is not a .blend file that this Blender can open"),
     (["planet", "--only", "speed"], "arithmetic"),
     (["planet", "--output", "text.blend/out"], "cannot write into 'text.blend/out'"),
 ])  # fmt: skip
-def test_bad_words_are_refused_in_one_line(tmp_path, words, said):
+def test_bad_words_are_refused_in_one_line(tmp_path, words, message):
     (tmp_path / "text.blend").write_text("no .blend")
     line = refused(script("work_precision", *words, folder=tmp_path))
     assert line.startswith("work_precision.py: ")
-    assert said in line
+    assert message in line
     assert [path.name for path in tmp_path.iterdir()] == ["text.blend"]

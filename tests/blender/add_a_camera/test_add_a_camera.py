@@ -26,8 +26,8 @@ CAMERAS = Path("addon", "camera_ray_caster", "core", "cameras")
 def copy(tmp_path_factory):
     """A copy of package and tests with the model: its file, its import, and its name in MODELS."""
     folder = tmp_path_factory.mktemp("copy")
-    for part in ("addon", "tests/core", "scripts"):
-        shutil.copytree(ROOT / part, folder / part, ignore=shutil.ignore_patterns("__pycache__"))
+    for name in ("addon", "tests/core", "scripts"):
+        shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
     for file in ("pyproject.toml", "tests/conftest.py", "tests/tiers.py"):
         shutil.copy(ROOT / file, folder / file)
     shutil.copy(MODEL, folder / CAMERAS)
@@ -88,9 +88,9 @@ def test_it_leaves_nothing_behind(report):
 
 def test_its_file_is_refused_in_one_line_once_it_is_taken_away(report):
     """By script, by F12, in the panel, and without registration. What else is in the file is read, and works."""
-    for said in report["said"]:
-        assert "odel of camera 'Camera' is '1000': it must be one of BLENDER, OPENCV_PINHOLE" in said
-        assert "\n" not in said
+    for refusal in report["said"]:
+        assert "odel of camera 'Camera' is '1000': it must be one of BLENDER, OPENCV_PINHOLE" in refusal
+        assert "\n" not in refusal
     assert len(report["said"]) == 4
     assert report["shapes"] == 2
     assert report["chosen again"] == "OMNIMAX"

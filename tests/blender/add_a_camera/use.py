@@ -62,16 +62,16 @@ def without_it(crc, path, folder):
     bpy.ops.wm.open_mainfile(filepath=str(path))
     from camera_ray_caster.blender.ui.facts_panels import facts_of
 
-    said = [refusal(lambda: crc.read_camera(bpy.context.scene))]
-    said.append(refusal(lambda: rendered(bpy.context.scene, folder / "none.exr")))
-    said.append(facts_of(bpy.context, bpy.context.scene.camera)[1])
+    refusals = [refusal(lambda: crc.read_camera(bpy.context.scene))]
+    refusals.append(refusal(lambda: rendered(bpy.context.scene, folder / "none.exr")))
+    refusals.append(facts_of(bpy.context, bpy.context.scene.camera)[1])
     shapes = len(crc.read_shapes(bpy.context.scene))
     bpy.context.scene.camera.data.camera_ray_caster.model = "OMNIMAX"
     again = crc.read_camera(bpy.context.scene).model.key
     crc.unregister()
     bpy.ops.wm.open_mainfile(filepath=str(path))
-    said.append(refusal(lambda: crc.read_camera(bpy.context.scene)))
-    return {"said": said, "shapes": shapes, "chosen again": again}
+    refusals.append(refusal(lambda: crc.read_camera(bpy.context.scene)))
+    return {"said": refusals, "shapes": shapes, "chosen again": again}
 
 
 def refusal(act):
@@ -101,6 +101,6 @@ if __name__ == "__main__":
     import camera_ray_caster
 
     use = {"with": with_it, "without": without_it}[mode]
-    found = use(camera_ray_caster, Path(path), Path(seen).parent)
-    Path(seen).write_text(json.dumps(found))
+    report = use(camera_ray_caster, Path(path), Path(seen).parent)
+    Path(seen).write_text(json.dumps(report))
     sys.exit(0)  # Blender's program would end with 1 after a render that was refused, as one here is

@@ -43,7 +43,7 @@ def cycles_passes(scene):
     bpy.ops.render.render(write_still=True, scene=scene.name)
     channels = read_exr(Path(scene.render.filepath))
     (index,) = (name for name in channels if "Index" in name)
-    return np.stack([channels[f"{layer.name}.Combined.{part}"] for part in "RGB"], axis=-1), channels[index]
+    return np.stack([channels[f"{layer.name}.Combined.{color}"] for color in "RGB"], axis=-1), channels[index]
 
 
 def cycles_wires(scene):

@@ -53,8 +53,8 @@ def mix_color(blend, factor=0.7, a=(0.2, 0.5, 0.9), b=(0.6, 0.3, 0.1)):
         node = new("ShaderNodeMix")
         node.data_type, node.blend_type = "RGBA", blend
         for name, value in (("Factor_Float", factor), ("A_Color", (*a, 1)), ("B_Color", (*b, 1))):
-            next(one for one in node.inputs if one.identifier == name).default_value = value
-        return next(one for one in node.outputs if one.identifier == "Result_Color")
+            next(socket for socket in node.inputs if socket.identifier == name).default_value = value
+        return next(socket for socket in node.outputs if socket.identifier == "Result_Color")
 
     return build
 
@@ -100,10 +100,10 @@ def two_shaders(kind, first, second, factor=0.3):
         places = (1, 2) if kind == "Mix" else (0, 1)
         if kind == "Mix":
             mix.inputs[0].default_value = factor
-        for place, (name, color) in zip(places, (first, second), strict=True):
+        for socket, (name, color) in zip(places, (first, second), strict=True):
             node = new(f"ShaderNode{name}")
             node.inputs["Color"].default_value = (*color, 1)
-            link(node.outputs[0], mix.inputs[place])
+            link(node.outputs[0], mix.inputs[socket])
         link(mix.outputs[0], out)
 
     return make
@@ -120,11 +120,11 @@ def painted(
         image.colorspace_settings.name = space
         image.pixels.foreach_set([0.9, 0.2, 0.1, 1, 0.1, 0.8, 0.3, 1, 0.2, 0.3, 0.7, 1, 0.6, 0.6, 0.2, 1])
         image.pack()
-        node, mapping, place = texture(new, image), new("ShaderNodeMapping"), new("ShaderNodeTexCoord")
+        node, mapping, coordinate_node = texture(new, image), new("ShaderNodeMapping"), new("ShaderNodeTexCoord")
         node.extension, node.interpolation = extension, interpolation
         mapping.vector_type = mapped
         mapping.inputs["Rotation"].default_value, mapping.inputs["Scale"].default_value = turn, scale
-        link(place.outputs[coordinates], mapping.inputs[0])
+        link(coordinate_node.outputs[coordinates], mapping.inputs[0])
         link(mapping.outputs[0], node.inputs[0])
         return node.outputs["Color"]
 
@@ -177,8 +177,8 @@ def separated(new, link, item):
 
 def ranged(new, link, item):
     node = new("ShaderNodeMapRange")
-    for place, value in enumerate((0.4, 0.1, 0.7, 0.2, 0.9)):
-        node.inputs[place].default_value = value
+    for number, value in enumerate((0.4, 0.1, 0.7, 0.2, 0.9)):
+        node.inputs[number].default_value = value
     return node.outputs[0]
 
 

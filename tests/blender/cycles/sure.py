@@ -28,13 +28,13 @@ def cast_scene(scene, names):
 
 def unambiguous(scene):
     """Where rays a little aside meet the same face: found without Cycles."""
-    data, found = scene.camera.data, []
+    data, indices = scene.camera.data, []
     for dx, dy in ((0, 0), (OFF, OFF), (OFF, -OFF), (-OFF, OFF), (-OFF, -OFF)):
-        data.shift_x, data.shift_y = (part / scene.render.resolution_x for part in (dx, dy))
+        data.shift_x, data.shift_y = (offset / scene.render.resolution_x for offset in (dx, dy))
         images = cast_scene(scene, ("shape_index", "face_index"))
-        found.append(np.stack((images["shape_index"], images["face_index"])))
+        indices.append(np.stack((images["shape_index"], images["face_index"])))
     data.shift_x = data.shift_y = 0
-    return (np.array(found) == found[0]).all(axis=(0, 1))
+    return (np.array(indices) == indices[0]).all(axis=(0, 1))
 
 
 def assert_as_cycles(scene, sure=None, mapped=MAPPED, but=()):

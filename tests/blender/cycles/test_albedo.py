@@ -33,16 +33,16 @@ def grid(scene, materials):  # noqa: F811
 
 def test_colors_are_those_of_cycles(scene):  # noqa: F811
     """Of emission before its strength."""
-    found, shapes, (diffuse, glossy, transmission, emission) = grid(scene, LIT.values())
-    index, strengths = found["object_index"], {"emission": 5.0}
+    images, shapes, (diffuse, glossy, transmission, emission) = grid(scene, LIT.values())
+    index, strengths = images["object_index"], {"emission": 5.0}
     wrong = {}
     for k, name in enumerate(LIT, 1):
         here = index == k
         assert here.sum() == CELL * CELL, name
         total = (diffuse + glossy + transmission + emission / strengths.get(name, 1.0))[here]
-        off = np.abs(found["albedo"][here] - np.clip(total, 0, None)).max(axis=1)
+        off = np.abs(images["albedo"][here] - np.clip(total, 0, None)).max(axis=1)
         if np.median(off) > CLOSE or (np.mean(off > CLOSE) > 0.1):
-            wrong[name] = found["albedo"][here].mean(0).round(3), total.mean(0).round(3)
+            wrong[name] = images["albedo"][here].mean(0).round(3), total.mean(0).round(3)
     assert not wrong
     assert {reason for _, reason in shapes.unread} == {
         "its image 'missing' is missing: it is shown in magenta",
@@ -51,11 +51,11 @@ def test_colors_are_those_of_cycles(scene):  # noqa: F811
 
 
 def test_metal_and_glass_leave_diffuse_what_they_do_in_cycles(scene):  # noqa: F811
-    found, _, (diffuse, *_) = grid(scene, PARTLY.values())
+    images, _, (diffuse, *_) = grid(scene, PARTLY.values())
     for k, (metallic, transmission) in enumerate(PARTLY, 1):
-        here = found["object_index"] == k
-        own = found["albedo"][here] * (1 - metallic) * (1 - transmission)
-        np.testing.assert_allclose(own, diffuse[here], atol=CLOSE)
+        here = images["object_index"] == k
+        diffuse_albedo = images["albedo"][here] * (1 - metallic) * (1 - transmission)
+        np.testing.assert_allclose(diffuse_albedo, diffuse[here], atol=CLOSE)
 
 
 KINDS = "POINT", "TEXTURE", "VECTOR", "NORMAL"

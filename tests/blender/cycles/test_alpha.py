@@ -38,14 +38,14 @@ def cycles(scene, *names):
         settings.media_type, settings.use_exr_interleave = "MULTI_LAYER_IMAGE", True
     settings.file_format, settings.color_depth = "OPEN_EXR_MULTILAYER", "32"
     bpy_module.ops.render.render(write_still=True, scene=scene.name)
-    found = {}
+    layers = {}
     for key, values in read_exr(Path(scene.render.filepath)).items():
-        found.setdefault(key.rsplit(".", 2)[-2], {})[key[-1]] = values
+        layers.setdefault(key.rsplit(".", 2)[-2], {})[key[-1]] = values
     kinds = {"IndexOB": "Object Index", "DiffCol": "Diffuse Color", "GlossCol": "Glossy Color", "Emit": "Emission",
              "TransCol": "Transmission Color"}  # fmt: skip
-    found = {kinds.get(key, key): values for key, values in found.items()}
+    layers = {kinds.get(key, key): values for key, values in layers.items()}
     for name in names:
-        channels = found[name]
+        channels = layers[name]
         values = np.stack([channels[letter] for letter in sorted(channels, key="RGBAXYZUV".index)], axis=-1)
         yield np.where(values > 1e9, np.inf, values)
 
@@ -64,13 +64,13 @@ def plane(name, z, size, index=0):
 
 def material(item, name="Material"):
     """An empty material with an output, its nodes and a function that links sockets."""
-    found = bpy_module.data.materials.new(name)
+    made = bpy_module.data.materials.new(name)
     if not FROM_5_0:
-        found.use_nodes = True
-    tree = found.node_tree
+        made.use_nodes = True
+    tree = made.node_tree
     tree.nodes.clear()
-    item.data.materials.append(found)
-    return tree.nodes.new, tree.links.new, tree.nodes.new("ShaderNodeOutputMaterial").inputs["Surface"], found
+    item.data.materials.append(made)
+    return tree.nodes.new, tree.links.new, tree.nodes.new("ShaderNodeOutputMaterial").inputs["Surface"], made
 
 
 def disc(name="disc", size=64, radius=20, space="sRGB"):
@@ -222,12 +222,12 @@ def near_edge(index):
 def assert_as_cycles(scene):
     """Depth, place and index are those of Cycles, but for pixels at an edge; return the indices."""
     images = cast(read_camera(scene), read_shapes(scene), passes=("depth", "position", "object_index", "uv"))
-    depth, place, index = cycles(scene, "Depth", "Position", "Object Index")
+    depth, position, index = cycles(scene, "Depth", "Position", "Object Index")
     away = ~near_edge(index[..., 0]) & ~near_edge(images["object_index"])
     assert away.mean() > 0.8
     np.testing.assert_array_equal(images["object_index"][away], index[..., 0][away])
     np.testing.assert_allclose(images["depth"][away], depth[..., 0][away], rtol=1e-5)
-    np.testing.assert_allclose(images["position"][away], place[away], atol=1e-4)
+    np.testing.assert_allclose(images["position"][away], position[away], atol=1e-4)
     return images["object_index"]
 
 

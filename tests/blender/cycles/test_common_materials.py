@@ -183,11 +183,11 @@ def glass(node, link, item):
 
 
 def test_their_colors_are_those_of_cycles(scene):  # noqa: F811
-    found, shapes, colors = grid(scene, MATERIALS.values())
-    off = np.abs(found["albedo"] - sum(colors)).max(axis=-1)
+    images, shapes, colors = grid(scene, MATERIALS.values())
+    off = np.abs(images["albedo"] - sum(colors)).max(axis=-1)
     wrong = {}
     for number, name in enumerate(MATERIALS, 1):
-        square = found["object_index"] == number
+        square = images["object_index"] == number
         assert square.sum() == CELL * CELL, name
         if off[square].max() > CLOSE:
             wrong[name] = off[square].max()

@@ -25,8 +25,8 @@ ROUNDING = 32 * 2**-24 * REACH
 def scene(blender, camera_scene):
     """Eight cubes around a camera, at frame 5."""
     scene = camera_scene
-    for k, place in enumerate(np.ndindex(2, 2, 2)):
-        blender.ops.mesh.primitive_cube_add(size=3, location=6 * np.array(place) - 3, rotation=(k, 0.3, 2 * k))
+    for k, corner in enumerate(np.ndindex(2, 2, 2)):
+        blender.ops.mesh.primitive_cube_add(size=3, location=6 * np.array(corner) - 3, rotation=(k, 0.3, 2 * k))
         blender.context.object.pass_index = k + 1
     camera = scene.camera
     camera.location, camera.rotation_euler = (0.3, -0.2, 0.4), (1.2, 0.1, 0.7)
@@ -168,8 +168,8 @@ def test_each_view_may_have_a_camera_of_its_own(scene):
 
 def move(item, *places):
     """Let an object move evenly from frame 0 to frame 10."""
-    for frame, place in zip((0, 10), places, strict=True):
-        item.location = place
+    for frame, location in zip((0, 10), places, strict=True):
+        item.location = location
         item.keyframe_insert("location", frame=frame)
     for curve in curves(item):
         for key in curve.keyframe_points:
@@ -272,8 +272,8 @@ def test_a_picture_without_light_is_warned_of(scene, color):
     scene.world.use_nodes = True
     scene.world.node_tree.nodes["Background"].inputs[0].default_value = (color, color, color, 1.0)
     scene.render.resolution_x, scene.render.resolution_y, scene.cycles.samples = 12, 8, 1
-    said = picture_of(scene).warnings
-    assert [line.partition(":")[0] for line in said] == ([] if color else ["Cycles' picture is black"])
+    warnings = picture_of(scene).warnings
+    assert [line.partition(":")[0] for line in warnings] == ([] if color else ["Cycles' picture is black"])
 
 
 def test_cycles_renders_again_afterwards(scene, render):

@@ -14,8 +14,8 @@ def test_a_device_that_runs_no_shaders_of_cameras_is_named(osl, camera_scene, mo
     context = SimpleNamespace(context=SimpleNamespace(preferences=SimpleNamespace(addons=chosen)))
     monkeypatch.setattr(device, "bpy", context)
     camera_scene.render.engine, camera_scene.cycles.device = "CAMERA_RAY_CASTER", "GPU"
-    said = to_cycles(camera_scene)
-    assert [line.partition(",")[0] for line in said] == ([] if works else [f"Cycles renders on {kind}"])
+    warnings = to_cycles(camera_scene)
+    assert [line.partition(",")[0] for line in warnings] == ([] if works else [f"Cycles renders on {kind}"])
     camera_scene.cycles.device = "CPU"
     assert device.device_notes(camera_scene) == []
 

@@ -73,8 +73,8 @@ def test_the_current_subframe_is_no_whole_frame(scene):
     animate_lens(camera)
     scene.frame_end = 9
     scene.frame_set(3, subframe=0.5)
-    (said,) = to_cycles(scene)
-    assert "frames 1 to 9:" in said
+    (warning,) = to_cycles(scene)
+    assert "frames 1 to 9:" in warning
     check(scene)
     scene.frame_set(3)
     check(scene)

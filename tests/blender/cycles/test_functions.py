@@ -50,7 +50,7 @@ TWO = {
 }  # fmt: skip
 """By operation ranges of both arguments."""
 
-CASES = {name: [(one, None) for one in ranges] for name, ranges in ONE.items()} | TWO
+CASES = {name: [(operand, None) for operand in ranges] for name, ranges in ONE.items()} | TWO
 
 NEAR = 0.2
 """Of its bound: how near to it an operation comes at least."""
@@ -63,11 +63,11 @@ def test_an_operation_rounds_as_much_as_is_said(osl, blender, name):
         formula = record((lambda a, b: (function(a, b),)) if second else (lambda a, _: (function(a),)), 2)
         with np.errstate(all="ignore"):  # some arguments have no number
             k = np.arange(SIDE, dtype=float)
-            place = k + (0 if second else SIDE) * k[:, None]
-            a, b = first[0] + first[1] * place, (second[0] + second[1] * k[:, None]) if second else 0.0 * place
+            index = k + (0 if second else SIDE) * k[:, None]
+            a, b = first[0] + first[1] * index, (second[0] + second[1] * k[:, None]) if second else 0.0 * index
             (expected,) = rounded(formula, [Rounded(a), Rounded(b)])
-            found = rendered(blender, formula, *(written(*of, place) for of, place in arguments(first, second)))
-            error = np.abs(found - np.nan_to_num(expected.value))
+            pixels = rendered(blender, formula, *(written(*of, number) for of, number in arguments(first, second)))
+            error = np.abs(pixels - np.nan_to_num(expected.value))
             ratio = np.where(error > 0, error / expected.error, 0.0)
         where = np.unravel_index(np.argmax(ratio), ratio.shape)
         assert ratio[where] <= 1, f"at {a[where]}"
@@ -78,8 +78,8 @@ def test_an_operation_rounds_as_much_as_is_said(osl, blender, name):
 @pytest.mark.parametrize("name", ["rint", "floor"])
 def test_whole_numbers_are_exact(osl, blender, name):
     formula = record(lambda a, _: (getattr(np, name)(a),), 2)
-    found = rendered(blender, formula, written(-32, 2**-10, arguments(None, None)[0][1]), "0")
-    assert np.array_equal(found, getattr(np, name)(np.arange(-32, 32, 2**-10).reshape(SIDE, SIDE)))
+    pixels = rendered(blender, formula, written(-32, 2**-10, arguments(None, None)[0][1]), "0")
+    assert np.array_equal(pixels, getattr(np, name)(np.arange(-32, 32, 2**-10).reshape(SIDE, SIDE)))
 
 
 def arguments(first, second):

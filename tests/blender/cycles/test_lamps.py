@@ -98,10 +98,10 @@ def environment(scene, **settings):  # noqa: F811
     nodes, links = world.node_tree.nodes, world.node_tree.links
     nodes.clear()
     kinds = "OutputWorld", "Background", "TexEnvironment", "Mapping", "TexCoord"
-    output, back, texture, mapping, place = (nodes.new(f"ShaderNode{kind}") for kind in kinds)
+    output, back, texture, mapping, coordinate = (nodes.new(f"ShaderNode{kind}") for kind in kinds)
     texture.image, back.inputs["Strength"].default_value = image, 0.5
     mapping.inputs["Rotation"].default_value = 0.1, 0.2, 0.7
-    links.new(place.outputs["Generated"], mapping.inputs[0])
+    links.new(coordinate.outputs["Generated"], mapping.inputs[0])
     links.new(mapping.outputs[0], texture.inputs[0])
     links.new(texture.outputs[0], back.inputs[0])
     links.new(back.outputs[0], output.inputs[0])

@@ -74,13 +74,13 @@ def set_up(bpy, settings):
     scene.render.resolution_x = scene.render.resolution_y = PIXELS
     data = camera.data
     data.dof.use_dof = True
-    if (place := settings.pop("focus", None)) is not None:
+    if (location := settings.pop("focus", None)) is not None:
         target = bpy.data.objects.new("Target", None)
         scene.collection.objects.link(target)
-        target.parent, target.location = camera, place
+        target.parent, target.location = camera, location
         data.dof.focus_object = target
     for name, value in settings.items():
-        setattr(next(one for one in (data.dof, data, data.camera_ray_caster) if hasattr(one, name)), name, value)
+        setattr(next(item for item in (data.dof, data, data.camera_ray_caster) if hasattr(item, name)), name, value)
     return scene
 
 
@@ -128,17 +128,17 @@ def test_rays_pass_through_the_focus_and_fill_the_opening(blender, case, custom,
         across, upward = lens_axes(camera, chief)
     along = ((origins - end) * normal).sum(axis=1) / (direction * normal).sum(axis=1)
     opening = end + along[:, None] * direction - origins
-    found = np.stack([(opening * axis).sum(axis=1) for axis in (across, upward)], axis=1)
+    on_lens = np.stack([(opening * axis).sum(axis=1) for axis in (across, upward)], axis=1)
     turn = np.linspace(0, 2 * np.pi, 60, endpoint=False)
     sides = np.stack((np.cos(turn), np.sin(turn)))
-    ours, theirs = ((points @ sides).max(axis=0) for points in (outline(aperture), found))
+    ours, theirs = ((points @ sides).max(axis=0) for points in (outline(aperture), on_lens))
     size = np.linalg.norm(outline(aperture), axis=1).max()
     assert (theirs <= ours + allowed.max()).all()
     # a tenth of the way into a corner, or in from the edge of a disc, lies some hundredth of all n rays
     assert (theirs >= ours - 0.1 * size).all()
     evenly = np.stack(aperture.points(*np.random.default_rng(0).random((2, 100000))), axis=1)
-    halves, ours_in_half = ((points @ sides > 0).mean(axis=0) for points in (found, evenly))
-    assert halves == pytest.approx(ours_in_half, abs=5 * 0.5 / np.sqrt(len(found)))  # deviations of a fair coin
+    halves, ours_in_half = ((points @ sides > 0).mean(axis=0) for points in (on_lens, evenly))
+    assert halves == pytest.approx(ours_in_half, abs=5 * 0.5 / np.sqrt(len(on_lens)))  # deviations of a fair coin
 
 
 def lens_axes(camera, chief):

@@ -71,8 +71,8 @@ def scene(blender):
     curve.dimensions, curve.bevel_depth = "3D", 0.2
     spline = curve.splines.new("BEZIER")
     spline.bezier_points.add(2)
-    for point, place in zip(spline.bezier_points, [(-1, 1, 1), (0, 2, 2), (2, 1, 1.4)], strict=True):
-        point.co, point.handle_left_type, point.handle_right_type = place, "AUTO", "AUTO"
+    for point, location in zip(spline.bezier_points, [(-1, 1, 1), (0, 2, 2), (2, 1, 1.4)], strict=True):
+        point.co, point.handle_left_type, point.handle_right_type = location, "AUTO", "AUTO"
     add(blender, "Curve", curve, 5, (0, 0, 0))
     ball = data.metaballs.new("Ball")
     ball.resolution = ball.render_resolution  # what is read is the viewport's, what Cycles renders the render's

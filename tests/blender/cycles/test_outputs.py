@@ -65,9 +65,9 @@ def planted(seed):
 
 @pytest.mark.parametrize("first", [0, *(pytest.param(TREES * k, marks=pytest.mark.full) for k in (1, 2))])
 def test_outputs_anywhere_in_a_tree_are_chosen_as_in_cycles(scene, first):  # noqa: F811
-    found, shapes, colors = grid(scene, [planted(first + k) for k in range(TREES)])
+    images, shapes, colors = grid(scene, [planted(first + k) for k in range(TREES)])
     truth = sum(colors)
-    off = {k: (found["albedo"] - truth)[found["object_index"] == k + 1] for k in range(TREES)}
+    off = {k: (images["albedo"] - truth)[images["object_index"] == k + 1] for k in range(TREES)}
     assert {len(some) for some in off.values()} == {CELL * CELL}
     assert {first + k for k, some in off.items() if np.abs(some).max() > CLOSE} == set()
     assert len(np.unique(truth.reshape(-1, 3).round(3), axis=0)) > TREES / 2
@@ -94,9 +94,9 @@ def in_a_group(alpha):
 
 
 def test_alpha_is_that_of_the_output_in_a_group(scene):  # noqa: F811
-    found, shapes, colors = grid(scene, [in_a_group(1.0), in_a_group(0.0)])
-    assert set(np.unique(found["object_index"])) == {0, 1}
-    np.testing.assert_allclose(found["albedo"], sum(colors), atol=CLOSE)
+    images, shapes, colors = grid(scene, [in_a_group(1.0), in_a_group(0.0)])
+    assert set(np.unique(images["object_index"])) == {0, 1}
+    np.testing.assert_allclose(images["albedo"], sum(colors), atol=CLOSE)
     assert not shapes.left_out
     assert not shapes.unread
 
@@ -106,5 +106,5 @@ def test_a_surface_without_a_material_is_gray(scene):  # noqa: F811
         item.data.materials.append(None)
         item.color = 1, 0, 0, 1
 
-    found, _, colors = grid(scene, [empty, lambda item: None])
-    np.testing.assert_allclose(found["albedo"], sum(colors), atol=CLOSE)
+    images, _, colors = grid(scene, [empty, lambda item: None])
+    np.testing.assert_allclose(images["albedo"], sum(colors), atol=CLOSE)

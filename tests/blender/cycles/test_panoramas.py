@@ -108,8 +108,8 @@ def allowed(camera, settings):
     for side, dx, dy in ((camera.raster.width, h, 0), (camera.raster.height, 0, h)):
         change = np.linalg.norm(camera.rays_at(x + dx, y + dy).directions - here, axis=-1) / h
         steep = steep + side * np.nan_to_num(change, nan=np.inf)
-    place = 1 + abs(settings.get("shift_x", 0)) + abs(settings.get("shift_y", 0))
-    return np.maximum(1e-5, 8 * EPS32 * place * steep)
+    farthest = 1 + abs(settings.get("shift_x", 0)) + abs(settings.get("shift_y", 0))
+    return np.maximum(1e-5, 8 * EPS32 * farthest * steep)
 
 
 def at_a_lens_s_tip(camera, settings):

@@ -24,7 +24,7 @@ def lit(blender, scene, tmp_path):
     scene.collection.objects.link(camera)
     blender.ops.mesh.primitive_plane_add(size=WALL, location=(0, 0, -FAR))
     camera.data.type, camera.data.ortho_scale = "ORTHO", WALL
-    render, cycles, own = scene.render, scene.cycles, scene.camera
+    render, cycles, scene_camera = scene.render, scene.cycles, scene.camera
     scene.camera, render.engine, cycles.samples, cycles.use_denoising = camera, "CYCLES", 1, False
     cycles.max_bounces, cycles.filter_width, cycles.pixel_filter_type = 0, 0.01, "BLACKMAN_HARRIS"
     sizes = render.resolution_x, render.resolution_y
@@ -32,7 +32,7 @@ def lit(blender, scene, tmp_path):
     render.image_settings.file_format, render.image_settings.color_depth = "OPEN_EXR", "32"
     render.filepath = str(tmp_path / "lit.exr")
     blender.ops.render.render(write_still=True)
-    scene.camera, (render.resolution_x, render.resolution_y) = own, sizes
+    scene.camera, (render.resolution_x, render.resolution_y) = scene_camera, sizes
     image = blender.data.images.load(render.filepath)
     pixels = np.array(image.pixels[:]).reshape(SIZE, SIZE, 4)[..., :3]
     at = (np.arange(SIZE) + 0.5) / SIZE * WALL - WALL / 2
@@ -61,8 +61,8 @@ def test_a_wall_shows_the_picture_where_the_inverse_says(blender, camera_scene, 
     assert bright[inside].mean() > 0.99  # the seam and the poles of a panorama are dark
     assert not bright[outside].any()
     both = inside & bright
-    found = pixels[both][:, :2] / pixels[both][:, 2:] * size
-    assert np.abs(found - wanted[both]).max() < error + 0.01  # and Cycles' float32
+    shown = pixels[both][:, :2] / pixels[both][:, 2:] * size
+    assert np.abs(shown - wanted[both]).max() < error + 0.01  # and Cycles' float32
     assert lamp.parent == item
 
 

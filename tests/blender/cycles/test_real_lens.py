@@ -75,9 +75,9 @@ def compare(ours, theirs, light):
     assert np.sqrt(((ours - theirs) ** 2 / variance)[lit].mean()) < 1.1  # 1 for noise, to 1 / sqrt(2 lit.sum())
     for row in range(3):
         for column in range(3):
-            part = slice(32 * row, 32 * row + 32), slice(48 * column, 48 * column + 48)
-            away = abs(ours[part].sum() - theirs[part].sum())
-            assert away < 4 * np.sqrt(variance[part][lit[part]].sum()), (row, column)
+            tile = slice(32 * row, 32 * row + 32), slice(48 * column, 48 * column + 48)
+            away = abs(ours[tile].sum() - theirs[tile].sum())
+            assert away < 4 * np.sqrt(variance[tile][lit[tile]].sum()), (row, column)
 
 
 def test_energy_on_the_axis_and_in_the_corner_is_that_of_the_rays_that_pass(wall):
@@ -90,7 +90,7 @@ def test_energy_on_the_axis_and_in_the_corner_is_that_of_the_rays_that_pass(wall
     target = side[:, None], side, optics.exit_pupil[0]
 
     def expected(x, y):
-        a, b = (float(part) for part in model.window.plane_from_pixels(x, y))
+        a, b = (float(number) for number in model.window.plane_from_pixels(x, y))
         return passing(optics, (-a, -b, float(model.film)), target, True).sum()
 
     ours = crc.cast(camera, read_shapes(wall), passes=("combined",), samples=SAMPLES)["combined"][..., 0]

@@ -124,8 +124,8 @@ def test_a_slit_scan_by_rows_is_the_rolling_shutter_of_a_custom_camera(osl, blen
     settings = scene.camera.data.camera_ray_caster
     settings.time_mode, settings.time_start, settings.time_end = "ROWS", 8.0, 2.0
     rows = read_camera(scene).rays().time[:, :1]
-    (said,) = [line for line in to_cycles(scene) if "slit scan" in line]
-    assert "from frame" in said
+    (warning,) = [line for line in to_cycles(scene) if "slit scan" in line]
+    assert "from frame" in warning
     seen = cycles_surface(scene, "Position", REACH)
     centers = (np.arange(SIZE) + 0.5 - SIZE / 2) / 2
     moved = seen[..., 0] - (centers if moving == "camera" else seen[..., 2])

@@ -48,17 +48,17 @@ def test_rays_are_those_of_cycles(blender, scene, mode):
     for side in SIDES:
         blender.ops.mesh.primitive_cube_add(size=side, location=(1, -1, 5.5), rotation=(0.1, 0.2, 0.3))
         for view, camera in cameras.items():
-            for one in scene.render.views:
-                one.use, one.file_suffix = one.name == view, ""
-            found = cycles_surface(scene, "Position", 32.0)
+            for render_view in scene.render.views:
+                render_view.use, render_view.file_suffix = render_view.name == view, ""
+            surface = cycles_surface(scene, "Position", 32.0)
             rays = camera.rays()
-            assert (rays.valid == ~np.isnan(found[..., 0])).all()
-            found, rays = found[rays.valid], camera.rays_at(*pixels_of(camera))
-            beside = np.linalg.norm(np.cross(found - rays.origins, rays.directions), axis=-1)
-            assert (beside <= bound(camera, found)).all()
-            far = np.cross(found - camera.pose.eye, rays.directions)
+            assert (rays.valid == ~np.isnan(surface[..., 0])).all()
+            surface, rays = surface[rays.valid], camera.rays_at(*pixels_of(camera))
+            beside = np.linalg.norm(np.cross(surface - rays.origins, rays.directions), axis=-1)
+            assert (beside <= bound(camera, surface)).all()
+            far = np.cross(surface - camera.pose.eye, rays.directions)
             assert np.quantile(np.linalg.norm(far, axis=-1), 0.6) > 0.05  # the eye is 0.3 beside: the test would see it
-            back = camera.project(found)
+            back = camera.project(surface)
             assert np.abs(back - np.stack(pixels_of(camera), axis=-1)).max() <= 3e-4
         blender.data.objects.remove(blender.context.object)
 
@@ -95,8 +95,8 @@ def test_the_eye_is_beside_a_ray_that_has_passed_the_lens(blender, scene, view):
     data.shift_x, data.lens = 0.0, 50.0
     data.dof.use_dof, data.dof.aperture_fstop, data.dof.focus_distance = True, 0.1, focus
     data.stereo.interocular_distance, data.stereo.convergence_mode = 0.3, "OFFAXIS"
-    for one in scene.render.views:
-        one.use, one.file_suffix = one.name == view, ""
+    for render_view in scene.render.views:
+        render_view.use, render_view.file_suffix = render_view.name == view, ""
     blender.ops.mesh.primitive_cube_add(size=16, location=scene.camera.location)
     camera = read_camera(scene, view=view)
     model, basis, eye = camera.model, camera.pose.basis, camera.pose.eye

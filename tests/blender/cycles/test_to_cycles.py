@@ -48,7 +48,7 @@ def set_up(scene, settings):
     camera = scene.camera
     camera.location, camera.rotation_euler, camera.scale = (1.5, -2, 0.7), (0.5, 0.2, 0.7), (-1, 2, 0.5)
     for name, value in settings.items():
-        owner = next(one for one in (camera.data, scene.render, settings_of(camera)) if hasattr(one, name))
+        owner = next(item for item in (camera.data, scene.render, settings_of(camera)) if hasattr(item, name))
         setattr(owner, name, value)
     return camera
 
@@ -127,9 +127,9 @@ def test_animation_is_keyframes_that_need_no_add_on(scene, monkeypatch, stretch)
         camera.data.keyframe_insert("lens", frame=frame * stretch)
     scene.frame_start, scene.frame_end, scene.render.frame_map_old = 1, 5, 100 * stretch
     scene.frame_set(1)
-    (said,) = to_cycles(scene)
-    assert "keyframes at frames 1 to 5" in said
-    monkeypatch.setattr(shader_updates, "update", lambda *given: None)
+    (warning,) = to_cycles(scene)
+    assert "keyframes at frames 1 to 5" in warning
+    monkeypatch.setattr(shader_updates, "update", lambda *arguments: None)
     scene.frame_set(4)
     assert 40 < camera.data.lens < 60
     check(scene)
@@ -240,8 +240,8 @@ def test_eyes_that_cycles_would_shift_otherwise_are_refused(scene):
 
 def test_an_engine_that_does_not_know_custom_cameras_is_named(scene):
     scene.render.engine = "BLENDER_WORKBENCH"
-    (said,) = to_cycles(scene)
-    assert "choose Cycles" in said
+    (warning,) = to_cycles(scene)
+    assert "choose Cycles" in warning
 
 
 def test_the_file_renders_the_same_without_the_add_on(scene, tmp_path):

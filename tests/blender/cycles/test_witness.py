@@ -24,11 +24,11 @@ pytestmark = pytest.mark.usefixtures("osl")
 
 @pytest.mark.parametrize(("key", "settings"), CASES)
 def test_every_example_is_what_cycles_renders(key, settings):
-    found = cycles_witness.cycles_finding(camera(key, settings))
-    assert found.passed, found
-    assert found.points > 1000
-    assert found.median_radians <= ORDINARY / 2
-    assert found.worst_radians <= ORDINARY or found.bound_radians > LOST
+    finding = cycles_witness.cycles_finding(camera(key, settings))
+    assert finding.passed, finding
+    assert finding.points > 1000
+    assert finding.median_radians <= ORDINARY / 2
+    assert finding.worst_radians <= ORDINARY or finding.bound_radians > LOST
 
 
 FAULTS = {
@@ -78,5 +78,5 @@ SHEARED = [[0.5, 0.2, -0.1, 1.0], [0.1, -1.5, 0.3, 2.0], [0.0, 0.4, 2.0, -3.0], 
 
 @pytest.mark.parametrize("key", ["PERSP", "OMNIMAX", "EQUIRECTANGULAR", "CROSS_SLIT"])
 def test_a_sheared_and_mirrored_camera_is_what_cycles_renders(key):
-    found = cycles_witness.cycles_finding(camera(key, EXAMPLES[key][0] | {"matrix_world": SHEARED}))
-    assert found.passed, found
+    finding = cycles_witness.cycles_finding(camera(key, EXAMPLES[key][0] | {"matrix_world": SHEARED}))
+    assert finding.passed, finding

@@ -21,16 +21,16 @@ def test_a_border_shows_the_full_pictures_pixels(scene, render, border, crop, mo
     settings = scene.render
     settings.use_border, settings.use_crop_to_border = True, crop
     settings.border_min_x, settings.border_max_x, settings.border_min_y, settings.border_max_y = border
-    found = picture(render(), "ray_direction")
+    shown = picture(render(), "ray_direction")
     # Blender's own rounding: the border times the size, in float32, cut
     x0, x1 = (int(np.float32(side) * np.float32(WIDTH)) for side in border[:2])
     y0, y1 = (int(np.float32(side) * np.float32(HEIGHT)) for side in border[2:])
     if not crop:
-        outside = found.copy()
+        outside = shown.copy()
         outside[y0:y1, x0:x1] = 0
         assert not outside.any()
-        found = found[y0:y1, x0:x1]
-    np.testing.assert_array_equal(found, whole[y0:y1, x0:x1])
+        shown = shown[y0:y1, x0:x1]
+    np.testing.assert_array_equal(shown, whole[y0:y1, x0:x1])
 
 
 def test_an_animation_moves_the_camera(blender, scene, render):
@@ -120,9 +120,9 @@ def test_what_is_left_out_is_warned_of_in_one_line(blender, scene, capfd):
         blender.context.object.camera_ray_caster.primitive = "IGNORE"
     capfd.readouterr()
     blender.ops.render.render()
-    said = "".join(capfd.readouterr())
-    assert said.count("left out") == 1
-    assert "12 objects left out: Suzanne, Suzanne.001" in said
+    output = "".join(capfd.readouterr())
+    assert output.count("left out") == 1
+    assert "12 objects left out: Suzanne, Suzanne.001" in output
 
 
 @pytest.mark.parametrize("model", ["BLENDER", "FISHEYE_STEREOGRAPHIC"])
@@ -131,12 +131,12 @@ def test_lines_that_blender_draws_in_perspective_over_another_model_are_warned_o
     scene.render.use_freestyle = True
     blender.ops.object.grease_pencil_add(type="MONKEY")
     blender.ops.render.render()
-    said = "Blender draws Freestyle and Grease Pencil over the picture in perspective, not through Fisheye"
-    assert (said in capfd.readouterr().out) == (model != "BLENDER")
+    warning = "Blender draws Freestyle and Grease Pencil over the picture in perspective, not through Fisheye"
+    assert (warning in capfd.readouterr().out) == (model != "BLENDER")
     from camera_ray_caster.blender.output import reports
 
     assert [line for line in reports.latest().warnings if "Grease Pencil" in line] == [
-        f"{said} Stereographic: disable it"
+        f"{warning} Stereographic: disable it"
     ] * (model != "BLENDER")
 
 

@@ -46,11 +46,11 @@ def test_a_frame_that_does_not_fit_is_refused_before_it_is_begun(blender, huge, 
 
 def test_a_cropped_border_of_such_a_frame_is_rendered(huge, render):
     bordered(huge, crop=True)
-    found = render()
+    layers = render()
     expected = cast(read_camera(huge), read_shapes(huge), passes=("position", "ray_direction"))
     assert expected["position"].shape == (32, 65, 3)
     for name, image in expected.items():
-        np.testing.assert_array_equal(picture(found, name), image)
+        np.testing.assert_array_equal(picture(layers, name), image)
 
 
 def test_more_triangles_than_the_memory_holds_are_refused_in_one_line(blender, scene, monkeypatch, tmp_path):
@@ -64,10 +64,10 @@ def test_more_triangles_than_the_memory_holds_are_refused_in_one_line(blender, s
     scene.collection.objects.link(points)
     points.instance_type, monkey.parent = "VERTS", points
     monkeypatch.setattr(memory, "available", lambda: 4 << 30)
-    said = r"100,\d\d\d,\d\d\d triangles in view take [\d.]+ GiB of memory and 4 GiB are available: show "
-    with pytest.raises(InputError, match=said):
+    refusal = r"100,\d\d\d,\d\d\d triangles in view take [\d.]+ GiB of memory and 4 GiB are available: show "
+    with pytest.raises(InputError, match=refusal):
         frame_files.render(scene, tmp_path / "out", "frame")
-    with pytest.raises(RuntimeError, match=said) as refused:
+    with pytest.raises(RuntimeError, match=refusal) as refused:
         blender.ops.render.render()
     assert str(refused.value).strip().count("\n") == 0
     assert not list(tmp_path.rglob("*"))

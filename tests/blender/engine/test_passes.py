@@ -19,11 +19,11 @@ def test_every_pass_comes_out_of_the_file_as_it_was_cast(blender, scene, render,
         sphere.location.x = 0.25 * frame
         sphere.keyframe_insert("location", frame=frame)
     scene.frame_set(1)
-    found, cast_of_it = picture(render(), name), expected(scene, name)
-    assert found.shape[:2] == (HEIGHT, WIDTH)
-    np.testing.assert_array_equal(found, cast_of_it)
+    stored, cast_of_it = picture(render(), name), expected(scene, name)
+    assert stored.shape[:2] == (HEIGHT, WIDTH)
+    np.testing.assert_array_equal(stored, cast_of_it)
     if name not in CONSTANT:
-        assert np.nanmax(found) > np.nanmin(found), f"{name} is the same everywhere; if it may be: CONSTANT"
+        assert np.nanmax(stored) > np.nanmin(stored), f"{name} is the same everywhere; if it may be: CONSTANT"
 
 
 def test_the_file_holds_what_is_ticked_and_nothing_else(scene, render):

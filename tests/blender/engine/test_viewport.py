@@ -47,10 +47,10 @@ def drawn(view, away=6):
     looking = SimpleNamespace(
         view_perspective="PERSP", view_matrix=Matrix.Translation((0, 0, -away)), window_matrix=projection
     )
-    own = ("scene", "view_layer", "evaluated_depsgraph_get")
+    names = ("scene", "view_layer", "evaluated_depsgraph_get")
     context = SimpleNamespace(
         region=SimpleNamespace(width=96, height=64), region_data=looking,
-        **{name: getattr(bpy.context, name) for name in own},
+        **{name: getattr(bpy.context, name) for name in names},
     )  # fmt: skip
     started = perf_counter()
     view.view_draw(context, bpy.context.evaluated_depsgraph_get())
@@ -103,7 +103,7 @@ def test_a_picture_takes_the_memory_of_the_last_one_of_its_size(view):
             finished(view)
             drawn(view, away)
     for step in (8, 1):
-        first, second = (array for array, own in zip(view.arrays, view.shown, strict=True) if own == step)
+        first, second = (array for array, shown in zip(view.arrays, view.shown, strict=True) if shown == step)
         assert first is second
 
 

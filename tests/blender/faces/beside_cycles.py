@@ -80,8 +80,8 @@ def painted(name):
     scene = bpy.context.scene
     flat(scene, "MATERIAL")
     items = [item for item in bpy.data.objects if hasattr(item.data, "materials")]
-    for place, item in enumerate(items):
-        material = emitting(item.name, COLORS[1 + place % (len(COLORS) - 1)])
+    for number, item in enumerate(items):
+        material = emitting(item.name, COLORS[1 + number % (len(COLORS) - 1)])
         if not item.material_slots:
             item.data.materials.append(None)
         for slot in item.material_slots:
@@ -121,10 +121,10 @@ def test_edges_are_within_a_pixel_of_those_of_cycles(blender, name, engine, mode
     for model in models:
         scene.camera.data.camera_ray_caster.model = model
         cycles, drawn = only(cycles_picture(scene)), only(faces_picture(scene, engine, samples=1))
-        shown, found = index_map(cycles), index_map(drawn)
+        shown, drawn_index = index_map(cycles), index_map(drawn)
         assert inside(shown).mean() > 0.2
         assert (nearest(drawn) == shown)[inside(shown)].all(), model
-        assert (nearest(drawn) == shown)[inside(found) & (shown != MIXED)].all(), model
+        assert (nearest(drawn) == shown)[inside(drawn_index) & (shown != MIXED)].all(), model
 
 
 def checker(scene):

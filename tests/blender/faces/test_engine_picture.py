@@ -32,8 +32,8 @@ RAYS = 200
 @pytest.fixture
 def cubes(blender, camera_scene):
     """Cubes of one color each around the camera, which Workbench draws as they are."""
-    for place, color in zip(PLACES, COLORS, strict=True):
-        blender.ops.mesh.primitive_cube_add(size=1.6, location=place, rotation=(0.3, 0.4, 0.5))
+    for location, color in zip(PLACES, COLORS, strict=True):
+        blender.ops.mesh.primitive_cube_add(size=1.6, location=location, rotation=(0.3, 0.4, 0.5))
         blender.context.object.color = color
     scene, shading = camera_scene, camera_scene.display.shading
     shading.light, shading.color_type = "FLAT", "OBJECT"
@@ -71,7 +71,7 @@ def is_far_from_edges(camera, shapes):
     index = cast_rays(rays.origins, rays.directions, shapes, passes=("shape_index",))["shape_index"]
     parts = np.where(rays.valid, index, NO_RAY).reshape(rows, PARTS, columns, PARTS)
     around = [np.pad(of(parts, axis=(1, 3)), 1, constant_values=NO_RAY) for of in (np.min, np.max)]
-    least, most = (sliding_window_view(one, (3, 3)) for one in around)
+    least, most = (sliding_window_view(image, (3, 3)) for image in around)
     lowest = least.min(axis=(2, 3))
     return (lowest == most.max(axis=(2, 3))) & (lowest > NO_RAY)
 
@@ -114,14 +114,14 @@ def test_eyes_of_a_stereo_camera_and_view_layers(cubes):
     cubes.camera.data.camera_ray_caster.model = "DOME_MASTER"
     cubes.render.use_multiview, cubes.camera.data.stereo.interocular_distance = True, 0.5
     cubes.view_layers.new("Second")
-    found = picture_of(cubes, WORKBENCH).pixels
-    assert sorted(found) == [(layer, view) for layer in ("Second", "ViewLayer") for view in ("left", "right")]
+    images = picture_of(cubes, WORKBENCH).pixels
+    assert sorted(images) == [(layer, view) for layer in ("Second", "ViewLayer") for view in ("left", "right")]
     camera, shapes = read_camera(cubes, view="right"), read_shapes(cubes)
     index = cast(camera, shapes, passes=("shape_index",))["shape_index"]
     flat = is_far_from_edges(camera, shapes) & (index >= 0)
     wanted = np.array(COLORS)[index[flat]]
-    assert found["ViewLayer", "right"][flat] == pytest.approx(wanted, abs=2e-3)
-    assert np.abs(found["ViewLayer", "left"] - found["ViewLayer", "right"]).max() > 0.5
+    assert images["ViewLayer", "right"][flat] == pytest.approx(wanted, abs=2e-3)
+    assert np.abs(images["ViewLayer", "left"] - images["ViewLayer", "right"]).max() > 0.5
 
 
 @pytest.mark.parametrize(("model", "time", "why"), [
@@ -179,8 +179,8 @@ def test_without_a_driver_it_says_so_in_a_line():
 @pytest.mark.full
 @pytest.mark.parametrize("model", [pytest.param("BLENDER", marks=pytest.mark.full), "DOME_MASTER"])
 def test_depth_of_field_is_that_of_rays_through_the_aperture(cubes, model):
-    own, dof = cubes.camera.data.camera_ray_caster, cubes.camera.data.dof
-    own.model, cubes.camera.data.lens, cubes.camera_ray_caster.samples = model, 30, 48
+    group, dof = cubes.camera.data.camera_ray_caster, cubes.camera.data.dof
+    group.model, cubes.camera.data.lens, cubes.camera_ray_caster.samples = model, 30, 48
     dof.focus_distance, dof.aperture_fstop, dof.use_dof = 6, 0.02, True
     blurred, camera, shapes = picture(cubes), read_camera(cubes), read_shapes(cubes)
     names = [shapes.names[shapes.name_index[k]] for k in range(len(shapes.center))]
@@ -188,8 +188,8 @@ def test_depth_of_field_is_that_of_rays_through_the_aperture(cubes, model):
     raster, rays = camera.raster, []
     for sample in range(0, 4 * RAYS, 4):  # other rays than those of a cast; the camera's frame is the world
         origin, direction = camera.sample_rays(raster.columns(), raster.rows(), sample)
-        both = (np.stack(np.broadcast_arrays(*part), axis=-1) for part in (origin, direction))
-        rays.append([np.broadcast_to(part, (*raster.shape, 3)) for part in both])
+        both = (np.stack(np.broadcast_arrays(*vectors), axis=-1) for vectors in (origin, direction))
+        rays.append([np.broadcast_to(vectors, (*raster.shape, 3)) for vectors in both])
     index = cast_rays(*np.moveaxis(rays, 1, 0), shapes, passes=("shape_index",))["shape_index"]
     valid = np.isfinite(rays).all(axis=(0, 1, -1))
     wanted = colors[index].mean(axis=0)

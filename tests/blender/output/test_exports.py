@@ -41,8 +41,8 @@ def same(left, right):
 
 def test_cameras_at_frames_are_those_that_are_read(scene, tmp_path):
     cameras = find_cameras(scene, ["ALL"])
-    said, paths = exports.write(scene, "json", cameras, range(1, 12, 5), tmp_path / "out")
-    assert (said, paths, names(tmp_path / "out")) == ([], [tmp_path / "out" / "camera.json"], ["camera.json"])
+    remarks, paths = exports.write(scene, "json", cameras, range(1, 12, 5), tmp_path / "out")
+    assert (remarks, paths, names(tmp_path / "out")) == ([], [tmp_path / "out" / "camera.json"], ["camera.json"])
     for name, camera in zip(("Moving", "Still_one"), cameras, strict=True):
         for frame in (1, 6, 11):
             assert same(camera_from_json(paths[0], frame, camera=name), read_camera(scene, camera, frame=frame))
@@ -136,9 +136,9 @@ def test_maps_are_written_as_they_are_computed(scene, tmp_path, target):
     _, paths = exports.write(scene, "stmap", [scene.camera], [3], tmp_path, to)
     assert names(tmp_path) == ["Moving_0003_distort.exr", "Moving_0003_undistort.exr"] == [path.name for path in paths]
     assert set(bpy.data.images) == before
-    one, other = (read_camera(scene, camera, frame=3) for camera in (scene.camera, to or scene.camera))
-    other = other if target else perspective_of(one)
-    for path, (here, there) in zip(paths, ((one, other), (other, one)), strict=True):
+    source, other = (read_camera(scene, camera, frame=3) for camera in (scene.camera, to or scene.camera))
+    other = other if target else perspective_of(source)
+    for path, (here, there) in zip(paths, ((source, other), (other, source)), strict=True):
         channels = read_exr(path)
         assert sorted(channels) == ["B", "G", "R"]
         pixels = np.stack([channels[channel] for channel in "RGB"], axis=-1)
@@ -147,7 +147,7 @@ def test_maps_are_written_as_they_are_computed(scene, tmp_path, target):
         assert 0 < pixels[..., 2].mean() <= 1
 
 
-@pytest.mark.parametrize("key", [one.key for one in EXPORT_FORMATS])
+@pytest.mark.parametrize("key", [export.key for export in EXPORT_FORMATS])
 def test_every_format_of_a_scene_appears_whole(scene, tmp_path, key):
     frames = [1] if key == "kalibr" else [1, 2]  # a camchain is of a rig that does not change
     _, paths = exports.write(scene, key, find_cameras(scene, ["ALL"]), frames, tmp_path)
@@ -172,7 +172,7 @@ def test_a_rolling_shutter_has_blenders_poses_at_its_first_and_last_row(scene, t
     np.testing.assert_allclose(np.array(frame["rolling_shutter_offsets"]) * 24, (first, last), atol=1e-7)
     for name, time in (("transform_matrix", 5 + first), ("transform_matrix_rs", 5 + last)):
         scene.frame_set(int(time), subframe=time % 1)
-        place = scene.camera.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world.translation
-        assert np.array(frame[name])[:3, 3] == pytest.approx(np.array(place), abs=1e-5)
+        location = scene.camera.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world.translation
+        assert np.array(frame[name])[:3, 3] == pytest.approx(np.array(location), abs=1e-5)
     with pytest.raises(InputError, match=r"own time: choose one of nerfstudio, npz, json$"):
         exports.write(scene, "colmap", [scene.camera], [5], tmp_path / "colmap")

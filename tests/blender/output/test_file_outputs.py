@@ -67,8 +67,8 @@ def test_they_write_nothing_and_one_line_says_so(blender, scene, tmp_path, capfd
     report, appeared = cast(tmp_path)
     assert appeared == report["file_outputs"] == []
     (warning,) = report["warnings"]
-    said = [line for line in capfd.readouterr().err.splitlines() if line.startswith("cast.py")]
-    assert said == [f"cast.py: warning: {warning}"]
+    warnings = [line for line in capfd.readouterr().err.splitlines() if line.startswith("cast.py")]
+    assert warnings == [f"cast.py: warning: {warning}"]
     assert "--file-output" in warning
     assert [node.mute for node in file_outputs.writing(blender.context.scene)] == [False, False]
 

@@ -40,21 +40,21 @@ def facts_of(prop):
 def test_a_property_of_0_1_is_what_it_was(name):
     """A choice may have more items, in another order: a .blend stores their numbers."""
     group, _, name = name.partition(".")
-    before, found = BEFORE[f"{group}.{name}"], facts_of(GROUPS[group].bl_rna.properties[name])
+    before, facts = BEFORE[f"{group}.{name}"], facts_of(GROUPS[group].bl_rna.properties[name])
     if "items" in before:
-        items = [item for item in found["items"] if item[0] in {key for key, *_ in before["items"]}]
-        found["items"] = sorted(items, key=lambda item: item[3])
+        items = [item for item in facts["items"] if item[0] in {key for key, *_ in before["items"]}]
+        facts["items"] = sorted(items, key=lambda item: item[3])
         before["items"].sort(key=lambda item: item[3])
-    assert found == before
+    assert facts == before
 
 
 def test_every_item_of_a_choice_has_a_number_of_its_own():
     for group in GROUPS.values():
-        for found in group.bl_rna.properties:
-            if found.type == "ENUM" and found.is_runtime:
-                numbers = [item.value for item in found.enum_items]
+        for setting in group.bl_rna.properties:
+            if setting.type == "ENUM" and setting.is_runtime:
+                numbers = [item.value for item in setting.enum_items]
                 free = min(set(range(len(numbers) + 1)) - set(numbers))
-                assert len(set(numbers)) == len(numbers), f"two items of {found.identifier} share one: {free} is free"
+                assert len(set(numbers)) == len(numbers), f"two items of {setting.identifier} share one: {free} is free"
 
 
 def test_only_objects_of_the_declared_types_can_be_a_slit_or_a_path(blender):

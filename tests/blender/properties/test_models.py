@@ -53,16 +53,16 @@ CENTRAL = [(key, *fact) for key, facts in FACTS.items() for fact in facts]
 
 @pytest.mark.parametrize(("key", "settings", "pixel", "origin", "direction"), CENTRAL)
 def test_settings_reach_the_camera(blender, scene, key, settings, pixel, origin, direction):
-    own = scene.camera.data.camera_ray_caster
-    own.model = key
-    given = {"cx": 47.5, "cy": 26.5, "calibration_width": 0, "calibration_height": 0, "fx": 60.0, "fy": 61.0}
-    for name, value in (given | settings).items():
-        setattr(scene.render if hasattr(scene.render, name) else own, name, value)
+    group = scene.camera.data.camera_ray_caster
+    group.model = key
+    calibration = {"cx": 47.5, "cy": 26.5, "calibration_width": 0, "calibration_height": 0, "fx": 60.0, "fy": 61.0}
+    for name, value in (calibration | settings).items():
+        setattr(scene.render if hasattr(scene.render, name) else group, name, value)
     camera = read_camera(scene)
     assert camera.model.key == key
-    found = camera.rays_at(*pixel).directions
+    seen = camera.rays_at(*pixel).directions
     # settings are stored as float32: angles of up to 2 pi and pixels of up to 96
-    np.testing.assert_allclose(found, np.array(direction) / np.linalg.norm(direction), rtol=0, atol=5e-7)
+    np.testing.assert_allclose(seen, np.array(direction) / np.linalg.norm(direction), rtol=0, atol=5e-7)
 
 
 def test_the_model_is_stored_in_the_file(blender, scene, tmp_path):
@@ -80,8 +80,8 @@ def test_a_calibration_file_beside_the_blend_is_found_and_a_missing_one_named(bl
     blender.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
     settings = blender.context.scene.camera.data.camera_ray_caster
     settings.model, settings.calibration_file = "OPENCV_PINHOLE", "//lens.yml"
-    found = read_camera(blender.context.scene).rays_at(48 + 48 * 9 / 16, 27).directions
-    np.testing.assert_allclose(found, np.array([1, 0, -2]) / np.sqrt(5), rtol=0, atol=1e-15)
+    seen = read_camera(blender.context.scene).rays_at(48 + 48 * 9 / 16, 27).directions
+    np.testing.assert_allclose(seen, np.array([1, 0, -2]) / np.sqrt(5), rtol=0, atol=1e-15)
     settings.calibration_file = "//lost.yml"
     with pytest.raises(InputError, match="lost"):
         read_camera(blender.context.scene)
@@ -93,18 +93,18 @@ CAMERAS = "1 PINHOLE 640 480 500 501 320 240\n2 OPENCV_FISHEYE 640 480 300 301 3
 def test_the_model_follows_from_a_calibration_file(blender, scene, tmp_path):
     path = tmp_path / "cameras.txt"
     path.write_text(CAMERAS)
-    own, scene.render.resolution_y = scene.camera.data.camera_ray_caster, 72
+    group, scene.render.resolution_y = scene.camera.data.camera_ray_caster, 72
     with pytest.raises(RuntimeError, match="set Camera in File to one of 1, 2"):
         blender.ops.camera_ray_caster.load_calibration(filepath=str(path))
-    assert (own.model, own.calibration_file) == ("BLENDER", "")
+    assert (group.model, group.calibration_file) == ("BLENDER", "")
     for name, model in (("2", "OPENCV_FISHEYE"), ("1", "OPENCV_PINHOLE")):
         blender.ops.camera_ray_caster.load_calibration(filepath=str(path), camera=name)
-        assert own.model == model
+        assert group.model == model
         assert read_camera(scene).model.key == model
     path.write_text("nothing\n")
     with pytest.raises(RuntimeError, match="cameras"):
         blender.ops.camera_ray_caster.load_calibration(filepath=str(path))
-    assert own.model == "OPENCV_PINHOLE"
+    assert group.model == "OPENCV_PINHOLE"
 
 
 def test_what_was_read_is_said(scene, tmp_path):

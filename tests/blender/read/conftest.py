@@ -33,8 +33,8 @@ def sphere(scene):
 @pytest.fixture
 def read_meshes(monkeypatch):
     """The names of the evaluated meshes that are read, in order."""
-    read, found = [], geometry.mesh_shapes
-    monkeypatch.setattr(geometry, "mesh_shapes", lambda mesh, *more: read.append(mesh.name) or found(mesh, *more))
+    read, original = [], geometry.mesh_shapes
+    monkeypatch.setattr(geometry, "mesh_shapes", lambda mesh, *more: read.append(mesh.name) or original(mesh, *more))
     return read
 
 

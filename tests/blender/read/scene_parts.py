@@ -77,16 +77,16 @@ def counts(shapes):
 
 def in_a_render(scene, frames=()):
     """Return what a render's depsgraph gives, the last one of those at some frames."""
-    found = []
+    records = []
 
     class Engine(bpy.types.RenderEngine):
         bl_idname, bl_label = "READ_SHAPES_TEST", "Test"
 
         def render(self, depsgraph):
-            found.append(shapes_record(depsgraph))
+            records.append(shapes_record(depsgraph))
             for frame in frames:
                 self.frame_set(frame, 0.0)
-                found.append(shapes_record(depsgraph))
+                records.append(shapes_record(depsgraph))
 
     scene.camera = scene.camera or new_object("Camera", bpy.data.cameras.new("Camera"))
     scene.render.resolution_x = scene.render.resolution_y = 8
@@ -97,4 +97,4 @@ def in_a_render(scene, frames=()):
     finally:
         scene.render.engine = "CYCLES" if "CYCLES" in dir(scene) else "BLENDER_WORKBENCH"
         bpy.utils.unregister_class(Engine)
-    return found[-1]
+    return records[-1]

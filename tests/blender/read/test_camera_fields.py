@@ -158,7 +158,7 @@ def test_every_setting_is_copied_by_its_name(scene):
 def test_a_record_has_what_its_model_and_its_time_read_and_no_more(scene):
     """Its own settings beside those that every record has."""
     data = scene.camera.data
-    own = data.camera_ray_caster
+    group = data.camera_ray_caster
     every = set(raw(scene).settings)
     for model, settings in (
         ("OMNIMAX", {"tilt"}),
@@ -166,12 +166,12 @@ def test_a_record_has_what_its_model_and_its_time_read_and_no_more(scene):
         ("OMNIDIRECTIONAL_STEREO", {"eye"}),
         ("BLENDER", set()),
     ):
-        own.model = model
+        group.model = model
         assert set(raw(scene).settings) - every == settings
-    own.time_mode = "ROLLING_SHUTTER"
+    group.time_mode = "ROLLING_SHUTTER"
     shutter = {"readout", "motion_blur_shutter", "motion_blur_position", "rolling_shutter_duration"}
     assert set(raw(scene).settings) - every == shutter | {"time_tolerance", "time_evaluations"}
-    data.type, data.panorama_type, own.time_mode = "PANO", "FISHEYE_EQUIDISTANT", "NONE"
+    data.type, data.panorama_type, group.time_mode = "PANO", "FISHEYE_EQUIDISTANT", "NONE"
     assert set(raw(scene).settings) - every == {"fisheye_fov"}
 
 

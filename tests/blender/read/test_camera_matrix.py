@@ -52,8 +52,8 @@ def pixels_of_opencv(camera, points, name, coefficients):
     """OpenCV's pixels of world points, as our pixel coordinates."""
     cv2 = pytest.importorskip("cv2")
     project = cv2.fisheye.projectPoints if name == "OPENCV_FISHEYE" else cv2.projectPoints
-    turn, place = cv2.Rodrigues(camera.opencv_from_world[:3, :3])[0], camera.opencv_from_world[:3, 3]
-    across, down = project(points[:, None], turn, place, camera.K, np.array(coefficients))[0][:, 0].T
+    turn, shift = cv2.Rodrigues(camera.opencv_from_world[:3, :3])[0], camera.opencv_from_world[:3, 3]
+    across, down = project(points[:, None], turn, shift, camera.K, np.array(coefficients))[0][:, 0].T
     return np.stack((across + 0.5, camera.raster.height - 0.5 - down), axis=1)
 
 
@@ -113,5 +113,5 @@ def test_the_world_in_opencvs_frame_is_right_down_ahead(scene):
     matrix = crc.read_camera(scene).opencv_from_world
     right, up, back = np.array(scene.camera.matrix_world)[:3, :3].T
     for point, expected in ((right, (1, 0, 0)), (-up, (0, 1, 0)), (-back, (0, 0, 1)), (0 * up, (0, 0, 0))):
-        place = np.append(np.array(scene.camera.matrix_world)[:3, 3] + 5 * point, 1)
-        np.testing.assert_allclose(matrix @ place, [*(5 * np.array(expected)), 1], atol=1e-5)
+        world_point = np.append(np.array(scene.camera.matrix_world)[:3, 3] + 5 * point, 1)
+        np.testing.assert_allclose(matrix @ world_point, [*(5 * np.array(expected)), 1], atol=1e-5)

@@ -18,7 +18,7 @@ def scene():
 
 
 def test_color_and_indices_come_from_the_first_faces_material(scene):
-    bare, first, second, own = ball("Bare"), ball("First"), ball("Second"), ball("Own")
+    bare, first, second, by_object = ball("Bare"), ball("First"), ball("Second"), ball("Own")
     bare.color = 0.5, 0.25, 0, 1  # the viewport's
     red, green = plain("Red", (1, 0, 0, 1), 1), plain("Green", (0, 1, 0, 0.5), 2)
     for item in (first, second):
@@ -26,9 +26,9 @@ def test_color_and_indices_come_from_the_first_faces_material(scene):
         item.data.materials.append(green)
     for polygon in second.data.polygons:
         polygon.material_index = 1
-    own.data.materials.append(red)
-    own.material_slots[0].link = "OBJECT"
-    own.material_slots[0].material = green
+    by_object.data.materials.append(red)
+    by_object.material_slots[0].link = "OBJECT"
+    by_object.material_slots[0].material = green
     shapes = read_shapes(scene)
     looks = {
         shapes.names[name]: (index, tuple(color))
@@ -151,7 +151,7 @@ def test_lights_are_those_of_the_scene(scene):
     new_object("Off", bpy.data.lights.new("Off", "SUN")).hide_render = True
     shapes = read_shapes(scene)
     lights = shapes.lights
-    columns = (part.tolist() for part in (lights.is_sun, lights.position, lights.color, lights.cone))
+    columns = (column.tolist() for column in (lights.is_sun, lights.position, lights.color, lights.cone))
     rows = sorted(zip(*columns, strict=True))
     edge = np.cos(bpy.data.lights["SPOT"].spot_size / 2)
     assert [(is_sun, color) for is_sun, _, color, _ in rows] == [(False, [4, 2, 1])] * 2 + [
@@ -160,7 +160,7 @@ def test_lights_are_those_of_the_scene(scene):
     assert sorted(cone for *_, cone in rows) == sorted([
         [*AREA], [*EVERYWHERE], [*EVERYWHERE], [edge, (1 - edge) * bpy.data.lights["SPOT"].spot_blend]
     ])  # fmt: skip
-    np.testing.assert_allclose([place for _, place, _, _ in rows], [(1, 2, 3)] * 3 + [(0, -1, 0)], atol=4 * ULP)
+    np.testing.assert_allclose([position for _, position, _, _ in rows], [(1, 2, 3)] * 3 + [(0, -1, 0)], atol=4 * ULP)
     shines = np.where((lights.cone == EVERYWHERE).all(axis=1)[:, None], 0, (0, 1, 0))
     np.testing.assert_allclose(lights.axis, shines, atol=4 * ULP)
     assert not lights.left_out

@@ -45,15 +45,15 @@ def test_neighbors_are_read_only_for_flow_and_the_scene_is_as_it_was(scene, monk
         return read(depsgraph, *has_colors)
 
     monkeypatch.setattr(evaluated, "shapes_record", watched)
-    found = read_scene(scene, passes=("depth",))
+    moving = read_scene(scene, passes=("depth",))
     assert frames == [5]
-    assert found.next is found.previous is None
-    found = read_scene(scene, frame=3.5, passes=("flow_forward",))
+    assert moving.next is moving.previous is None
+    moving = read_scene(scene, frame=3.5, passes=("flow_forward",))
     assert frames[1:] == [3, 4]
-    assert found.previous is None
-    np.testing.assert_array_equal(found.next.camera.pose.eye, read_scene(scene, frame=4.5).camera.pose.eye)
+    assert moving.previous is None
+    np.testing.assert_array_equal(moving.next.camera.pose.eye, read_scene(scene, frame=4.5).camera.pose.eye)
     frames.clear()
-    found = read_scene(scene, passes=("flow_hidden",))
+    moving = read_scene(scene, passes=("flow_hidden",))
     assert sorted(frames) == [4, 5, 6]
     assert scene.frame_current == 5
     with pytest.raises(InputError, match="unknown pass"):

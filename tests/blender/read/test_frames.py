@@ -52,13 +52,13 @@ def test_numbers_of_frames_are_what_was_asked_for(stretched, blender, tmp_path):
     words = [str(tmp_path / "stretched.blend"), "--passes", "position", "--format", "npz", "--annotations", "--output"]
     assert commands.main("cast", [*words, str(tmp_path / "out"), "--cameras", "ALL"], "cast.py") == 0
     assert commands.main("cast", [*words, str(tmp_path / "out"), "--frames", "20:20"], "cast.py") == 0
-    for name, frame, place in (("Camera_0010", 10, 0), ("stretched_0020", 20, 1)):
+    for name, frame, x in (("Camera_0010", 10, 0), ("stretched_0020", 20, 1)):
         report = name.replace("stretched", "report")
         assert json.loads((tmp_path / "out" / f"{report}.json").read_text())["frame"] == frame
         image = json.loads((tmp_path / "out" / f"{name}_coco.json").read_text())["images"][0]
         assert image["frame"] == frame
         with np.load(tmp_path / "out" / f"{name}.npz") as file:
             columns = np.flatnonzero(file["position"][..., 2].any(axis=0))
-        assert columns.mean() + 0.5 == pytest.approx(24 + 4 * place), "the middle of the sphere"
+        assert columns.mean() + 0.5 == pytest.approx(24 + 4 * x), "the middle of the sphere"
     _, paths = exports.write(blender.context.scene, "json", [blender.context.scene.camera], [10, 20], tmp_path / "json")
     assert crc.camera_from_json(paths[0], frame=20).name == "Camera"

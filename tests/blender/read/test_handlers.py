@@ -50,18 +50,18 @@ def test_a_handler_may_read_the_active_camera(scene, handled, name):
 @pytest.mark.parametrize("mode", ["NONE", "ROWS"])
 def test_a_handler_cannot_set_frames_while_another_reading_does(scene, handled, mode):
     scene.camera.data.camera_ray_caster.time_mode = mode
-    told = []
+    errors = []
 
     def read(*_):
         try:
             read_camera(scene, frame=3 if mode == "NONE" else None)
         except InputError as error:
-            told.append(str(error))
+            errors.append(str(error))
 
     handled("frame_change_post", read)
     read_camera(scene, frame=7)
-    assert told
-    assert all("a handler reads a camera while another reading evaluates the scene" in line for line in told)
+    assert errors
+    assert all("a handler reads a camera while another reading evaluates the scene" in line for line in errors)
 
 
 @pytest.mark.parametrize("frame", [1e9, -1e9, float("nan"), float("inf")])
@@ -73,7 +73,7 @@ def test_a_frame_that_blender_does_not_have_is_refused(scene, frame):
 @pytest.mark.parametrize("name", ["frame_change_post", "depsgraph_update_post"])
 @pytest.mark.parametrize("is_other", [False, True])
 def test_a_camera_that_a_handler_deletes_in_a_reading_is_refused_in_one_line(scene, handled, name, is_other):
-    own, other = scene.camera, scene.camera.copy()
+    active, other = scene.camera, scene.camera.copy()
     scene.collection.objects.link(other)
 
     def delete(scene, *_):
@@ -89,4 +89,4 @@ def test_a_camera_that_a_handler_deletes_in_a_reading_is_refused_in_one_line(sce
     with pytest.raises(InputError, match=r"has no active camera|removed what is read|has been removed") as refusal:
         read()
     assert "\n" not in str(refusal.value)
-    assert is_other or is_removed(own)
+    assert is_other or is_removed(active)

@@ -35,15 +35,15 @@ def test_points_with_an_id_are_the_points_of_that_id(scene, kind):
     dot.location.x = 50
 
     def build(new, link, mesh):
-        points, index, time, number, place, named = (
+        points, index, time, number, combined, named = (
             new(f"GeometryNode{name}" if name[0] != "S" or name == "SetID" else f"ShaderNode{name[1:]}")
             for name in ("Points", "InputIndex", "InputSceneTime", "SMath", "SCombineXYZ", "SetID")
         )
         points.inputs["Count"].default_value, points.inputs["Radius"].default_value = 5, 0.3
         link(index.outputs[0], number.inputs[0])
         link(time.outputs["Frame"], number.inputs[1])
-        link(number.outputs[0], place.inputs["X"])
-        link(place.outputs[0], points.inputs["Position"])
+        link(number.outputs[0], combined.inputs["X"])
+        link(combined.outputs[0], points.inputs["Position"])
         link(points.outputs[0], named.inputs[0])
         link(number.outputs[0], named.inputs["ID"])
         if kind == "points":
@@ -85,7 +85,11 @@ def test_particles_are_those_that_blender_numbers(scene):
     def places(frame):
         scene.frame_set(frame)
         system = emitter.evaluated_get(bpy.context.evaluated_depsgraph_get()).particle_systems[0]
-        return {k: tuple(one.location) for k, one in enumerate(system.particles) if one.alive_state == "ALIVE"}
+        return {
+            k: tuple(particle.location)
+            for k, particle in enumerate(system.particles)
+            if particle.alive_state == "ALIVE"
+        }
 
     here, there = places(12), places(13)
     assert len(here) == len(there) > 3
@@ -93,7 +97,7 @@ def test_particles_are_those_that_blender_numbers(scene):
     read = read_scene(scene, frame=12, passes=("flow_forward",))
     away, seen = moves(read), 0
     for center, move in zip(read.shapes.center, away, strict=True):
-        (number,) = [k for k, place in here.items() if np.allclose(place, center, atol=1e-5)] or [None]
+        (number,) = [k for k, location in here.items() if np.allclose(location, center, atol=1e-5)] or [None]
         if number is not None:
             seen += 1
             expected = np.subtract(there.get(number, (np.nan,) * 3), here[number])

@@ -33,9 +33,9 @@ def test_a_collection_instance_holds_what_its_collection_renders(scene):
     ball("In a hidden collection", hidden)
     nest = new_object("Nest", None, outer)
     nest.instance_type, nest.instance_collection, nest.location = "COLLECTION", inner, (1, 0, 0)
-    for place in (10, 20):
+    for x in (10, 20):
         empty = new_object("Empty")
-        empty.instance_type, empty.instance_collection, empty.location = "COLLECTION", outer, (place, 0, 0)
+        empty.instance_type, empty.instance_collection, empty.location = "COLLECTION", outer, (x, 0, 0)
     shapes = read_shapes(scene)
     assert counts(shapes) == counts(in_a_render(scene)) == {"Deep": 2, "Shallow": 2}
     deep = [center for center, index in zip(shapes.center, shapes.name_index, strict=True)

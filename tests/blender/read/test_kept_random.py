@@ -63,11 +63,11 @@ def materials(chance):
 def modifiers(chance):
     item = meshes(chance)
     if item.modifiers and chance.random() < 0.6:
-        one = chance.choice(list(item.modifiers))
+        modifier = chance.choice(list(item.modifiers))
         if chance.random() < 0.5:
-            item.modifiers.remove(one)
+            item.modifiers.remove(modifier)
         else:
-            one.show_viewport = not one.show_viewport
+            modifier.show_viewport = not modifier.show_viewport
     else:
         item.modifiers.new("Modifier", chance.choice(("BEVEL", "ARRAY", "MIRROR", "SOLIDIFY")))
 
@@ -82,8 +82,8 @@ def duplicate(chance):
 
 
 def swap(chance):
-    one, other = meshes(chance), meshes(chance)
-    one.data = other.data
+    item, other = meshes(chance), meshes(chance)
+    item.data = other.data
 
 
 def remove(chance):

@@ -197,9 +197,9 @@ def test_instances_of_all_kinds(scene):
     cube = bpy.data.meshes.new("Cube")
     cube.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)])
     new_object("Inside", cube, collection)
-    for place in (10, 20):
+    for offset in (10, 20):
         empty = new_object("Empty")
-        empty.instance_type, empty.instance_collection, empty.location = "COLLECTION", collection, (place, 0, 0)
+        empty.instance_type, empty.instance_collection, empty.location = "COLLECTION", collection, (offset, 0, 0)
     points = new_object("Points", mesh_of((30, 0, 0), (31, 0, 0)))
     points.instance_type = "VERTS"
     new_object("Child", cube).parent = points

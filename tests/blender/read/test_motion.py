@@ -133,14 +133,14 @@ def test_a_fan_of_whole_turns_a_frame_is_resolved(blender, scene):
     fan(blender, 3)
     settings = scene.camera.data.camera_ray_caster
     settings.time_start, settings.time_end = 7.0, 7.5
-    camera, found = read_camera(scene), walked(scene)
+    camera, images = read_camera(scene), walked(scene)
     assert not camera.motion.unresolved
     assert len(camera.motion.states) > 6
     x, y, frame = coordinates()
     angle = 2 * np.pi * 3 * (7 + (frame - 1) / 48)
     along, across = x * np.cos(angle) + y * np.sin(angle), y * np.cos(angle) - x * np.sin(angle)
     edge = np.maximum(np.abs(along) - 2.5, np.abs(across) - 0.4)
-    same(found["shape_index"] == 0, edge <= 0, np.abs(edge) < 0.05)  # the tolerance: a tenth of a pixel, doubled
+    same(images["shape_index"] == 0, edge <= 0, np.abs(edge) < 0.05)  # the tolerance: a tenth of a pixel, doubled
 
 
 def test_a_time_image_whose_file_is_missing_is_named_with_its_path(blender, tmp_path):

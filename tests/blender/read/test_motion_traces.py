@@ -44,12 +44,12 @@ def test_the_frame_is_put_back(blender, scene, sphere, subframe, monkeypatch):
 
     key(sphere, "location", (1, -3.0), (25, 3.0), index=0)
     scene.frame_set(7, subframe=subframe)
-    place = sphere.matrix_world.copy()
+    matrix = sphere.matrix_world.copy()
     walked(scene)
     assert (scene.frame_current, scene.frame_subframe) == (7, subframe)
     blender.ops.render.render()
     assert (scene.frame_current, scene.frame_subframe) == (7, subframe)
-    assert sphere.matrix_world == place
+    assert sphere.matrix_world == matrix
 
     def fail(*_):
         raise InputError("this frame cannot be read")
@@ -64,7 +64,7 @@ def test_the_frame_is_put_back(blender, scene, sphere, subframe, monkeypatch):
     with pytest.raises(RuntimeError, match="cannot be read"):
         blender.ops.camera_ray_caster.cast()
     assert (scene.frame_current, scene.frame_subframe) == (7, subframe)
-    assert sphere.matrix_world == place
+    assert sphere.matrix_world == matrix
 
 
 def test_markers_that_bind_cameras_neither_change_the_eye_nor_stay(blender, scene, sphere):

@@ -73,11 +73,11 @@ def test_the_lens_of_a_clip_becomes_the_cameras(distortion, terms, key, blender,
         scale = FOCAL / 16  # of the longer side's half
         r = (x * x + y * y) * scale**2
         pixel = (x, y)
-        x, y = (one / (1 + terms["k1"] * r + terms["k2"] * r * r) for one in pixel)
+        x, y = (value / (1 + terms["k1"] * r + terms["k2"] * r * r) for value in pixel)
     else:
         pixel = bent(distortion, x, y, **terms)
     direction = camera.pose.basis @ (x, y, -1.0)
-    expected = [center + FOCAL * one for center, one in zip(CENTER, pixel, strict=True)]
+    expected = [center + FOCAL * value for center, value in zip(CENTER, pixel, strict=True)]
     np.testing.assert_allclose(camera.project(camera.pose.eye + direction), expected, rtol=0, atol=2e-5)  # of float32
     camera_scene.active_clip = None
     with pytest.raises(RuntimeError, match="The scene and the camera have no movie clip"):

@@ -36,7 +36,7 @@ def shown():
 
 def names_of(kinds):
     known = (getattr(bpy.types, kind, None) for kind in kinds)
-    return {NAMES.get(one.bl_rna.name, one.bl_rna.name) for one in known if one is not None}
+    return {NAMES.get(item.bl_rna.name, item.bl_rna.name) for item in known if item is not None}
 
 
 def test_the_page_lists_what_is_read():
@@ -67,9 +67,9 @@ def test_every_node_is_read_or_named(surface):
         is_named = any(f"({node.bl_rna.name})" in reason or "missing" in reason for reason in reasons)
         if is_named == (kind in READ or kind in SHADERS) and kind not in {*OTHERWISE, "ShaderNodeTexImage"}:
             unclear.append((kind, reasons))
-        for one in list(made.node_tree.nodes):
-            if one != out:
-                made.node_tree.nodes.remove(one)
+        for old_node in list(made.node_tree.nodes):
+            if old_node != out:
+                made.node_tree.nodes.remove(old_node)
     assert not unclear
 
 
@@ -114,8 +114,8 @@ def test_many_nodes_in_a_row_and_shaders_that_share_their_parts_are_read_in_no_t
     last.inputs["Color"].default_value = 0.5, 0.25, 0.125, 1
     for _ in range(40):
         mix = new("ShaderNodeMixShader")
-        for place in (1, 2):
-            link(last.outputs[0], mix.inputs[place])
+        for number in (1, 2):
+            link(last.outputs[0], mix.inputs[number])
         last = mix
     link(last.outputs[0], out.inputs["Surface"])
     color, left_out = shown()

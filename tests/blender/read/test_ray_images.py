@@ -28,9 +28,9 @@ def written(path, channels, kind="float", compression="zip", tile=0, parts=("",)
     library = openimageio()
     pixels = np.stack(list(channels.values()), axis=2)[::-1].astype(np.float32).copy()
     specs = []
-    for part in parts:
+    for prefix in parts:
         spec = library.ImageSpec(pixels.shape[1], pixels.shape[0], pixels.shape[2], kind)
-        spec.channelnames = tuple(f"{part}{name}" for name in channels)
+        spec.channelnames = tuple(f"{prefix}{name}" for name in channels)
         spec.attribute("compression", compression)
         spec.tile_width = spec.tile_height = tile
         specs.append(spec)
@@ -60,7 +60,7 @@ def test_numbers_are_those_that_openimageio_writes(compression, kind, tmp_path):
         channels = smooth_and_noisy(*shape)
         path = written(tmp_path / "image.exr", channels, kind, compression, tile, parts)
         there = channels_of(path.read_bytes(), str(path))
-        assert set(there) == {f"{part}{name}" for part in parts for name in channels}
+        assert set(there) == {f"{prefix}{name}" for prefix in parts for name in channels}
         for name, values in there.items():
             expected = channels[name.split(".")[-1]].astype("f4" if kind == "float" else "f2")
             np.testing.assert_array_equal(values[::-1], expected)

@@ -29,8 +29,8 @@ def test_objects_that_a_render_evaluates_otherwise_are_named(blender, camera_sce
     camera_scene.camera.hide_viewport = True  # a camera is not seen
     blender.ops.mesh.primitive_cube_add()
     change(blender.context.object)
-    found = evaluated_otherwise(blender.context.evaluated_depsgraph_get())
-    assert found == (("Cube",) if differs else ())
+    names = evaluated_otherwise(blender.context.evaluated_depsgraph_get())
+    assert names == (("Cube",) if differs else ())
 
 
 def test_numbers_of_curves_metaballs_and_simplify_count(blender, camera_scene):

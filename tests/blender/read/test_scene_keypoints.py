@@ -24,8 +24,8 @@ def test_vertex_groups_of_a_joined_mesh_are_told_apart_by_name(theirs_first):
     def joined(new, link, mesh):
         info, join = new("GeometryNodeObjectInfo"), new("GeometryNodeJoinGeometry")
         info.inputs["Object"].default_value = theirs
-        for part in (info.outputs["Geometry"], mesh)[:: -1 if theirs_first else 1]:
-            link(part, join.inputs[0])
+        for geometry in (info.outputs["Geometry"], mesh)[:: -1 if theirs_first else 1]:
+            link(geometry, join.inputs[0])
         return join.outputs[0]
 
     geometry_nodes(ours, joined)

@@ -45,8 +45,8 @@ def test_arguments_by_place_are_read_with_a_warning(scene, sphere, read):
     places = (7,), (np.int64(7),), (None, scene.camera), (7, scene.camera), (scene.camera, 7), (7, scene.camera, "")
     for arguments in places:
         with pytest.warns(DeprecationWarning, match="as keywords: frame="):
-            found = read(scene, *arguments)
-        center = getattr(found, "shapes", found).center
+            result = read(scene, *arguments)
+        center = getattr(result, "shapes", result).center
         frame = None if arguments[0] is None else 7
         np.testing.assert_array_equal(center, read_shapes(scene, frame=frame).center)
     with pytest.raises(InputError, match="7 is not an object"):  # by its name it is no old form: no warning

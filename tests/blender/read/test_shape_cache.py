@@ -46,18 +46,18 @@ def height(shapes, name):
 @pytest.fixture
 def objects(scene, read_meshes):
     """Of every kind; all are read once."""
-    found = {name: cube(name) for name in ("Plain", "Modified", "Shaped")}
-    found["Modified"].modifiers.new("Bevel", "BEVEL")
-    found["Shaped"].shape_key_add()
-    found["Shaped"].shape_key_add().data[0].co.z = 3
+    items = {name: cube(name) for name in ("Plain", "Modified", "Shaped")}
+    items["Modified"].modifiers.new("Bevel", "BEVEL")
+    items["Shaped"].shape_key_add()
+    items["Shaped"].shape_key_add().data[0].co.z = 3
     bpy.ops.object.text_add()
-    found["Text"] = bpy.context.object
+    items["Text"] = bpy.context.object
     bpy.ops.object.metaball_add()
-    found["Ball"] = bpy.context.object
+    items["Ball"] = bpy.context.object
     collection = new_collection("Collection")
-    found["Inside"] = new_object("Inside", cube("Inner").data, collection)
-    found["Empty"] = new_object("Empty")
-    found["Empty"].instance_type, found["Empty"].instance_collection = "COLLECTION", collection
+    items["Inside"] = new_object("Inside", cube("Inner").data, collection)
+    items["Empty"] = new_object("Empty")
+    items["Empty"].instance_type, items["Empty"].instance_collection = "COLLECTION", collection
 
     def scatter(new, link, mesh):
         cone, scattered = new("GeometryNodeMeshCone"), new("GeometryNodeInstanceOnPoints")
@@ -65,12 +65,12 @@ def objects(scene, read_meshes):
         link(cone.outputs[0], scattered.inputs["Instance"])
         return scattered.outputs[0]
 
-    found["Scattered"] = new_object("Scattered", mesh_of((40, 0, 0), (41, 0, 0)))
-    geometry_nodes(found["Scattered"], scatter)
+    items["Scattered"] = new_object("Scattered", mesh_of((40, 0, 0), (41, 0, 0)))
+    geometry_nodes(items["Scattered"], scatter)
     read_shapes(scene)
     assert len(read_meshes) >= 8
     read_meshes.clear()
-    return found
+    return items
 
 
 def test_what_moves_is_not_read_again(scene, objects, read_meshes):

@@ -231,8 +231,8 @@ def test_omnidirectional_stereo_is_the_spherical_stereo_of_cycles(blender, scene
     (data if hasattr(data, "panorama_type") else data.cycles).panorama_type = "EQUIRECTANGULAR"
     data.stereo.use_spherical_stereo, data.stereo.convergence_mode = True, "PARALLEL"
     scene.render.use_multiview = True
-    for one in scene.render.views:
-        one.use, one.file_suffix = one.name == view, ""
+    for render_view in scene.render.views:
+        render_view.use, render_view.file_suffix = render_view.name == view, ""
     position = cycles_surface(scene, "Position", 32.0)
     assert not np.isnan(position).any()
     beside = np.linalg.norm(np.cross(position - rays.origins, rays.directions), axis=-1)

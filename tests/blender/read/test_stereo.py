@@ -79,10 +79,10 @@ def ask_blender(blender, scene):
 @pytest.mark.parametrize("kind", KINDS)
 def test_an_eye_stands_and_looks_as_blender_says(scene, ask_blender, kind, mode, pivot):
     set_up(scene, kind, mode, pivot)
-    found = ask_blender()
+    answers = ask_blender()
     straight = read_camera(scene)
     for view in VIEWS:
-        _, matrix, shift = found[view]
+        _, matrix, shift = answers[view]
         eye = read_camera(scene, view=view)
         # some 16 roundings of Blender's float32, of numbers up to the eye's 6
         assert eye.pose.eye == pytest.approx(matrix[:3, 3], abs=16 * 6 * EPS32)
@@ -176,8 +176,8 @@ def test_cycles_sees_the_same_with_each_eye(scene, kind, mode, pivot, view):
     set_up(scene, kind, mode, pivot)
     camera = read_camera(scene, view=view)
     expected = cast(camera, read_shapes(scene), passes=["position"], dtype=np.float64)["position"]
-    for one in scene.render.views:
-        one.use, one.file_suffix = one.name == view, ""
+    for render_view in scene.render.views:
+        render_view.use, render_view.file_suffix = render_view.name == view, ""
     surface = cycles_surface(scene, "Position", 256.0)
     far = np.linalg.norm(expected - camera.pose.eye, axis=2)
     both = expected.any(axis=2) & ~np.isnan(surface).any(axis=2) & (far < 30)
@@ -196,11 +196,11 @@ def test_multi_view_takes_the_camera_that_the_suffix_names(blender, scene, ask_b
     right.name, right.data.lens, right.location.x = "Rig_R", 20.0, 3.0
     scene.collection.objects.link(right)
     scene.render.views_format = "MULTIVIEW"
-    found = ask_blender()
+    answers = ask_blender()
     for view, item in (("left", left), ("right", right)):
         eye = read_camera(scene, view=view)
-        assert (eye.name, item.name) == (item.name, found[view][0])
-        assert eye.pose.eye == pytest.approx(found[view][1][:3, 3], abs=8 * EPS32)
+        assert (eye.name, item.name) == (item.name, answers[view][0])
+        assert eye.pose.eye == pytest.approx(answers[view][1][:3, 3], abs=8 * EPS32)
         assert verify_camera(scene, view=view)[0].witness == "view_frame"
         assert all(finding.passed for finding in verify_camera(scene, view=view))
     assert scene.camera == left

@@ -133,8 +133,8 @@ def test_reading_an_image_takes_the_memory_that_it_asks_for(tmp_path, monkeypatc
 
 
 def test_images_are_read_where_a_pass_shows_them_or_they_decide_what_is_hit(surface, monkeypatch):
-    read, found = [], texels._read
-    monkeypatch.setattr(texels, "_read", lambda image: read.append(image.name) or found(image))
+    read, original = [], texels._read
+    monkeypatch.setattr(texels, "_read", lambda image: read.append(image.name) or original(image))
     new, link, out, _ = surface
     shader = new("ShaderNodeBsdfPrincipled")
     for name, socket in (("Color", "Base Color"), ("Alpha", "Alpha")):
@@ -171,8 +171,8 @@ def test_images_are_read_where_a_pass_shows_them_or_they_decide_what_is_hit(surf
 
 
 def test_a_painted_image_is_read_again_and_others_once(surface, monkeypatch):
-    read, found = [], texels._read
-    monkeypatch.setattr(texels, "_read", lambda image: read.append(image.name) or found(image))
+    read, original = [], texels._read
+    monkeypatch.setattr(texels, "_read", lambda image: read.append(image.name) or original(image))
     image = new_image()
     image.pack()
     textured(surface, image)

@@ -46,14 +46,14 @@ def test_triangles_and_polygons_are_blenders(scene, levels, triangulated):
     item = monkey(levels)
     if triangulated:
         item.modifiers.new("Triangulate", "TRIANGULATE")
-    found, truth = record(scene), evaluated(item)
-    np.testing.assert_array_equal(found.vertices.T, [vertex.co for vertex in truth.vertices])
-    np.testing.assert_array_equal(found.triangles.T, [triangle.vertices for triangle in truth.loop_triangles])
-    np.testing.assert_array_equal(found.polygon, [triangle.polygon_index for triangle in truth.loop_triangles])
-    np.testing.assert_array_equal(found.loops.T, [triangle.loops for triangle in truth.loop_triangles])
-    for array in (found.vertices, found.triangles, found.loops, found.uv):
+    mesh, truth = record(scene), evaluated(item)
+    np.testing.assert_array_equal(mesh.vertices.T, [vertex.co for vertex in truth.vertices])
+    np.testing.assert_array_equal(mesh.triangles.T, [triangle.vertices for triangle in truth.loop_triangles])
+    np.testing.assert_array_equal(mesh.polygon, [triangle.polygon_index for triangle in truth.loop_triangles])
+    np.testing.assert_array_equal(mesh.loops.T, [triangle.loops for triangle in truth.loop_triangles])
+    for array in (mesh.vertices, mesh.triangles, mesh.loops, mesh.uv):
         assert array.flags.c_contiguous
-    assert (found.triangles.dtype, found.polygon.dtype) == (np.int32, np.int32)
+    assert (mesh.triangles.dtype, mesh.polygon.dtype) == (np.int32, np.int32)
 
 
 @pytest.mark.parametrize("name", ["loop_start", "loop_total", "material_index"])
@@ -157,22 +157,22 @@ def test_normals_are_blenders_at_every_corner(scene, shade, with_uv):
     shade(item)
     if not with_uv:
         item.data.uv_layers.remove(item.data.uv_layers[0])
-    found, truth = record(scene), evaluated(item)
+    mesh, truth = record(scene), evaluated(item)
     normals = by_blender(truth)
     loops = np.array([triangle.loops for triangle in truth.loop_triangles])
-    np.testing.assert_allclose(by_corner(found.normals, found), normals[loops], atol=1e-6)
-    np.testing.assert_allclose(np.linalg.norm(found.normals, axis=1), 1, atol=1e-6)
-    assert (found.uv is None) != with_uv
+    np.testing.assert_allclose(by_corner(mesh.normals, mesh), normals[loops], atol=1e-6)
+    np.testing.assert_allclose(np.linalg.norm(mesh.normals, axis=1), 1, atol=1e-6)
+    assert (mesh.uv is None) != with_uv
 
 
 def test_flat_faces_among_smooth_ones_have_their_own_normal(scene):
     """Blender 5.2's rule, by the faces themselves."""
     item = monkey()
     some_flat(item)
-    found, truth = record(scene), evaluated(item)
-    corners = by_corner(found.normals, found)
-    flat = np.array([not polygon.use_smooth for polygon in truth.polygons])[found.polygon]
-    faces = np.array([polygon.normal for polygon in truth.polygons])[found.polygon]
+    mesh, truth = record(scene), evaluated(item)
+    corners = by_corner(mesh.normals, mesh)
+    flat = np.array([not polygon.use_smooth for polygon in truth.polygons])[mesh.polygon]
+    faces = np.array([polygon.normal for polygon in truth.polygons])[mesh.polygon]
     assert 0 < flat.sum() < len(flat)
     np.testing.assert_allclose(corners[flat], np.repeat(faces[flat][:, None], 3, axis=1), atol=1e-6)
     assert np.abs(corners[~flat] - faces[~flat][:, None]).max() > 0.1
@@ -202,9 +202,9 @@ def test_uv_is_the_map_that_renders_use(scene):
     other.uv.foreach_set("vector", rng.random(2 * len(item.data.loops)).astype(np.float32))
     layers.active = layers[0]
     other.active_render = True
-    found, truth = record(scene), evaluated(item)
+    mesh, truth = record(scene), evaluated(item)
     uv = np.array([tuple(corner.vector) for corner in truth.uv_layers["Other"].uv], np.float32)
-    np.testing.assert_array_equal(found.uv, uv)
+    np.testing.assert_array_equal(mesh.uv, uv)
     layers[0].active_render = True
     assert not np.array_equal(record(scene).uv, uv)
 

@@ -55,6 +55,6 @@ def test_indices_and_annotations_have_them(linked):
     assert sorted(run["object"] for run in indices["shape_index"]) == sorted(NAMES)
     assert sorted(indices["material_index"]["0"]) == ["Fur", "Fur [zoo.blend.001]", "Fur [zoo.blend]"]
     coco = document({"file_name": "a.png"}, Sheet(8, 8), read_camera(linked), shapes, category_of)
-    objects = {entry["object"]: entry["category_id"] for part in ("annotations", "hidden") for entry in coco[part]}
+    objects = {entry["object"]: entry["category_id"] for key in ("annotations", "hidden") for entry in coco[key]}
     names = {category["id"]: category["name"] for category in coco["categories"]}
     assert [names[objects[name]] for name in NAMES] == ["here", "one", "two"]

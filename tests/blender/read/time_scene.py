@@ -15,9 +15,9 @@ def still(scene):
     """The picture that the scene has with one time for all pixels."""
     settings = scene.camera.data.camera_ray_caster
     before, settings.time_mode = settings.time_mode, "NONE"
-    found = walked(scene)
+    images = walked(scene)
     settings.time_mode = before
-    return found
+    return images
 
 
 def walked(scene, **keywords):

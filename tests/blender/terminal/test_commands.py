@@ -29,9 +29,9 @@ def test_cast_leaves_its_three_files(cast, tmp_path):
 def test_no_option_is_one_that_cycles_reads_before_any_script():
     """In Blender its add-on takes the beginning of an option of its own for that option, and ends Blender."""
     folder = ROOT / "addon" / "camera_ray_caster" / "blender" / "terminal"
-    found = [name for file in folder.glob("*.py") for name in re.findall(r'"(--[a-z][a-z-]*)"', file.read_text())]
-    assert len(found) > 20
-    assert not [name for name in found for own in ("--cycles-device", "--cycles-print-stats") if own.startswith(name)]
+    names = [name for file in folder.glob("*.py") for name in re.findall(r'"(--[a-z][a-z-]*)"', file.read_text())]
+    assert len(names) > 20
+    assert not [name for name in names for word in ("--cycles-device", "--cycles-print-stats") if word.startswith(name)]
 
 
 def test_bad_input_is_status_2(cast, tmp_path):

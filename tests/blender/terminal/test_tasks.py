@@ -113,5 +113,7 @@ def test_workers_scale_until_the_scheduler_is_busy(monkeypatch):
     assert rates[100] > 80 * rates[1]
     assert rates[400] < 300 * rates[1]
     assert rates[400] > 0.7 * 4000
-    told = re.findall(r"^\| (\d+) \| (\d+) \| \d+ % \|$", PAGE.read_text(), re.MULTILINE)
-    assert [(int(workers), int(rate)) for workers, rate in told] == [(one, round(rate)) for one, rate in rates.items()]
+    stated = re.findall(r"^\| (\d+) \| (\d+) \| \d+ % \|$", PAGE.read_text(), re.MULTILINE)
+    assert [(int(workers), int(rate)) for workers, rate in stated] == [
+        (count, round(rate)) for count, rate in rates.items()
+    ]

@@ -32,7 +32,11 @@ def test_a_window_offers_the_cameras_of_a_file(blender, camera_scene, tmp_path):
     menu = SimpleNamespace(layout=Drawn())
     draw_cameras(str(path), names, True, menu, None)
     assert menu.layout.operator_context == "EXEC_DEFAULT", "or the file would be asked for again"
-    assert [(one.text, one.filepath, one.camera) for one in entries] == [(name, str(path), name) for name in names]
-    for one in entries:
-        assert blender.ops.camera_ray_caster.load_calibration(filepath=one.filepath, camera=one.camera) == {"FINISHED"}
-        assert data.camera_ray_caster.calibration_camera == one.camera
+    assert [(entry.text, entry.filepath, entry.camera) for entry in entries] == [
+        (name, str(path), name) for name in names
+    ]
+    for entry in entries:
+        assert blender.ops.camera_ray_caster.load_calibration(filepath=entry.filepath, camera=entry.camera) == {
+            "FINISHED"
+        }
+        assert data.camera_ray_caster.calibration_camera == entry.camera

@@ -23,15 +23,15 @@ def cameras(blender, camera_scene):
 
 def test_each_camera_is_listed_with_its_model(blender, cameras, monkeypatch):
     assert SidebarCameras.poll(blender.context)
-    said = drawn(blender, SidebarCameras)
+    texts = drawn(blender, SidebarCameras)
     for text in ("All around: Equirectangular", "Dome: Omnimax", "Plain: Perspective"):
-        assert text in said
+        assert text in texts
     blender.data.objects.remove(blender.data.objects["Plain"])
     blender.data.objects.remove(blender.data.objects["All around"])
     monkeypatch.setattr(in_process, "_ended", [])
     assert not SidebarCameras.poll(blender.context), "one camera needs no list"
-    for said, shown in (("Wrote /some folder/a_json/camera.json", "Wrote camera.json"), (r"Wrote C:\all\a", "Wrote a")):
-        monkeypatch.setattr(in_process, "_ended", [said])
+    for line, shown in (("Wrote /some folder/a_json/camera.json", "Wrote camera.json"), (r"Wrote C:\all\a", "Wrote a")):
+        monkeypatch.setattr(in_process, "_ended", [line])
         assert shown in drawn(blender, SidebarCameras)
     monkeypatch.setattr(in_process, "_ended", ["Stopped"])
     assert SidebarCameras.poll(blender.context), "but the result of its run"

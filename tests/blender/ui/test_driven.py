@@ -38,25 +38,25 @@ def value_of(group, name):
 def test_what_is_a_number_is_keyed_and_follows_the_frame_and_nothing_else_can_be(blender, scene, kind):
     ball = next(item for item in scene.objects if item.type == "MESH")
     owner, settings = {"camera": (scene.camera.data, CAMERA), "object": (ball, OBJECT), "scene": (scene, SCENE)}[kind]
-    own = owner.camera_ray_caster
+    stored = owner.camera_ray_caster
     wanted = {}
     for setting in settings:
-        found = own.bl_rna.properties[setting.name]
-        assert found.is_animatable is (setting.kind in NUMBERS), setting.name
+        declared = stored.bl_rna.properties[setting.name]
+        assert declared.is_animatable is (setting.kind in NUMBERS), setting.name
         if setting.kind not in NUMBERS:
             with pytest.raises(TypeError, match="not animatable"):
-                own.keyframe_insert(setting.name)
+                stored.keyframe_insert(setting.name)
             continue
-        first = value_of(own, setting.name)
-        own.keyframe_insert(setting.name, frame=1)
-        setattr(own, setting.name, other_value(setting))
-        own.keyframe_insert(setting.name, frame=2)
-        wanted[setting.name] = first, value_of(own, setting.name)
+        first = value_of(stored, setting.name)
+        stored.keyframe_insert(setting.name, frame=1)
+        setattr(stored, setting.name, other_value(setting))
+        stored.keyframe_insert(setting.name, frame=2)
+        wanted[setting.name] = first, value_of(stored, setting.name)
     for frame in (1, 2):
         scene.frame_set(frame)
         evaluated = owner.evaluated_get(blender.context.evaluated_depsgraph_get()).camera_ray_caster
         for name, values in wanted.items():
-            for group in (own, evaluated):
+            for group in (stored, evaluated):
                 assert value_of(group, name) == values[frame - 1], name
     assert len(wanted) == sum(setting.kind in NUMBERS for setting in settings)
 

@@ -68,26 +68,26 @@ def test_the_nearest_lens_is_written_and_its_error_said_last(blender, rig_scene,
     settings = rig_scene.camera.data.camera_ray_caster
     settings.model, settings.fx, settings.fy, settings.cx, settings.cy = "DOUBLE_SPHERE", 11, 11, 11.5, 8.5
     settings.calibration_width, settings.calibration_height = 24, 18
-    given = {"filepath": str(tmp_path), "format": "opencv"}
+    options = {"filepath": str(tmp_path), "format": "opencv"}
     with pytest.raises(RuntimeError, match=r"cannot represent the Double Sphere .*, or Fit Nearest Lens"):
-        blender.ops.camera_ray_caster.export(**given)
-    blender.ops.camera_ray_caster.export(**given, fit=True, fit_within=1.0, in_process=True, frames="RANGE")
+        blender.ops.camera_ray_caster.export(**options)
+    blender.ops.camera_ray_caster.export(**options, fit=True, fit_within=1.0, in_process=True, frames="RANGE")
     while in_process.tick() is not None:
         sleep(0.05)
-    said = r"First: fitted to its Double Sphere, within 57.3 degrees of the viewing direction: .* mean [\d.e-]+ pixels"
+    words = r"First: fitted to its Double Sphere, within 57.3 degrees of the viewing direction: .* mean [\d.e-]+ pixels"
     wrote, *remarks = in_process.latest().splitlines()
     assert wrote.startswith("Wrote ")
-    (error,) = [line for line in remarks if re.match(said, line)]
+    (error,) = [line for line in remarks if re.match(words, line)]
     assert error in next(tmp_path.glob("First*.yml")).read_text()
 
 
 def test_only_formats_of_lenses_offer_the_nearest_one(blender):
     offered = {}
-    for one in EXPORT_FORMATS:
+    for export in EXPORT_FORMATS:
         layout = Layout()
-        operator = type("Operator", (), {"layout": layout, "format": one.key, "fit": False})
+        operator = type("Operator", (), {"layout": layout, "format": export.key, "fit": False})
         export_operators.Export.draw(operator, blender.context)
-        offered[one.key] = {"fit", "fit_within"} <= set(layout.said)
+        offered[export.key] = {"fit", "fit_within"} <= set(layout.said)
     assert not any(offered[key] for key in ("tum", "kitti", "euroc", "stmap", "npz", "json"))
     assert all(offered[key] for key in ("opencv", "ros", "colmap", "nerfstudio", "kalibr", "mrcal"))
 
@@ -96,7 +96,7 @@ def test_every_format_can_be_chosen_and_says_what_it_is(blender):
     properties = blender.ops.camera_ray_caster.export.get_rna_type().properties
     items = properties["format"].enum_items
     assert [(item.identifier, item.name, item.description) for item in items] == [
-        (one.key, one.label, one.description) for one in EXPORT_FORMATS
+        (export.key, export.label, export.description) for export in EXPORT_FORMATS
     ]
     assert export_operators._draw_in_file_menu in blender.types.TOPBAR_MT_file_export._dyn_ui_initialize()
 

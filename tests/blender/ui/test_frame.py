@@ -68,21 +68,21 @@ def test_the_tick_box_of_the_menu_counts_where_the_operator_is_not_told(blender,
 
 
 def test_a_calibration_file_sets_its_frame_or_is_refused(blender, camera_scene, render, tmp_path):
-    path, own = tmp_path / "cameras.txt", camera_scene.camera.data.camera_ray_caster
+    path, group = tmp_path / "cameras.txt", camera_scene.camera.data.camera_ray_caster
     path.write_text("1 PINHOLE 1241 376 700 700 620 188\n")
     load = blender.ops.camera_ray_caster.load_calibration
     with pytest.raises(RuntimeError, match="1920 × 1080 pixels, and its calibrated pictures have 1241 × 376"):
         load(filepath=str(path), set_frame=False)
-    assert (own.model, own.calibration_file, size(render)) == ("BLENDER", "", (1920, 1080))
+    assert (group.model, group.calibration_file, size(render)) == ("BLENDER", "", (1920, 1080))
     assert load(filepath=str(path)) == {"FINISHED"}
-    assert (own.model, size(render)) == ("OPENCV_PINHOLE", (1241, 376))
+    assert (group.model, size(render)) == ("OPENCV_PINHOLE", (1241, 376))
 
 
 def test_a_camera_in_file_is_not_remembered(blender, camera_scene, render, tmp_path):
-    path, own = tmp_path / "cameras.txt", camera_scene.camera.data.camera_ray_caster
+    path, group = tmp_path / "cameras.txt", camera_scene.camera.data.camera_ray_caster
     path.write_text("1 PINHOLE 192 108 70 70 96 54\n7 PINHOLE 192 108 80 80 96 54\n")
     load = blender.ops.camera_ray_caster.load_calibration
     load(filepath=str(path), camera="7")
     path.write_text("1 PINHOLE 192 108 70 70 96 54\n")
     assert load(filepath=str(path)) == {"FINISHED"}
-    assert own.calibration_camera == ""
+    assert group.calibration_camera == ""

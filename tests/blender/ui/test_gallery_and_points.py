@@ -104,9 +104,9 @@ def test_slit_scan_and_time_displacement_are_called_so_and_a_button_makes_a_grad
     assert [labels[key] for key in ("ROWS", "COLUMNS", "IMAGE")] == [
         "Slit Scan, Rows", "Slit Scan, Columns", "Time Displacement",
     ]  # fmt: skip
-    ops, own = blender.ops.camera_ray_caster, scene.camera.data.camera_ray_caster
+    ops, group = blender.ops.camera_ray_caster, scene.camera.data.camera_ray_caster
     ops.choose_type(key="IMAGE")
-    own.time_start, own.time_end = 1, 5
+    group.time_start, group.time_end = 1, 5
     assert ops.add_gradient() == {"FINISHED"}
     blender.context.view_layer.update()
     times = read_camera(scene).rays().time
@@ -130,10 +130,10 @@ def test_an_example_is_opened_as_a_new_file(blender):
 
 def test_the_3d_cursor_has_a_pixel_and_its_ray_hits_what_hides_it(blender, scene, capfd):
     scene.cursor.location = (0.5, 0.25, 0.0)  # within the ball
-    place = read_camera(scene).project(np.array(scene.cursor.location))
+    pixel = read_camera(scene).project(np.array(scene.cursor.location))
     assert blender.ops.camera_ray_caster.pixel_of_point() == {"FINISHED"}
-    assert f"x = {place[0]:.3f}, y = {place[1]:.3f}, from the bottom left; hidden by 'Sphere'" in capfd.readouterr().out
-    assert pixel_lessons.clicked.pixels == [tuple(place.astype(int))]
+    assert f"x = {pixel[0]:.3f}, y = {pixel[1]:.3f}, from the bottom left; hidden by 'Sphere'" in capfd.readouterr().out
+    assert pixel_lessons.clicked.pixels == [tuple(pixel.astype(int))]
     assert blender.ops.camera_ray_caster.empty_at_hit() == {"FINISHED"}
     empty = next(item for item in blender.data.objects if item.type == "EMPTY")
     blender.context.view_layer.update()
@@ -158,6 +158,6 @@ def test_a_selected_vertex_has_a_pixel(blender, scene):
     blender.ops.camera_ray_caster.pixel_of_point()
     blender.ops.object.mode_set(mode="OBJECT")
     vertex = ball.data.vertices[chosen]  # those of before are gone
-    place = read_camera(scene).project(np.array(ball.matrix_world @ vertex.co))
-    assert abs(place % 1 - 0.5).max() < 0.45
-    assert pixel_lessons.clicked.pixels == [tuple(place.astype(int))]
+    pixel = read_camera(scene).project(np.array(ball.matrix_world @ vertex.co))
+    assert abs(pixel % 1 - 0.5).max() < 0.45
+    assert pixel_lessons.clicked.pixels == [tuple(pixel.astype(int))]

@@ -28,7 +28,7 @@ def test_a_lecture_writes_one_step_large_and_keys_stay_within_the_steps(blender,
     assert seen == [0, 1, 2, len(explained.screens) - 1, len(explained.screens) - 2]
     blender.ops.camera_ray_caster.choose_type(key="PERSP")
     assert lecture_state.step == 0, "another model begins with its formula"
-    note = lambda view, lines, place, size, corner: written.append((lines, size))  # noqa: E731
+    note = lambda view, lines, left, size, corner: written.append((lines, size))  # noqa: E731
     monkeypatch.setattr(lecture.text, "write", note)
     monkeypatch.setattr(lecture.text, "wrapped", lambda context, line, width, size: [line])
     monkeypatch.setattr(lecture.text, "uncovered", lambda context: (0, 900))

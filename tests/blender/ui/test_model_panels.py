@@ -135,14 +135,14 @@ def test_the_settings_of_the_chosen_model_are_shown_in_order(blender, data):
 
 
 def test_glass_is_offered_to_models_with_an_eye_and_its_settings_appear_when_it_is_chosen(blender, data):
-    own, context = data.camera_ray_caster, type("Context", (), {"camera": data})
+    group, context = data.camera_ray_caster, type("Context", (), {"camera": data})
     assert drawn(blender, PortPanel, data) == (("port",), ())
-    own.port = "DOME"
+    group.port = "DOME"
     names, _ = drawn(blender, PortPanel, data)
     assert " ".join(names) == "port port_radius port_decenter port_thickness port_glass port_medium port_inside"
-    own.model = "PUSHBROOM"
+    group.model = "PUSHBROOM"
     assert not PortPanel.poll(context)
-    data.type, own.model = "PERSP", "BLENDER"
+    data.type, group.model = "PERSP", "BLENDER"
     assert PortPanel.poll(context)
 
 
@@ -181,15 +181,15 @@ def test_with_our_engine_the_lens_panel_has_what_blenders_shows_for_cycles_only(
 
 
 def test_what_the_model_does_not_read_of_the_lens_is_gray(blender, data):
-    own, ours = data.camera_ray_caster, "CAMERA_RAY_CASTER"
-    own.model = "OMNIMAX"
+    group, ours = data.camera_ray_caster, "CAMERA_RAY_CASTER"
+    group.model = "OMNIMAX"
     assert drawn(blender, LensPanel, data, ours) == (
         ("shift_x", "shift_y", "clip_start", "clip_end"),
         ("type", "lens", "lens_unit"),
     )
-    own.model = "GENERAL_LINEAR"
+    group.model = "GENERAL_LINEAR"
     assert drawn(blender, LensPanel, data, ours)[1][-2:] == ("shift_x", "shift_y")
-    own.model = "PUSHBROOM"
+    group.model = "PUSHBROOM"
     assert drawn(blender, LensPanel, data, ours)[1] == ("type",)
     assert drawn(blender, ModelPanel, data, ours)[0] == ("slit_1",)
 

@@ -82,8 +82,8 @@ def test_every_note_is_in_the_popover_with_its_buttons(blender, scene):
     blender.context.view_layer.update()
     text = drawn(blender, CameraNotes)
     assert len(notes(blender.context)) == 3
-    for said in ("set_frame", "use_this_engine", "use_in_cycles", "No blur", "samples"):
-        assert said in text
+    for word in ("set_frame", "use_this_engine", "use_in_cycles", "No blur", "samples"):
+        assert word in text
 
 
 def test_of_two_missing_slits_each_is_added_by_the_same_button(blender, scene):
@@ -112,18 +112,18 @@ def test_operators_on_rays_are_gray_without_slits(blender, scene, monkeypatch):
 
 def test_the_times_of_a_slit_scan_go_with_the_timeline(blender, scene):
     scene.render.engine, scene.frame_end = "CAMERA_RAY_CASTER", 9
-    follow, own = blender.ops.camera_ray_caster.follow_timeline, scene.camera.data.camera_ray_caster
+    follow, group = blender.ops.camera_ray_caster.follow_timeline, scene.camera.data.camera_ray_caster
     assert not follow.poll()
     still(scene, scene.camera.data)
     scene.frame_set(4)
-    own.time_start, own.time_end = 3.1, 25
+    group.time_start, group.time_end = 3.1, 25
     assert follow() == {"FINISHED"}
-    start = own.time_start
+    start = group.time_start
     blender.context.view_layer.update()
-    assert (own.time_start, own.time_end) == (start, 25), "the current frame is as it was"
+    assert (group.time_start, group.time_end) == (start, 25), "the current frame is as it was"
     scene.frame_set(6)
-    assert own.time_start == pytest.approx(5.1, abs=1e-6)
-    assert own.time_end == 27
+    assert group.time_start == pytest.approx(5.1, abs=1e-6)
+    assert group.time_end == 27
     assert not notes(blender.context)
 
 

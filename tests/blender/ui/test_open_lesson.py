@@ -99,8 +99,8 @@ def test_a_browser_shows_the_same_ray(asked, fisheye, blender, tmp_path):
     assert shown["pixel"] == f"x = {PIXEL[0] + 0.5}, y = {PIXEL[1] + 0.5}"
     camera = crc.read_camera(fisheye)
     _, direction = camera.model.rays(PIXEL[0] + 0.5, PIXEL[1] + 0.5)
-    numbers, said = shown["direction r"].replace("−", "-").removeprefix("(").split(")")
-    assert said.strip() == "of unit length"
-    found = [float(number) for number in numbers.split(",")]
-    np.testing.assert_allclose(found, [float(part) for part in direction], rtol=0, atol=ROUNDING)
+    numbers, remark = shown["direction r"].replace("−", "-").removeprefix("(").split(")")
+    assert remark.strip() == "of unit length"
+    shown_direction = [float(number) for number in numbers.split(",")]
+    np.testing.assert_allclose(shown_direction, [float(number) for number in direction], rtol=0, atol=ROUNDING)
     assert "OpenCV Fisheye" in done.stdout

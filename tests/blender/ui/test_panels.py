@@ -51,15 +51,15 @@ def test_the_panels_say_what_the_camera_is_and_why_it_is_none(blender, scene):
     eye, copy = "Eye X 0 m Y 0 m Z 6 m", "camera_ray_caster.copy_k"
     for text in (eye, "24 × 16 px", "39.6°", "Distance d", "2.77778", "K", copy):
         assert text in labels
-    own = scene.camera.data.camera_ray_caster
-    own.model = "PUSHBROOM"
+    group = scene.camera.data.camera_ray_caster
+    group.model = "PUSHBROOM"
     settings = drawn(blender, camera_panels.SidebarSettings).split()
     assert {"ortho_scale", "lens", "shift_x", "time_mode"} <= set(settings)  # there is no lens panel there
     assert "slit_1" not in settings, "a missing object is drawn once"
     assert "slit_1" in drawn(blender, camera_panels.SidebarCamera)
     blender.ops.camera_ray_caster.add_line(setting="slit_1")
     assert "slit_1" in drawn(blender, camera_panels.SidebarSettings)
-    own.model = "BLENDER"
+    group.model = "BLENDER"
     blender.ops.camera_ray_caster.cast()
     for panel in (*sidebar, camera_panels.SidebarSettings, *popovers):
         drawn(blender, panel)
@@ -99,10 +99,10 @@ def test_the_panels_say_how_right_the_hits_are(blender, scene):
     from camera_ray_caster.blender.ui import cast_panels, render_panels
 
     blender.ops.camera_ray_caster.cast()
-    found = reports.latest().accuracy
-    assert found.hits > 0
+    accuracy = reports.latest().accuracy
+    assert accuracy.hits > 0
     assert 0 < reports.latest().seconds["accuracy"] < sum(reports.latest().seconds.values())
-    median, worst = (f"≤ {getattr(found, name)('relative_distance'):.0e}" for name in ("median", "worst"))
+    median, worst = (f"≤ {getattr(accuracy, name)('relative_distance'):.0e}" for name in ("median", "worst"))
     assert f"Median {median} Worst {worst}" in drawn(blender, cast_panels.CastReport)
     assert " s: 384 rays, 1 shape" in drawn(blender, cast_panels.SidebarCast)
     assert f"Worst distance error: {worst}" in drawn(blender, render_panels.RenderPanel)
@@ -176,8 +176,8 @@ def test_results_are_shown_in_their_own_scene_only(blender, scene, how):
 
     def shown():
         panels = left_out_panels.LeftOut, cast_panels.CastReport
-        said = (cast_panels.SidebarCast, render_panels.RenderPanel, verify_panels.SidebarVerify)
-        texts = " ".join(drawn(blender, panel) for panel in said)
+        all_panels = (cast_panels.SidebarCast, render_panels.RenderPanel, verify_panels.SidebarVerify)
+        texts = " ".join(drawn(blender, panel) for panel in all_panels)
         ops = blender.ops.camera_ray_caster.select, blender.ops.camera_ray_caster.write_report
         return [
             *(panel.poll(blender.context) for panel in panels),
@@ -253,14 +253,14 @@ def test_what_rounds_to_zero_has_no_sign(blender, scene):
 
     scene.camera.rotation_euler = (-1e-6, 1e-6, 1e-6)
     scene.camera.location.x = -1e-9
-    said = drawn(blender, SidebarFacts).split()
-    assert "-0.0000" not in said
-    assert "-0" not in said
-    assert "0.0000" in said
+    words = drawn(blender, SidebarFacts).split()
+    assert "-0.0000" not in words
+    assert "-0" not in words
+    assert "0.0000" in words
     small = (-1e-6, 1e-6, -1.0)
-    found = Probe((0, 0), view=small[:2], origin=small, direction=small, distance=math.inf, name="", shape_index=0)
-    assert dict(_lines(blender.context, found))["View"] == "0.0000, 0.0000"
-    assert dict(_lines(blender.context, found))["Direction"] == "0.0000, 0.0000, -1.0000"
+    probe = Probe((0, 0), view=small[:2], origin=small, direction=small, distance=math.inf, name="", shape_index=0)
+    assert dict(_lines(blender.context, probe))["View"] == "0.0000, 0.0000"
+    assert dict(_lines(blender.context, probe))["Direction"] == "0.0000, 0.0000, -1.0000"
 
 
 def test_rays_in_the_status_bar_have_a_separator(blender, scene, capfd):

@@ -46,17 +46,17 @@ OPENCV = {
 def test_a_preset_projects_as_opencv_does_and_sees_in_every_corner(blender, camera_scene, name):
     cv2 = pytest.importorskip("cv2")
     run(blender, camera_scene.camera.data, name)
-    own, render = camera_scene.camera.data.camera_ray_caster, camera_scene.render
-    width, height = render.resolution_x, render.resolution_y = own.calibration_width, own.calibration_height
+    group, render = camera_scene.camera.data.camera_ray_caster, camera_scene.render
+    width, height = render.resolution_x, render.resolution_y = group.calibration_width, group.calibration_height
     render.resolution_percentage = 10  # rays are cast at a tenth of the size
     blender.context.view_layer.update()
     assert read_camera(camera_scene).rays().valid.all()
     render.resolution_percentage = 100
     blender.context.view_layer.update()
     points = np.array([[[0.3, -0.2, 2.0], [-1.0, 0.5, 3.0]]])  # OpenCV: y down, z ahead
-    matrix = np.array([[own.fx, own.skew, own.cx], [0, own.fy, own.cy], [0, 0, 1]])
+    matrix = np.array([[group.fx, group.skew, group.cx], [0, group.fy, group.cy], [0, 0, 1]])
     project = cv2.projectPoints if OPENCV[name] == PINHOLE else cv2.fisheye.projectPoints
-    lens = np.array([getattr(own, key) for key in OPENCV[name]])
+    lens = np.array([getattr(group, key) for key in OPENCV[name]])
     expected = project(points, np.zeros(3), np.zeros(3), matrix, lens)[0].reshape(-1, 2)
     pixels = read_camera(camera_scene).project(points[0] * (1, -1, -1))
     assert np.abs(pixels - (expected + 0.5) * (1, -1) - (0, height)).max() < 1e-9 * width
@@ -66,8 +66,8 @@ def test_a_preset_projects_as_opencv_does_and_sees_in_every_corner(blender, came
 def test_a_camera_of_project_aria_is_as_wide_as_its_documentation_says(blender, camera_scene, name, degrees):
     """Up to a twentieth: there the angle is nominal, and devices differ."""
     run(blender, camera_scene.camera.data, name)
-    own, render = camera_scene.camera.data.camera_ray_caster, camera_scene.render
-    render.resolution_x, render.resolution_y = own.calibration_width, own.calibration_height
+    group, render = camera_scene.camera.data.camera_ray_caster, camera_scene.render
+    render.resolution_x, render.resolution_y = group.calibration_width, group.calibration_height
     blender.context.view_layer.update()
     rays = read_camera(camera_scene).model.rays(np.array([0.5, render.resolution_x - 0.5]), render.resolution_y / 2)[1]
     left, right = np.transpose(np.broadcast_arrays(*rays))

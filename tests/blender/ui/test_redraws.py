@@ -59,8 +59,8 @@ def test_the_cameras_that_a_window_shows_at_once_are_kept(blender, scene, monkey
 
 
 def test_cameras_with_an_image_of_times_are_not_kept(blender, scene, monkeypatch):
-    own = scene.camera.data.camera_ray_caster
-    own.time_mode, own.time_image = "IMAGE", blender.data.images.new("Times", 8, 8, float_buffer=True, is_data=True)
+    group = scene.camera.data.camera_ray_caster
+    group.time_mode, group.time_image = "IMAGE", blender.data.images.new("Times", 8, 8, float_buffer=True, is_data=True)
     monkeypatch.setattr(evaluated, "_kept_camera", None)
 
     def first_time():
@@ -68,7 +68,7 @@ def test_cameras_with_an_image_of_times_are_not_kept(blender, scene, monkeypatch
         depsgraph = blender.context.evaluated_depsgraph_get()
         return evaluated.camera_or_reason(scene.camera, depsgraph)[1].pixel_time.first
 
-    own.time_image.pixels = [0.0] * 256
+    group.time_image.pixels = [0.0] * 256
     assert first_time() == 1
-    own.time_image.pixels = [1.0] * 256
+    group.time_image.pixels = [1.0] * 256
     assert first_time() == 25

@@ -64,20 +64,20 @@ def test_passes_of_all_widths_are_stored_beside_each_other(blender, scene):
     pass_properties.tick(scene, blender.context.view_layer, keys)
     for _ in range(2):  # into new images, and into these again
         assert blender.ops.camera_ray_caster.cast() == {"FINISHED"}
-        found = {key: pixels_of(blender.data.images[images.image_name(key)]) for key in keys}
+        before = {key: pixels_of(blender.data.images[images.image_name(key)]) for key in keys}
         for key in keys:
             pass_properties.tick(scene, blender.context.view_layer, [key])
             blender.ops.camera_ray_caster.cast()
-            assert np.array_equal(pixels_of(blender.data.images[images.image_name(key)]), found[key], equal_nan=True)
+            assert np.array_equal(pixels_of(blender.data.images[images.image_name(key)]), before[key], equal_nan=True)
         pass_properties.tick(scene, blender.context.view_layer, keys)
-    assert not found["flow_forward"][..., 2].any()
-    assert (found["normal"][..., 3] == 1).all()
+    assert not before["flow_forward"][..., 2].any()
+    assert (before["normal"][..., 3] == 1).all()
 
 
 def test_an_image_of_the_same_name_that_is_somebody_elses_is_left_alone(blender, scene):
-    own = blender.data.images.new("Ray Caster combined", 3, 2)
+    other = blender.data.images.new("Ray Caster combined", 3, 2)
     blender.ops.camera_ray_caster.cast()
-    assert tuple(own.size) == (3, 2)
+    assert tuple(other.size) == (3, 2)
     assert tuple(blender.data.images["Ray Caster combined.001"].size) == (WIDTH, HEIGHT)
 
 
@@ -85,11 +85,11 @@ def test_a_result_is_shown_in_colors(blender, scene):
     pass_properties.tick(scene, blender.context.view_layer, ["combined", "depth", "distance", "distance_bound"])
     blender.ops.camera_ray_caster.cast()
     assert list(images.results().values()) == ["combined", "depth", "distance", "distance_bound"]
-    image, said = images.show_in_colors(images.image_name("depth"))
+    image, legend = images.show_in_colors(images.image_name("depth"))
     shown = pixels_of(image)
     depth = pixels_of(blender.data.images[images.image_name("depth")])[..., 0]
     near = np.unravel_index(depth.argmin(), depth.shape)
-    assert said == f"white to dark: {depth.min():.4g} to {depth[depth < 1e9].max():.4g}"
+    assert legend == f"white to dark: {depth.min():.4g} to {depth[depth < 1e9].max():.4g}"
     assert shown[near][0] == 1
     assert not shown[depth > 1e9][:, :3].any()
     scene.camera.location.z += 1
@@ -109,13 +109,13 @@ def test_the_steps_of_pixels_are_copied_and_forgotten(blender, scene):
 
     assert not blender.ops.camera_ray_caster.copy_steps.poll()
     pixel_lessons.clicked.choose([(12, 8), (0, 0), (24, 0)])  # the last one is outside of the frame
-    found = pixel_lessons.lessons(blender.context)
-    assert list(found) == [(12, 8), (0, 0)]
-    assert found[12, 8].seen.name == "Sphere"
+    lessons = pixel_lessons.lessons(blender.context)
+    assert list(lessons) == [(12, 8), (0, 0)]
+    assert lessons[12, 8].seen.name == "Sphere"
     assert blender.ops.camera_ray_caster.copy_steps() == {"FINISHED"}
     blender.data.objects["Sphere"].location.z = -3
     blender.context.view_layer.update()
-    assert pixel_lessons.lessons(blender.context)[12, 8].seen.distance > found[12, 8].seen.distance + 2.9
+    assert pixel_lessons.lessons(blender.context)[12, 8].seen.distance > lessons[12, 8].seen.distance + 2.9
     assert SidebarLesson.is_registered
     assert blender.ops.camera_ray_caster.clear_steps() == {"FINISHED"}
     assert pixel_lessons.lessons(blender.context) == {}
@@ -127,8 +127,8 @@ def test_the_color_of_a_clicked_pixel_follows_the_settings_of_the_picture(blende
     for settings.shading, settings.samples in (("MATERIAL", 1), ("GRID", 1), ("GRID", 4)):
         blender.ops.camera_ray_caster.cast()
         picture = pixels_of(blender.data.images[images.image_name("combined")])
-        told = pixel_lessons.lessons(blender.context)[12, 8].color
-        assert told == pytest.approx(picture.reshape(HEIGHT, WIDTH, 4)[8, 12], rel=1e-6)  # float32
+        lesson_color = pixel_lessons.lessons(blender.context)[12, 8].color
+        assert lesson_color == pytest.approx(picture.reshape(HEIGHT, WIDTH, 4)[8, 12], rel=1e-6)  # float32
     settings.samples = pixel_lessons.MOST_SAMPLES + 1
     assert pixel_lessons.lessons(blender.context)[12, 8].color is None
     pixel_lessons.forget()
@@ -139,10 +139,10 @@ def test_a_pixel_that_shows_nothing_has_a_mark_on_its_ray(blender, scene):
     hit, missed = (pixel_lessons.lesson(camera, shapes, *pixel) for pixel in ((WIDTH // 2, HEIGHT // 2), (0, 0)))
     assert hit.point is not None
     assert missed.point is None
-    for one in hit, missed:
-        parts = pixel_lessons._parts(camera, one, 1.0)
+    for lesson in hit, missed:
+        parts = pixel_lessons._parts(camera, lesson, 1.0)
         (mark,) = (points for kind, points, _, width in parts if kind == "POINT" and width == pixel_lessons.POINT)
-        assert camera.project(np.array(mark))[0] == pytest.approx(np.array(one.seen.pixel) + 0.5, abs=1e-3)
+        assert camera.project(np.array(mark))[0] == pytest.approx(np.array(lesson.seen.pixel) + 0.5, abs=1e-3)
 
 
 def test_step_through_waits_once_and_its_hint_goes_where_it_was_shown(blender, scene):
@@ -215,21 +215,21 @@ def test_step_through_gives_every_window_its_cursor_back(blender, scene, monkeyp
 
 
 def test_the_sliders_move_the_latest_pixel_and_its_ray(blender, scene):
-    place = blender.context.window_manager.camera_ray_caster_place
+    chosen = blender.context.window_manager.camera_ray_caster_place
     pixel_lessons.clicked.choose([(1, 1), (12, 8)])
-    assert (place.column, place.row) == (12, 8)
-    assert (place.x, place.y) == pytest.approx((2 * 12.5 / WIDTH - 1, 2 * 8.5 / HEIGHT - 1))
+    assert (chosen.column, chosen.row) == (12, 8)
+    assert (chosen.x, chosen.y) == pytest.approx((2 * 12.5 / WIDTH - 1, 2 * 8.5 / HEIGHT - 1))
     before = pixel_lessons.lessons(blender.context)[12, 8].seen
-    place.x = -0.99
+    chosen.x = -0.99
     assert pixel_lessons.clicked.pixels == [(1, 1), (0, 8)]
-    place.column = 900
-    place.y = 1.0
+    chosen.column = 900
+    chosen.y = 1.0
     assert pixel_lessons.clicked.pixels == [(1, 1), (WIDTH - 1, HEIGHT - 1)]
     after = pixel_lessons.lessons(blender.context)[WIDTH - 1, HEIGHT - 1].seen
-    assert after.view == pytest.approx((place.x, place.y))
+    assert after.view == pytest.approx((chosen.x, chosen.y))
     assert after.direction[0] > before.direction[0]
     pixel_lessons.forget()
-    assert (place.column, place.row) == (0, 0)
+    assert (chosen.column, chosen.row) == (0, 0)
 
 
 @pytest.mark.parametrize(

@@ -130,14 +130,14 @@ def test_the_engine_is_undone_and_redone(blender, scene):
 def test_a_slit_that_is_deleted_is_offered_again(blender, scene):
     camera, ops = scene.camera, blender.ops
     camera.data.camera_ray_caster.model = "PUSHBROOM"
-    assert [one.name for one in missing(blender.context, camera)] == ["slit_1"]
+    assert [setting.name for setting in missing(blender.context, camera)] == ["slit_1"]
     ops.camera_ray_caster.add_line(setting="slit_1")
     assert missing(blender.context, camera) == []
     first = camera.data.camera_ray_caster.slit_1
     with blender.context.temp_override(selected_objects=[first]):
         ops.object.delete()
     blender.context.view_layer.update()
-    assert [one.name for one in missing(blender.context, camera)] == ["slit_1"]
+    assert [setting.name for setting in missing(blender.context, camera)] == ["slit_1"]
     ops.camera_ray_caster.add_line(setting="slit_1")
     assert missing(blender.context, camera) == []
     assert camera.data.camera_ray_caster.slit_1 != first
@@ -147,13 +147,13 @@ def test_a_view_that_cannot_be_cast_says_once_why_with_the_labels_of_the_panels(
     scene.camera.data.camera_ray_caster.model, scene.render.engine = "PUSHBROOM", "CAMERA_RAY_CASTER"
     blender.context.view_layer.update()
     space = SimpleNamespace(shading=SimpleNamespace(type="RENDERED"), overlay=SimpleNamespace(show_overlays=True))
-    own = {name: getattr(blender.context, name) for name in ("scene", "view_layer", "evaluated_depsgraph_get")}
+    fields = {name: getattr(blender.context, name) for name in ("scene", "view_layer", "evaluated_depsgraph_get")}
     space.local_view, seen = None, SimpleNamespace(view_perspective="CAMERA")
     monkeypatch.setattr(notice, "is_live", lambda space: True)
     monkeypatch.setattr(notice.live, "sentences", lambda context: iter(["A cast is shown: the slit is not set"]))
-    (said,) = notice._sentences(SimpleNamespace(space_data=space, region_data=seen, **own))
-    assert "Slit" in said
-    assert "slit_1" not in said
+    (sentence,) = notice._sentences(SimpleNamespace(space_data=space, region_data=seen, **fields))
+    assert "Slit" in sentence
+    assert "slit_1" not in sentence
 
 
 def test_a_slit_that_the_sidebar_adds_is_selected_to_be_moved(blender, scene):

@@ -53,9 +53,9 @@ def test_cast_casts_every_view_of_a_stereo_scene(blender, scene, kind):
     pass_properties.tick(scene, blender.context.view_layer, ["depth", "position"])
     assert blender.ops.camera_ray_caster.cast() == {"FINISHED"}
     for view in ("left", "right"):
-        found = pixels_of(blender.data.images[image_datablocks.image_name("position", view)])[..., :3]
+        shown = pixels_of(blender.data.images[image_datablocks.image_name("position", view)])[..., :3]
         expected = cast(read_camera(scene, view=view), read_shapes(scene), passes=["position"])["position"]
-        assert np.array_equal(found, expected)
+        assert np.array_equal(shown, expected)
         assert expected.any()
     left, right = (pixels_of(blender.data.images[f"Ray Caster depth {view}"]) for view in ("left", "right"))
     assert not np.array_equal(left, right)
@@ -145,10 +145,10 @@ def test_left_out_is_one_line_that_counts():
     assert reports.left_out_line(()) == ""
     assert reports.left_out_line((("Hair", "a reason"), ("Hair", "another"))) == "1 object left out: Hair"
     many = [(f"Object number {i}", "a reason") for i in range(300)]
-    said = reports.left_out_line(many)
-    assert said.startswith("300 objects left out: Object number 0, ")
-    assert said.endswith(" ...")
-    assert len(said) < 100
+    line = reports.left_out_line(many)
+    assert line.startswith("300 objects left out: Object number 0, ")
+    assert line.endswith(" ...")
+    assert len(line) < 100
 
 
 def test_without_a_camera_the_buttons_are_gray(blender):

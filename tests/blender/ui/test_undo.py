@@ -128,20 +128,20 @@ def state():
     lenses = {}
     for data in bpy.data.cameras:
         group, moves = data.camera_ray_caster, data.animation_data
-        lenses[data.name] = {one.name: getattr(group, one.name) for one in CAMERA if one.kind in PLAIN}
+        lenses[data.name] = {setting.name: getattr(group, setting.name) for setting in CAMERA if setting.kind in PLAIN}
         lenses[data.name] |= {"drivers": len(moves.drivers) if moves else 0, "lens": data.lens}
         lenses[data.name] |= {"keyed": moves is not None and moves.action is not None}
         lenses[data.name] |= {"type": (data.type, data.panorama_type), "slit": group.slit_1 and group.slit_1.name}
     render = scene.render
     frame = render.engine, render.resolution_x, render.resolution_y, scene.camera.name
-    named = [sorted(one.name for one in kind) for kind in (bpy.data.texts, bpy.data.meshes, bpy.data.objects)]
-    images = sorted(one.name for one in bpy.data.images)
+    named = [sorted(item.name for item in kind) for kind in (bpy.data.texts, bpy.data.meshes, bpy.data.objects)]
+    images = sorted(image.name for image in bpy.data.images)
     return objects, lenses, frame, named, images, layer.objects.active and layer.objects.active.name
 
 
 def test_every_operator_with_undo_is_called_here():
-    names = {one.bl_idname.rpartition(".")[2] for one in CLASSES
-             if issubclass(one, bpy.types.Operator) and "UNDO" in one.bl_options}  # fmt: skip
+    names = {operator.bl_idname.rpartition(".")[2] for operator in CLASSES
+             if issubclass(operator, bpy.types.Operator) and "UNDO" in operator.bl_options}  # fmt: skip
     assert names == CALLS.keys() | IN_A_VIEW
 
 

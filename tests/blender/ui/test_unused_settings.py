@@ -13,25 +13,25 @@ from .test_model_panels import drawn
 
 def test_settings_without_effect_are_not_shown(blender):
     data = blender.data.cameras.new("Camera")
-    own = data.camera_ray_caster
-    own.model = "SCANNER"
+    group = data.camera_ray_caster
+    group.model = "SCANNER"
     beside_device = ("calibration_file", "scanner_device", "scanner_rate", "scanner_start")
     custom, _ = drawn(blender, ModelPanel, data)
     assert set(custom) > {*beside_device, "scanner_elevations", "scanner_low", "scanner_columns"}
-    own.scanner_elevations = " "
+    group.scanner_elevations = " "
     assert drawn(blender, ModelPanel, data)[0] == custom, "as without a text"
-    own.scanner_elevations, own.scanner_period = "-10 10", 50.0
+    group.scanner_elevations, group.scanner_period = "-10 10", 50.0
     assert set(custom) - set(drawn(blender, ModelPanel, data)[0]) == {"scanner_low", "scanner_high", "scanner_columns"}
-    own.scanner_device = "OS1_64"
+    group.scanner_device = "OS1_64"
     assert drawn(blender, ModelPanel, data)[0] == beside_device
-    own.calibration_file = "beams.json"
+    group.calibration_file = "beams.json"
     assert drawn(blender, ModelPanel, data)[0] == (
         "calibration_file", "calibration_camera", "scanner_rate", "scanner_start",
     )  # fmt: skip
-    own.model = "OMNIMAX"
+    group.model = "OMNIMAX"
     assert drawn(blender, ModelPanel, data)[0] == ("tilt",), "it reads no file"
     blender.context.scene.camera = blender.data.objects.new("Camera", data)
-    own.model, data.sensor_fit = "CROSS_SLIT", "VERTICAL"
+    group.model, data.sensor_fit = "CROSS_SLIT", "VERTICAL"
     shown = drawn(blender, SidebarSettings, data)[0]
     assert "sensor_height" in shown
     assert "sensor_width" not in shown

@@ -33,23 +33,23 @@ def test_a_number_is_carried_or_refused_in_one_line(scene, name, value):
         setattr(camera, name, (value,) * 3)
     else:
         setattr(camera.data, name, value)
-    said = ""
+    refusal = ""
     try:
         rays = read_camera(scene).rays()
     except InputError as error:
-        said = str(error)
+        refusal = str(error)
     else:
         assert np.isfinite(rays.directions).all()
         assert all(finding.passed for finding in verify_camera(scene))
-    assert "\n" not in said
+    assert "\n" not in refusal
 
 
 @pytest.mark.parametrize("scale", [1e-38, 1e-20, 1e20])
 def test_a_scale_that_blender_cannot_invert_is_not_compared_by_the_function_that_inverts_it(scene, scale):
     scene.camera.scale = (scale,) * 3
     report = verified(scene)
-    said = {finding.witness: finding.not_compared for finding in report.findings}
-    assert said == {FRAME: "", MATRIX: "", VIEW: NOT_CARRIED, "round trip": ""}
+    not_compared = {finding.witness: finding.not_compared for finding in report.findings}
+    assert not_compared == {FRAME: "", MATRIX: "", VIEW: NOT_CARRIED, "round trip": ""}
     assert report.passed
     assert any(VIEW in line and NOT_CARRIED in line for line in as_lines(report))
-    assert [one["not_compared"] for one in as_data(report)["findings"]] == list(said.values())
+    assert [finding["not_compared"] for finding in as_data(report)["findings"]] == list(not_compared.values())

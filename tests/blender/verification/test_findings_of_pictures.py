@@ -9,16 +9,16 @@ from camera_ray_caster.blender.verification import check
 @pytest.fixture
 def verifications(monkeypatch):
     """The cameras that were verified, one entry each time."""
-    found = []
+    verified = []
 
     def verify(camera, answers=None, **options):
-        found.append(camera)
+        verified.append(camera)
         return real(camera, answers, **options)
 
     real = check.verify
     monkeypatch.setattr(check, "verify", verify)
     monkeypatch.setattr(check, "_kept", {})
-    return found
+    return verified
 
 
 def findings_at(scene, frame):
@@ -52,10 +52,10 @@ def test_a_still_camera_is_verified_once_and_again_after_any_change(camera_scene
 def test_cameras_that_take_turns_are_each_verified_once(camera_scene, verifications):
     import bpy
 
-    one = camera_scene.camera
+    first = camera_scene.camera
     bpy.ops.object.camera_add(location=(1, 2, 3))
     other = bpy.context.object
-    for camera in (one, other, one, other):
+    for camera in (first, other, first, other):
         camera_scene.camera = camera
         findings_at(camera_scene, 1)
     assert len(verifications) == 2

@@ -63,13 +63,13 @@ def test_the_text_has_the_rays_of_numpy(drawing, model):
         pytest.fail("it cannot be written in GLSL")
     target = gpu.types.GPUOffScreen(*size, format="RGBA32F")
     draw_map(target, made, (0, 0, *size), lens.raster.size)
-    found = read(target)
+    drawn = read(target)
     x = (np.arange(size[0]) + 0.5) * width / size[0]
     y = (np.arange(size[1]) + 0.5)[:, None] * height / size[1]
     rays = lens.rays_at(x, y)
-    assert ((found[..., 3] > 0.5) != rays.valid).mean() < 0.002  # at the very rim float32 may decide otherwise
-    both = (found[..., 3] > 0.5) & rays.valid
-    directions = found[both][:, :3] / np.linalg.norm(found[both][:, :3], axis=1, keepdims=True)
+    assert ((drawn[..., 3] > 0.5) != rays.valid).mean() < 0.002  # at the very rim float32 may decide otherwise
+    both = (drawn[..., 3] > 0.5) & rays.valid
+    directions = drawn[both][:, :3] / np.linalg.norm(drawn[both][:, :3], axis=1, keepdims=True)
     assert np.abs(directions - rays.directions[both] @ lens.pose.basis).max() < ERROR
 
 
@@ -88,13 +88,13 @@ def test_the_warp_is_that_of_numpy(drawing):
     directions = map_texture(np.where(rays.valid[..., None], local, 0.0).astype(np.float32))
     ground, outside = np.array([0.9, 0.8, 0.7]), np.array([0.1, 0.2, 0.3])
     with target.bind():
-        draw_warp(directions, [map_texture(one) for one in pictures], faces, turn_of(lens).T @ lens.pose.basis,
+        draw_warp(directions, [map_texture(picture) for picture in pictures], faces, turn_of(lens).T @ lens.pose.basis,
                   (ground, outside), (8, 0, 64, 64), False)  # fmt: skip
-    found, expected = read(target)[..., :3], resampled(lens, faces, pictures)
+    drawn, expected = read(target)[..., :3], resampled(lens, faces, pictures)
     inner = rays.valid.copy()
     inner[:, :8] = False
     for shift in ((1, 0), (-1, 0), (0, 1), (0, -1)):  # beyond the rim there is nothing to be interpolated
         inner &= np.roll(rays.valid, shift, axis=(0, 1))
-    assert np.abs(found - expected[..., :3])[inner].max() < 2e-3  # the four places differ where the map is curved
-    assert found[:, 8:][~rays.valid[:, 8:]] == pytest.approx(np.tile(ground, (np.sum(~rays.valid[:, 8:]), 1)), abs=1e-6)
-    assert found[:, :8] == pytest.approx(np.tile(outside, (64, 8, 1)), abs=1e-6)
+    assert np.abs(drawn - expected[..., :3])[inner].max() < 2e-3  # the four places differ where the map is curved
+    assert drawn[:, 8:][~rays.valid[:, 8:]] == pytest.approx(np.tile(ground, (np.sum(~rays.valid[:, 8:]), 1)), abs=1e-6)
+    assert drawn[:, :8] == pytest.approx(np.tile(outside, (64, 8, 1)), abs=1e-6)

@@ -60,13 +60,13 @@ def test_the_notice_is_wrapped_and_stays_in_the_view(left, right, interface, mon
     monkeypatch.setattr(notice, "bpy", SimpleNamespace(context=interface))
     monkeypatch.setattr(notice, "_sentences", lambda context: iter([SENTENCE]))
     monkeypatch.setattr(text, "uncovered", lambda context: (left, right))
-    monkeypatch.setattr(text, "write", lambda context, lines, place: written.append((lines, place)))
+    monkeypatch.setattr(text, "write", lambda context, lines, corner_of: written.append((lines, corner_of)))
     notice.draw()
-    ((lines, place),) = written
+    ((lines, corner_of),) = written
     assert " ".join(line for _, line in lines) == SENTENCE
     blf.size(0, text.SIZE)
     width = max(blf.dimensions(0, line)[0] for _, line in lines)
-    assert left + text.SIZE <= place(width, 20)[0] <= right - width - text.SIZE  # the ground's margin
+    assert left + text.SIZE <= corner_of(width, 20)[0] <= right - width - text.SIZE  # the ground's margin
 
 
 @pytest.mark.parametrize(("mouse", "side"), [(40, "right"), (700, "left"), (400, "edge")])
@@ -79,11 +79,11 @@ def test_the_text_at_the_mouse_is_of_the_ray_alone_and_in_the_view(mouse, side, 
     monkeypatch.setattr(mouse_gizmo, "cached_scene", lambda context: scene)
     monkeypatch.setattr(mouse_gizmo, "picture_frame", lambda context: (0, 0, 800, 600))
     monkeypatch.setattr(text, "uncovered", lambda context: (40, 800))
-    monkeypatch.setattr(text, "write", lambda context, lines, place: written.append((lines, place)))
+    monkeypatch.setattr(text, "write", lambda context, lines, corner_of: written.append((lines, corner_of)))
     mouse_gizmo.RayUnderMouse.draw(SimpleNamespace(mouse=(mouse, 300)), context)
-    ((lines, place),) = written
+    ((lines, corner_of),) = written
     assert [name for name, _ in lines] == ["Pixel", "View", "Direction", "Hit"]
-    left, margin = place(width, 60)[0], mouse_gizmo.TEXT_DISTANCE
+    left, margin = corner_of(width, 60)[0], mouse_gizmo.TEXT_DISTANCE
     assert left == {"right": mouse + 2 * margin, "left": mouse - 2 * margin - width, "edge": 40 + margin}[side]
 
 
@@ -103,10 +103,10 @@ def test_the_notice_is_in_views_that_show_rays(perspective, shading, local_view,
         ),
         region_data=SimpleNamespace(view_perspective=perspective), view_layer=None,
     )  # fmt: skip
-    own = f"{SENTENCE}, in a view that is read on"
-    monkeypatch.setattr(notice.other_times, "sentences", lambda scene, layer: iter([own]))
+    sentence = f"{SENTENCE}, in a view that is read on"
+    monkeypatch.setattr(notice.other_times, "sentences", lambda scene, layer: iter([sentence]))
     monkeypatch.setattr(notice, "cached_scene", lambda context: SimpleNamespace(differences=(SENTENCE,), reason=""))
-    said, overlaid = list(notice._sentences(context)), show and show_overlays
+    sentences, overlaid = list(notice._sentences(context)), show and show_overlays
     is_cast = (shading, perspective) == ("RENDERED", "CAMERA")
-    assert ((own in said), (SENTENCE in said)) == (is_cast, overlaid and not is_cast)
-    assert (notice.LOCAL_VIEW in said) == (local_view is not None and (overlaid or shading == "RENDERED"))
+    assert ((sentence in sentences), (SENTENCE in sentences)) == (is_cast, overlaid and not is_cast)
+    assert (notice.LOCAL_VIEW in sentences) == (local_view is not None and (overlaid or shading == "RENDERED"))

@@ -15,7 +15,7 @@ MIDDLE, RADIUS = np.array([3.0, -1.0, 2.0]), 0.75
 def hits(origin, direction):
     """Whether a ray meets the ball, in exact arithmetic."""
     to = [Fraction(m) - Fraction(o) for m, o in zip(MIDDLE.tolist(), origin.tolist(), strict=True)]
-    d = [Fraction(part) for part in direction.tolist()]
+    d = [Fraction(number) for number in direction.tolist()]
     b, a, c = (sum(x * y for x, y in zip(*pair, strict=True)) for pair in ((to, d), (d, d), (to, to)))
     c -= Fraction(RADIUS) ** 2
     return c <= 0 or (b >= 0 and b * b >= a * c)

@@ -35,7 +35,7 @@ def bundles(monkeypatch):
     """The bundles of casts, in order, of any number of rays and pairs."""
     made, make = [], body_search.bundle_of
     monkeypatch.setattr(body_search, "BUNDLED", 1e-9)
-    monkeypatch.setattr(body_search, "bundle_of", lambda *given: made.append(make(*given)) or made[-1])
+    monkeypatch.setattr(body_search, "bundle_of", lambda *arguments: made.append(make(*arguments)) or made[-1])
     return made
 
 

@@ -16,7 +16,7 @@ BOUND = {"distance": "distance_bound", "position": "position_bound", "normal": "
 
 def scene():
     """A ball, a squeezed ball, a floor and a bumpy mesh of 1,800 triangles."""
-    x, y = (part.ravel() for part in np.meshgrid(np.linspace(-3, 3, 31), np.linspace(-3, 3, 31)))
+    x, y = (grid.ravel() for grid in np.meshgrid(np.linspace(-3, 3, 31), np.linspace(-3, 3, 31)))
     heights = 0.3 * np.sin(3 * x) * np.cos(2 * y) - 1
     corner = (np.arange(30)[:, None] * 31 + np.arange(30)).ravel()
     faces = np.concatenate([[corner, corner + 1, corner + 32], [corner, corner + 32, corner + 31]], axis=1).T
@@ -162,8 +162,8 @@ def test_a_segment_is_open_at_both_ends():
     ]  # fmt: skip
     random = np.random.default_rng(4)
     camera = crc.camera("PERSP", (60, 40), pose=crc.look_at((4.0, -5.0, 3.0), (0.0, 0.0, 0.0)), lens=35.0)
-    place = crc.cast(camera, shapes, passes=("position", "shape_index"), dtype=np.float64)
-    points = place["position"][place["shape_index"] >= 0]
+    images = crc.cast(camera, shapes, passes=("position", "shape_index"), dtype=np.float64)
+    points = images["position"][images["shape_index"] >= 0]
     assert not crc.occluded(camera.pose.eye, points, shapes).any()  # each is what its pixel sees
     behind = points + 1e-6 * (points - camera.pose.eye)
     assert crc.occluded(camera.pose.eye, behind, shapes).all()
@@ -182,8 +182,8 @@ def test_each_ray_meets_the_shapes_at_its_own_time():
     shapes = replace(Falling().shapes_at(0.0), motion=Falling())
     times = np.array([0.0, 2.0, 2.0, 0.5])
     origin = np.array([[0.0, 0, 0], [0, 0, 0], [0, -2, 0], [0, -0.5, 0]])
-    found = crc.cast_rays(origin, [0.0, 0, -1], shapes, passes=("distance",), times=times)["distance"]
-    np.testing.assert_allclose(found, [4.0, math.inf, 4.0, 4.0], rtol=1e-15)
+    distances = crc.cast_rays(origin, [0.0, 0, -1], shapes, passes=("distance",), times=times)["distance"]
+    np.testing.assert_allclose(distances, [4.0, math.inf, 4.0, 4.0], rtol=1e-15)
     every = crc.cast_rays(origin, [0.0, 0, -1], shapes, passes=("distance",), times=times, all_hits=True)
     assert every["count"].tolist() == [2, 0, 2, 2]
     np.testing.assert_allclose(every["distance"], [4.0, 6.0] * 3, rtol=1e-15)

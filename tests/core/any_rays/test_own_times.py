@@ -12,7 +12,7 @@ from camera_ray_caster.core.motion.evaluations import resolve
 PASSES = "depth", "position", "normal", "uv", "shape_index", "face_index", "position_bound", "normal_bound"
 CORNER = (np.arange(6)[:, None] * 7 + np.arange(6)).ravel()
 FACES = np.stack((CORNER, CORNER + 1, CORNER + 8, CORNER + 7), axis=1)
-X, Y = (part.ravel() for part in np.meshgrid(np.linspace(-1, 1, 7), np.linspace(-1, 1, 7)))
+X, Y = (grid.ravel() for grid in np.meshgrid(np.linspace(-1, 1, 7), np.linspace(-1, 1, 7)))
 BUMPY = crc.mesh(np.stack((X, Y, 0.2 * np.sin(4 * X + Y)), axis=1), FACES, name="bumpy")
 LEVEL = crc.mesh(np.stack((X, Y, 0 * X), axis=1), FACES, name="level")
 
@@ -84,17 +84,17 @@ def test_each_ray_meets_what_moves_as_a_cast_at_its_time_does(name):
     assert set(apart.rows[: 3 if name == "spheres and planes" else 1].tolist()) <= set(hits["shape_index"].tolist())
     for time in np.unique(times).tolist():
         some, then = times == time, motion.shapes_at(time)
-        expected = crc.cast_rays(*(part[some] for part in rays), then, passes=PASSES)
+        expected = crc.cast_rays(*(array[some] for array in rays), then, passes=PASSES)
         for each, image in expected.items():
             np.testing.assert_array_equal(hits[each][some], image, err_msg=f"{each} at {time}")
-        expected, own = (
-            crc.cast_rays(*(part[some] for part in rays), then, passes=PASSES, all_hits=True),
+        expected, of_time = (
+            crc.cast_rays(*(array[some] for array in rays), then, passes=PASSES, all_hits=True),
             some[every["ray"]],
         )
-        np.testing.assert_array_equal(np.flatnonzero(some)[expected["ray"]], every["ray"][own])
+        np.testing.assert_array_equal(np.flatnonzero(some)[expected["ray"]], every["ray"][of_time])
         np.testing.assert_array_equal(every["count"][some], expected["count"])
         for each in PASSES:
-            np.testing.assert_array_equal(every[each][own], expected[each], err_msg=f"{each} of all hits at {time}")
+            np.testing.assert_array_equal(every[each][of_time], expected[each], err_msg=f"{each} of all hits at {time}")
         np.testing.assert_array_equal(hidden[some], crc.occluded(origin[some], towards[some], then))
 
 

@@ -116,8 +116,8 @@ def test_a_moving_wall_is_bent():
 @pytest.mark.parametrize("mode", ["SWEEP", "COLUMNS", "ROWS"])
 def test_where_nothing_moves_a_picture_with_times_is_cast_once(mode):
     """To the same bits; ``moments`` would make a plan for each column."""
-    given = {} if mode == "SWEEP" else {"time_start": 1.0, "time_end": 9.0}
-    camera = crc.camera("SCANNER", (90, 16), scanner_device="VLP_16", time_mode=mode, **given)
+    times = {} if mode == "SWEEP" else {"time_start": 1.0, "time_end": 9.0}
+    camera = crc.camera("SCANNER", (90, 16), scanner_device="VLP_16", time_mode=mode, **times)
     shapes = shapes_at(1.0)
     motion = resolve(lambda frame: (camera, shapes), 1.0, 9.0, 0.1, 16)
     assert motion.is_still
@@ -178,8 +178,8 @@ def test_few_rays_without_a_tree_hit_what_many_hit_with_it():
     t, body = many.nearest(origin, direction, 0.0, np.inf)
     assert 20 < np.count_nonzero(body >= 0) < 180
     for ray in range(200):
-        found = few.nearest(origin[:, [ray]], direction[:, [ray]], 0.0, np.inf)
-        assert (found[0].tolist(), found[1].tolist()) == ([t[ray]], [body[ray]])
+        hit = few.nearest(origin[:, [ray]], direction[:, [ray]], 0.0, np.inf)
+        assert (hit[0].tolist(), hit[1].tolist()) == ([t[ray]], [body[ray]])
 
 
 def test_a_sweep_is_written_into_the_images_of_an_earlier_cast(sweep):

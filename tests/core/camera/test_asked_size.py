@@ -58,13 +58,13 @@ def test_a_calibrated_picture_has_its_own_size():
     lens = WIDE | {"calibration_width": 1241, "calibration_height": 376}
     size = asked_size(raw_of("OPENCV_PINHOLE", lens))
     assert (size.width, size.height) == (1241, 376)
-    for given in (
+    for others in (
         {"resolution_x": 1241, "resolution_y": 376, "resolution_percentage": 37},
         {"calibration_width": 0},
         {"calibration_unit": "MILLIMETERS"},
         {"pixel_aspect_y": 2.0},
     ):
-        assert asked_size(raw_of("OPENCV_PINHOLE", lens | given)) is None
+        assert asked_size(raw_of("OPENCV_PINHOLE", lens | others)) is None
 
 
 def test_a_file_has_the_size_of_its_pictures(tmp_path):

@@ -136,11 +136,11 @@ def test_many_scattered_pixels_and_points_are_those_of_their_parts(key):
     rays = cam.rays_at(x, y)
     points = rays.origins + 7 * rays.directions
     pixels = cam.project(points)
-    for part in (np.s_[0, :100], np.s_[1, 39_950:40_050], np.s_[2, -100:]):
-        alone = cam.rays_at(x[part], y[part])
+    for window in (np.s_[0, :100], np.s_[1, 39_950:40_050], np.s_[2, -100:]):
+        alone = cam.rays_at(x[window], y[window])
         for name in ("origins", "directions", "valid"):
-            np.testing.assert_array_equal(getattr(alone, name), getattr(rays, name)[part])
-        np.testing.assert_array_equal(cam.project(points[part]), pixels[part])
+            np.testing.assert_array_equal(getattr(alone, name), getattr(rays, name)[window])
+        np.testing.assert_array_equal(cam.project(points[window]), pixels[window])
     assert not rays.valid[1, 40_000]
 
 
@@ -190,7 +190,7 @@ def test_the_rays_of_a_picture_are_within_their_bounds(key):
             assert (exact is not None) == rays.valid[at][k]
             if exact is not None:
                 size = truth.norm(exact.direction)
-                assert off(rays.directions[at][k], [part / size for part in exact.direction]) <= turned[k]
+                assert off(rays.directions[at][k], [number / size for number in exact.direction]) <= turned[k]
                 assert off(rays.origins[at][k], exact.origin) <= moved[k]
 
 

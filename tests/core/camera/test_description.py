@@ -140,12 +140,12 @@ def test_settings_of_a_file_stay_when_one_is_changed(tmp_path):
 
 
 def test_what_cannot_be_changed_is_refused_in_one_line():
-    for settings, said in {
+    for settings, message in {
         ("foo", 1): "unknown setting",
         ("lens", 3.0): "no effect unless",
         ("fx", -1.0): "fx",
     }.items():
-        with pytest.raises(crc.InputError, match=said):
+        with pytest.raises(crc.InputError, match=message):
             fisheye().with_settings(**dict([settings]))
 
 

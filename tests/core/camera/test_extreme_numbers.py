@@ -70,7 +70,7 @@ def test_what_float32_does_not_carry_is_refused_by_name(kind, settings, message)
     ("kind", "settings"),
     [
         *(("PERSP", {"matrix_world": placed(scale=scale)}) for scale in (TINY, 1e-20, 1e20, MOST / 4)),
-        *(("PERSP", {"matrix_world": placed(location=place)}) for place in (TINY, HUGE, MOST)),
+        *(("PERSP", {"matrix_world": placed(location=x)}) for x in (TINY, HUGE, MOST)),
         ("PERSP", {"lens": 1e9, "matrix_world": placed()}),
         ("PERSP", {"lens": HUGE}),  # not turned: each coordinate has all its digits
         ("PERSP", {"sensor_width": 1e6}),

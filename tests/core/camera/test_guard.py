@@ -110,9 +110,9 @@ def records(draw, key):
     """A record of a model: some of its settings anywhere in their declared range, the rest as in an example."""
     chosen = dict(draw(st.sampled_from(EXAMPLES[key])))
     raw = raw_of(key, chosen)
-    own = {one.name: one for one in find_model(raw).SETTINGS}
-    for name in draw(st.lists(st.sampled_from(sorted(own)), max_size=3, unique=True)) if own else ():
-        strategy = numbers_of(own[name])
+    declared = {setting.name: setting for setting in find_model(raw).SETTINGS}
+    for name in draw(st.lists(st.sampled_from(sorted(declared)), max_size=3, unique=True)) if declared else ():
+        strategy = numbers_of(declared[name])
         if strategy is not None:
             chosen[name] = draw(strategy)
     chosen["resolution_x"], chosen["resolution_y"] = draw(st.sampled_from(SIZES))
@@ -128,9 +128,11 @@ def drawn(count):
     return test
 
 
-test_a_camera_agrees_with_itself_or_is_refused = pytest.mark.parametrize("key", [one.key for one in MODELS])(drawn(5))
+test_a_camera_agrees_with_itself_or_is_refused = pytest.mark.parametrize("key", [model.key for model in MODELS])(
+    drawn(5)
+)
 test_many_cameras_agree_with_themselves_or_are_refused = pytest.mark.hostile(
-    pytest.mark.parametrize("key", [one.key for one in MODELS])(drawn(100))
+    pytest.mark.parametrize("key", [model.key for model in MODELS])(drawn(100))
 )
 
 
@@ -151,7 +153,7 @@ def check(raw):
         return
     x, y = (np.random.default_rng(3).integers(0, side, 60) + 0.5 for side in cam.raster.size)
     rays = cam.rays_at(x, y)
-    x, y, origins, directions = (part[rays.valid] for part in (x, y, rays.origins, rays.directions))
+    x, y, origins, directions = (array[rays.valid] for array in (x, y, rays.origins, rays.directions))
     size = 1 + np.abs(origins).max(initial=0.0)
     points = origins + directions
     pixels = cam.project(points)

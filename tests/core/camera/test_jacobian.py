@@ -51,7 +51,7 @@ def places(cam, count=2):
 
 def rounding(cam, x, y):
     """By how much rounding moves a pixel, in x and y, pixel by pixel."""
-    return np.transpose([np.broadcast_to(part, x.shape) for part in cam.model.pixel_rounding(x, y)])
+    return np.transpose([np.broadcast_to(array, x.shape) for array in cam.model.pixel_rounding(x, y)])
 
 
 @each_model
@@ -59,16 +59,16 @@ def test_how_rays_change_is_what_sixty_digits_say(key):
     for settings in examples(key):
         cam, raw = camera(key, settings), raw_of(key, settings)
         x, y = places(cam)
-        found, compared = cam.rays_jacobian_at(x, y), 0
+        jacobian, compared = cam.rays_jacobian_at(x, y), 0
         for k, pixel in enumerate(rounding(cam, x, y)):
             exact = derivatives(lambda x, y: unit_ray(raw, x, y), x[k], y[k])  # noqa: B023
             if exact is None:
                 continue
             for axis, (by, second) in enumerate(zip(*exact, strict=True)):
-                for part, own in ((slice(3), found.origins), (slice(3, 6), found.directions)):
-                    off = truth.norm(truth.minus(truth.exact(own[k, :, axis]), by[part]))
-                    size = truth.norm(by) if part.start is None else truth.norm(by[part])
-                    assert off <= ROUNDED * size + moved([one[part] for one in second], pixel) + NOTHING
+                for rows, of_rays in ((slice(3), jacobian.origins), (slice(3, 6), jacobian.directions)):
+                    off = truth.norm(truth.minus(truth.exact(of_rays[k, :, axis]), by[rows]))
+                    size = truth.norm(by) if rows.start is None else truth.norm(by[rows])
+                    assert off <= ROUNDED * size + moved([rows_of[rows] for rows_of in second], pixel) + NOTHING
             compared += 1
         assert compared
 
@@ -82,7 +82,7 @@ def test_how_a_pixel_moves_with_its_point_is_the_inverse_of_how_the_point_moves_
         x, y = places(cam, 1)
         rays = cam.rays_at(x, y)
         points = rays.origins + 10 ** np.random.default_rng(5).uniform(-0.3, 2) * rays.directions
-        seen, found = cam.project(points, jacobian=True)
+        seen, jacobian = cam.project(points, jacobian=True)
         np.testing.assert_array_equal(seen, cam.project(points))
         ray, point = unit_ray(raw, *map(mpf, seen[0])), truth.exact(points[0])
         if ray is None:  # the rim, to rounding
@@ -93,7 +93,7 @@ def test_how_a_pixel_moves_with_its_point_is_the_inverse_of_how_the_point_moves_
             continue
         ways, turns = [*exact[0], ray[3:]], [*exact[1], exact[0]]
         amplified = ROUNDED * (truth.norm(point) + truth.norm(ray[:3])) / t
-        for i, row in enumerate(map(truth.exact, found[0])):
+        for i, row in enumerate(map(truth.exact, jacobian[0])):
             for j, (way, turn) in enumerate(zip(ways, turns, strict=True)):
                 allowed = amplified * truth.norm(way) + moved(turn, rounding(cam, *seen.T)[0])
                 assert abs(truth.dot(row, way) - (i == j)) <= truth.norm(row) * allowed
@@ -109,9 +109,9 @@ def spot(ray, t):
 def test_a_pinhole_s_derivatives_by_hand():
     """18 mm behind a lens of 18 mm: X = (x - 48) / 48, and pixel x of a point is 48 + 48 p_x / depth."""
     cam = camera("PERSP", {"lens": 18.0})
-    pixel, found = cam.project([1.0, -2.0, -4.0], jacobian=True)
+    pixel, jacobian = cam.project([1.0, -2.0, -4.0], jacobian=True)
     assert pixel == pytest.approx((60, 3), rel=4 * EPS)
-    np.testing.assert_allclose(found, [[12, 0, 3], [0, 12, -6]], rtol=8 * EPS)
+    np.testing.assert_allclose(jacobian, [[12, 0, 3], [0, 12, -6]], rtol=8 * EPS)
     slope = 0.25  # of the ray through x = 60, y = 27; its length is L
     length = np.hypot(1, slope)
     by_x, by_y = cam.rays_jacobian_at(60.0, 27.0).directions.T
@@ -143,17 +143,17 @@ def test_a_middle_row_is_no_kink_of_a_measured_lens():
 @each_model
 def test_a_picture_has_the_derivatives_of_its_pixels(key):
     cam = camera(key, EXAMPLES[key][-1])
-    rays, found = cam.rays(), cam.rays_jacobian()
-    x, y = (part.ravel() for part in np.meshgrid(cam.raster.columns(), cam.raster.rows()))
+    rays, change = cam.rays(), cam.rays_jacobian()
+    x, y = (grid.ravel() for grid in np.meshgrid(cam.raster.columns(), cam.raster.rows()))
     alone = cam.rays_jacobian_at(x, y)
-    assert found.directions.shape == found.origins.shape == (*rays.valid.shape, 3, 2)
-    np.testing.assert_array_equal(found.directions.reshape(-1, 3, 2), alone.directions)
-    np.testing.assert_array_equal(found.origins.reshape(-1, 3, 2), alone.origins)
-    np.testing.assert_array_equal(np.isnan(found.directions), np.isnan(rays.directions)[..., None].repeat(2, axis=-1))
+    assert change.directions.shape == change.origins.shape == (*rays.valid.shape, 3, 2)
+    np.testing.assert_array_equal(change.directions.reshape(-1, 3, 2), alone.directions)
+    np.testing.assert_array_equal(change.origins.reshape(-1, 3, 2), alone.origins)
+    np.testing.assert_array_equal(np.isnan(change.directions), np.isnan(rays.directions)[..., None].repeat(2, axis=-1))
     if cam.model.central:
-        assert not found.origins.any()
+        assert not change.origins.any()
     else:
-        np.testing.assert_array_equal(np.isnan(found.origins), np.isnan(found.directions))
+        np.testing.assert_array_equal(np.isnan(change.origins), np.isnan(change.directions))
 
 
 @pytest.mark.parametrize("key", ["EQUIRECTANGULAR", "CROSS_SLIT"])
@@ -163,15 +163,15 @@ def test_a_picture_of_several_blocks_and_threads_and_windows_on_top_of_each_othe
     whole = cam.rays_jacobian()
     x, y = cam.raster.columns(), cam.raster.rows()
     stacked = cam.rays_jacobian_at(np.stack((x[:, :100], x[:, 200:])), np.stack((y, y)))
-    for columns, own in zip((slice(100), slice(200, 300)), stacked.directions, strict=True):
-        np.testing.assert_array_equal(whole.directions[:, columns], own)
+    for columns, part_directions in zip((slice(100), slice(200, 300)), stacked.directions, strict=True):
+        np.testing.assert_array_equal(whole.directions[:, columns], part_directions)
 
 
 @each_model
 def test_a_border_cuts_and_moves_nothing(key):
-    full, part = camera(key), camera(key, BORDER)
-    window = np.s_[part.raster.y0 : part.raster.y1, part.raster.x0 : part.raster.x1]
-    np.testing.assert_array_equal(part.rays_jacobian().directions, full.rays_jacobian().directions[window])
+    full, cut = camera(key), camera(key, BORDER)
+    window = np.s_[cut.raster.y0 : cut.raster.y1, cut.raster.x0 : cut.raster.x1]
+    np.testing.assert_array_equal(cut.rays_jacobian().directions, full.rays_jacobian().directions[window])
 
 
 @pytest.mark.parametrize("key", ["PERSP", "ORTHO", "EQUIRECTANGULAR"])
@@ -224,8 +224,8 @@ def test_pixels_with_their_own_times_have_the_camera_s_own_derivatives():
             jacobian = cam.rays_jacobian()
             np.testing.assert_array_equal(jacobian.directions, plain.rays_jacobian().directions)
             np.testing.assert_array_equal(jacobian.origins, plain.rays_jacobian().origins)
-        for one, other in zip(still.project(points, jacobian=True), plain.project(points, jacobian=True), strict=True):
-            np.testing.assert_array_equal(one, other)
+        for ours, other in zip(still.project(points, jacobian=True), plain.project(points, jacobian=True), strict=True):
+            np.testing.assert_array_equal(ours, other)
         with pytest.raises(InputError, match=r"camera\.at\(frame\)\.project") as caught:
             moving.project(points, jacobian=True)
         assert "\n" not in str(caught.value)

@@ -285,9 +285,9 @@ def test_beyond_the_frame_the_time_is_that_of_its_edge(mode, axis):
     cam, _, motion = moving(evaluate, 10 + 5 / (64, 48)[axis], 20 - 5 / (64, 48)[axis])
     assert not motion.unresolved
     for far, frame in ((0.0, 10), (-1.0, 10), (-1e6, 10), ((64, 48)[axis], 20), (1e6, 20)):
-        place = [7.5, 7.5]
-        place[axis] = far
-        rays = cam.rays_at(*place)
+        pixel = [7.5, 7.5]
+        pixel[axis] = far
+        rays = cam.rays_at(*pixel)
         assert rays.time == pytest.approx(frame, rel=1e-14)
         assert rays.origins[2] == pytest.approx(np.sin(frame), abs=0.01)
     for far in (np.inf, -np.inf):

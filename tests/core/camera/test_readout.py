@@ -55,5 +55,5 @@ def test_each_ray_is_cast_at_its_pixel_s_time_from_where_the_camera_is_then(key,
     assert np.array_equal(rays.valid, plain.valid)
     np.testing.assert_allclose(rays.directions, plain.directions, rtol=0, atol=8 * EPS)
     at = (HEIGHT // 2, WIDTH // 2), (3, 7), (HEIGHT - 2, WIDTH - 3)
-    points = np.array([rays.origins[place] + 7 * rays.directions[place] for place in at])
+    points = np.array([rays.origins[k] + 7 * rays.directions[k] for k in at])
     np.testing.assert_allclose(cam.project(points), [(i + 0.5, j + 0.5) for j, i in at], rtol=0, atol=1e-9)

@@ -47,17 +47,17 @@ def test_they_are_the_limits_of_differences(model, k):
     x, y = (rng.uniform(0.1, 0.9, 40) * side for side in cam.raster.size)
     rays = cam.rays_at(x, y)
     points = (rays.origins + rng.uniform(1, 9, (40, 1)) * rays.directions)[rays.valid]
-    pixels, found = cam.project(points, jacobian="settings")
+    pixels, derivatives = cam.project(points, jacobian="settings")
     np.testing.assert_array_equal(pixels, cam.project(points))
     names = list(cam.parameters)
-    assert found.shape == (len(points), 2, len(names))
-    for place, name in enumerate(names):
+    assert derivatives.shape == (len(points), 2, len(names))
+    for column, name in enumerate(names):
         size = STEP * min(max(abs(cam.parameters[name]), 1e-3), 1.0)
-        size = min(size, 0.02 / max(np.nanmax(np.abs(found[..., place]), initial=0.0), 1e-9))
-        expected = slope(cam, place, size, points)
+        size = min(size, 0.02 / max(np.nanmax(np.abs(derivatives[..., column]), initial=0.0), 1e-9))
+        expected = slope(cam, column, size, points)
         kept = np.isfinite(expected)
         assert kept.mean() > 0.5, name
-        error = np.abs(found[..., place] - expected)[kept]
+        error = np.abs(derivatives[..., column] - expected)[kept]
         assert error.max() <= 1e-7 * (1 + np.abs(expected[kept]).max()) + 1e-11 / size, (name, error.max(), size)
 
 
@@ -91,15 +91,15 @@ def test_a_file_s_numbers_count_and_words_and_whole_numbers_do_not():
 
 def test_what_has_no_pixel_has_no_derivatives_and_what_cannot_be_asked_is_refused_in_one_line():
     cam = camera("PERSP")
-    pixel, found = cam.project([[0.0, 0.0, 1.0], [np.nan, 0.0, -1.0], [0.1, 0.0, -1.0]], jacobian="settings")
+    pixel, derivatives = cam.project([[0.0, 0.0, 1.0], [np.nan, 0.0, -1.0], [0.1, 0.0, -1.0]], jacobian="settings")
     assert np.isnan(pixel[:2]).all()
-    assert np.isnan(found[:2]).all()
-    assert np.isfinite(found[2]).all()
+    assert np.isnan(derivatives[:2]).all()
+    assert np.isfinite(derivatives[2]).all()
     between = replace(cam, model=replace(cam.model, window=replace(cam.model.window, pitch_x=0.01)))
-    for one, given, words in (
+    for other, jacobian, words in (
         (cam, "setting", "jacobian is 'setting': it must be True, False or 'settings'"),
         (between, "settings", "lies between two that were read"),
     ):
         with pytest.raises(InputError, match=words) as caught:
-            one.project([0.0, 0.0, -1.0], jacobian=given)
+            other.project([0.0, 0.0, -1.0], jacobian=jacobian)
         assert "\n" not in str(caught.value)

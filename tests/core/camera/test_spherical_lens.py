@@ -23,9 +23,9 @@ def test_a_ray_through_the_lens_has_an_eye_beside_it(key, mode):
     x, y = cam.raster.columns(), cam.raster.rows()
     model = cam.model
     for sample in range(3):
-        lens_origin, lens_direction = (np.stack(np.broadcast_arrays(*part), axis=-1) for part in
+        lens_origin, lens_direction = (np.stack(np.broadcast_arrays(*xyz), axis=-1) for xyz in
                                        plain.sample_rays(x, y, sample))  # fmt: skip
-        origin, direction = (np.stack(np.broadcast_arrays(*part), axis=-1) for part in cam.sample_rays(x, y, sample))
+        origin, direction = (np.stack(np.broadcast_arrays(*xyz), axis=-1) for xyz in cam.sample_rays(x, y, sample))
         upright = np.eye(3) if model.upright is None else np.array(model.upright)
         ahead = lens_direction @ upright.T
         ahead /= np.linalg.norm(ahead, axis=-1, keepdims=True)

@@ -65,7 +65,7 @@ def test_rays_are_those_of_the_formula_with_50_digits_within_their_bound(key, mo
         x, y = inner_pixels(cam, 12)
         rays = world_rays(cam, x, y)
         origin, direction = (
-            np.stack(np.broadcast_arrays(*part, x)[:3], axis=-1) for part in (rays.origin, rays.direction)
+            np.stack(np.broadcast_arrays(*vectors, x)[:3], axis=-1) for vectors in (rays.origin, rays.direction)
         )
         bounds = np.broadcast_arrays(rays.origin_error, rays.direction_error, x)
         plain = np.stack(np.broadcast_arrays(*cam.model.lens.rays(x, y)[1], x)[:3], axis=-1)
@@ -177,8 +177,8 @@ def test_both_eyes_are_beside_each_other_and_meet_at_the_convergence_distance(ke
     """On a sphere, or of the central cylindrical panorama on a cylinder, about the camera; on no side up or down."""
     left, right = (eye(key, view) for view in ("left", "right"))
     x, y = inner_pixels(left)
-    one, two = left.rays_at(x, y), right.rays_at(x, y)
-    apart = two.origins - one.origins
+    left_rays, two = left.rays_at(x, y), right.rays_at(x, y)
+    apart = two.origins - left_rays.origins
     up = (0.0, 0.0, 1.0) if key == "PERSP" else left.pose.basis[:, 1]
     assert np.linalg.norm(apart, axis=-1) == pytest.approx(DISTANCE, rel=64 * EPS)
     assert apart @ up == pytest.approx(0.0, abs=64 * EPS)
@@ -188,7 +188,7 @@ def test_both_eyes_are_beside_each_other_and_meet_at_the_convergence_distance(ke
     if key == "CENTRAL_CYLINDRICAL":
         plain /= np.linalg.norm(np.cross(plain, up), axis=-1, keepdims=True)
     met = left.pose.eye + CONVERGENCE * plain
-    for rays in (one, two):
+    for rays in (left_rays, two):
         assert np.cross(met - rays.origins, rays.directions) == pytest.approx(np.zeros((len(x), 3)), abs=1e-13)
     rightward = (np.cross(plain, up) * apart).sum(axis=-1)
     assert ((rightward > 0) == (key != "MIRRORBALL")).all()  # which has the eyes swapped, as in Cycles
@@ -246,10 +246,10 @@ def test_a_merge_left_out_where_no_ray_fades_changes_no_bit(key):
     cam = eye(key, **MERGED, **FADING)
     x, y = cam.raster.columns(), cam.raster.rows()
     whole = cam.rays_at(x, y)
-    for own, row in enumerate(y[:, 0]):
+    for number, row in enumerate(y[:, 0]):
         alone = cam.rays_at(x[0], row)
-        np.testing.assert_array_equal(alone.origins, whole.origins[own])
-        np.testing.assert_array_equal(alone.directions, whole.directions[own])
+        np.testing.assert_array_equal(alone.origins, whole.origins[number])
+        np.testing.assert_array_equal(alone.directions, whole.directions[number])
 
 
 def test_pivot_and_shift_of_an_eye_do_not_count():
@@ -286,6 +286,6 @@ def test_a_model_that_blender_does_not_have_is_refused():
 def test_eyes_that_converge_within_their_offset_go_there_and_back(key, merge, convergence):
     """1e-5 is Blender's least convergence distance: D is 1/15,000 of such a ray."""
     cam = eye(key, interocular_distance=0.3, convergence_distance=convergence, **merge)
-    (found,) = verify(cam)
-    assert found.passed
-    assert found.points > 40
+    (finding,) = verify(cam)
+    assert finding.passed
+    assert finding.points > 40

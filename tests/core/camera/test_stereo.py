@@ -81,8 +81,8 @@ def test_off_axis_frames_of_other_pinholes_meet_at_the_convergence_distance(name
 def test_the_eyes_of_all_other_models_are_parallel(key, kind):
     """As Blender's panoramas are; an unused type of the camera in Blender changes nothing."""
     record = replace(raw_of(key, SETTINGS | {"shift_x": 0.1}), type=kind)
-    for own in eyes(record):
-        assert np.array_equal(own.rays().directions, camera_from(record).rays().directions, equal_nan=True)
+    for eye in eyes(record):
+        assert np.array_equal(eye.rays().directions, camera_from(record).rays().directions, equal_nan=True)
 
 
 @pytest.mark.parametrize("pivot", ["CENTER", "LEFT", "RIGHT"])

@@ -84,8 +84,8 @@ def test_the_frame_stays_where_it_is_at_every_size(raw, size):
     for record, (width, height) in ((frame, (1001, 700)), (frame_record(raw, *size, (0, 0, 1, 1)), size)):
         rays = camera_from(record).rays_at(np.array([0.0, width]), np.array([0.0, height]))
         corners.append((rays.origins, rays.directions))
-    for one, other in zip(*corners, strict=True):
-        assert one == pytest.approx(other, abs=1e-14)
+    for corner, other in zip(*corners, strict=True):
+        assert corner == pytest.approx(other, abs=1e-14)
 
 
 def test_only_what_is_seen_and_within_the_border_is_cast():

@@ -72,13 +72,13 @@ def agree(cam, project, fewest, nearest=0.0):
 
     nearest: radians from the axis from which on the other program is exact.
     """
-    for points, place in ((directions(), None), seen(cam)):
-        found, expected = cam.project(points) if place is None else place, project(points)
+    for points, pixels in ((directions(), None), seen(cam)):
+        ours, expected = cam.project(points) if pixels is None else pixels, project(points)
         from_axis = np.arctan2(np.hypot(points[:, 0], points[:, 1]), -points[:, 2])
-        both = ~np.isnan(found[:, 0]) & ~np.isnan(expected[:, 0]) & (from_axis >= nearest)
+        both = ~np.isnan(ours[:, 0]) & ~np.isnan(expected[:, 0]) & (from_axis >= nearest)
         both[both] = np.abs(expected[both]).max(axis=1) <= FARTHEST
         assert both.sum() >= fewest
-        assert np.abs(found - expected)[both].max() <= SAME
+        assert np.abs(ours - expected)[both].max() <= SAME
 
 
 def seen(cam):
@@ -110,13 +110,13 @@ def test_colmap_projects_points_to_our_pixels_and_our_rays_to_theirs(key, values
 
 @pytest.mark.parametrize("lens", OMNIDIR)
 def test_opencv_projects_points_to_the_pixels_of_the_unified_camera(lens):
-    cam, own = camera("UCM", FRAME | lens), K | {"skew": 0.0} | lens
-    matrix = np.array([[own["fx"], own["skew"], own["cx"]], [0, own["fy"], own["cy"]], [0, 0, 1]])
-    coefficients = np.array([[own.get(name, 0.0) for name in ("k1", "k2", "p1", "p2")]])
+    cam, numbers = camera("UCM", FRAME | lens), K | {"skew": 0.0} | lens
+    matrix = np.array([[numbers["fx"], numbers["skew"], numbers["cx"]], [0, numbers["fy"], numbers["cy"]], [0, 0, 1]])
+    coefficients = np.array([[numbers.get(name, 0.0) for name in ("k1", "k2", "p1", "p2")]])
 
     def project(points):
         ahead, still = (points * (1, -1, -1))[None], np.zeros(3)
-        pixels, _ = cv2.omnidir.projectPoints(ahead, still, still, matrix, own["unified_xi"], coefficients)
+        pixels, _ = cv2.omnidir.projectPoints(ahead, still, still, matrix, numbers["unified_xi"], coefficients)
         return bottom_up(pixels[0], 0)
 
     agree(cam, project, 3_000)
@@ -172,9 +172,9 @@ def test_f_theta_is_the_polynomial_that_is_declared(forward):
     u, v = places[:, 0] - 0.5 - K["cx"], HEIGHT - places[:, 1] - 0.5 - K["cy"]
     square_x, square_y = (u - d * v) / (c - d * e), (c * v - e * u) / (c - d * e)
     r = np.hypot(square_x, square_y)
-    one, other = (theta, r) if forward else (r, theta)
+    start, other = (theta, r) if forward else (r, theta)
     # a pixel is 1 / 280 rad
-    assert np.abs(np.polyval(coefficients[::-1], one) - other).max() <= (SAME if forward else SAME / 280)
+    assert np.abs(np.polyval(coefficients[::-1], start) - other).max() <= (SAME if forward else SAME / 280)
     assert np.abs(np.stack((square_x * y - square_y * x, square_x * x + square_y * y - r * across))).max() <= SAME
 
 
@@ -226,7 +226,9 @@ def test_field_of_view_0_is_the_pinhole():
 def test_beyond_the_usual_range_unified_lenses_have_the_rays_of_their_formula(key, settings):
     """r by the definition, at angles up to the one at which r stops growing, beyond which nothing is seen."""
     cam = camera(key, FRAME | settings)
-    xi, alpha, beta = (settings.get(f"unified_{name}", one) for name, one in (("xi", 0.0), ("alpha", 0), ("beta", 1.0)))
+    xi, alpha, beta = (
+        settings.get(f"unified_{name}", default) for name, default in (("xi", 0.0), ("alpha", 0), ("beta", 1.0))
+    )
     theta = np.linspace(1e-3, np.pi, 4000)
     s, z = np.sin(theta), np.cos(theta) + xi
     below = alpha * np.sqrt(beta * s * s + z * z) + (1 - alpha) * z

@@ -135,10 +135,10 @@ def test_rays_are_those_through_pixel_centers(key, settings):
 
 @each_model
 def test_a_border_cuts_and_moves_nothing(key):
-    full, part = camera(key), camera(key, BORDER)
-    window = np.s_[part.raster.y0 : part.raster.y1, part.raster.x0 : part.raster.x1]
-    np.testing.assert_array_equal(part.rays().directions, full.rays().directions[window])
-    np.testing.assert_array_equal(part.rays().origins, full.rays().origins[window])
+    full, cut = camera(key), camera(key, BORDER)
+    window = np.s_[cut.raster.y0 : cut.raster.y1, cut.raster.x0 : cut.raster.x1]
+    np.testing.assert_array_equal(cut.rays().directions, full.rays().directions[window])
+    np.testing.assert_array_equal(cut.rays().origins, full.rays().origins[window])
 
 
 @each_example

@@ -236,11 +236,11 @@ def test_disparity_of_omnistereo_is_what_the_triangle_says():
 
 
 def test_omnistereo_of_one_eye_is_the_equirectangular_panorama():
-    one, mono = camera("OMNIDIRECTIONAL_STEREO", {"interocular_distance": 0.0}), camera("EQUIRECTANGULAR")
-    np.testing.assert_allclose(one.rays().directions, mono.rays().directions, rtol=0, atol=4 * EPS)
-    assert not one.rays().origins.any()
+    flat, mono = camera("OMNIDIRECTIONAL_STEREO", {"interocular_distance": 0.0}), camera("EQUIRECTANGULAR")
+    np.testing.assert_allclose(flat.rays().directions, mono.rays().directions, rtol=0, atol=4 * EPS)
+    assert not flat.rays().origins.any()
     points = np.random.default_rng(4).normal(size=(200, 3))
-    np.testing.assert_allclose(one.project(points), mono.project(points), rtol=0, atol=1e-12)
+    np.testing.assert_allclose(flat.project(points), mono.project(points), rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize("layout", ["TOP_BOTTOM", "SIDE_BY_SIDE"])
@@ -253,7 +253,7 @@ def test_both_eyes_share_the_frame(layout):
     axis = 0 if layout == "TOP_BOTTOM" else 1
     order = rays[::-1] if layout == "TOP_BOTTOM" else rays  # row 0 is the bottom one
     for name in ("origins", "directions"):
-        stacked = np.concatenate([getattr(one, name) for one in order], axis=axis)
+        stacked = np.concatenate([getattr(vectors, name) for vectors in order], axis=axis)
         np.testing.assert_allclose(getattr(both.rays(), name), stacked, rtol=0, atol=4 * EPS * 10)
     points = np.random.default_rng(5).normal(size=(100, 3)) * 4 + np.array(TURNED)[:3, 3]
     expected = left.project(points) + ((0, 27) if layout == "TOP_BOTTOM" else (0, 0))

@@ -105,20 +105,20 @@ def assert_same_derivatives(derivatives, expected):
 @pytest.mark.parametrize("lens", LENSES)
 def test_a_pixel_moves_with_its_point_as_opencv_says(lens):
     points, no_turn = points_ahead(0.4), np.zeros(3)
-    _, found = pinhole(*LENSES[lens]).project(points, jacobian=True)
+    _, jacobian = pinhole(*LENSES[lens]).project(points, jacobian=True)
     terms = np.resize(np.array(LENSES[lens] or [0.0]), 14) * (np.arange(14) < len(LENSES[lens]))
     _, by_all = cv2.projectPoints(points * OPENCV_FROM_CAMERA, no_turn, no_turn, K, terms)
-    assert_same_derivatives(found, by_camera_point(by_all[:, 3:6]))
+    assert_same_derivatives(jacobian, by_camera_point(by_all[:, 3:6]))
 
 
 @pytest.mark.parametrize("lens", FISHEYES)
 def test_a_fisheye_s_pixel_moves_with_its_point_as_opencv_says(lens):
     points = points_ahead(2.0)
-    _, found = fisheye(*FISHEYES[lens]).project(points, jacobian=True)
-    matrix, given = np.array([[250.0, 0, 331.7], [0, 245.0, 236.2], [0, 0, 1]]), (*FISHEYES[lens], 0, 0, 0, 0)[:4]
+    _, jacobian = fisheye(*FISHEYES[lens]).project(points, jacobian=True)
+    matrix, terms = np.array([[250.0, 0, 331.7], [0, 245.0, 236.2], [0, 0, 1]]), (*FISHEYES[lens], 0, 0, 0, 0)[:4]
     ahead = (points * OPENCV_FROM_CAMERA)[:, None]
-    _, by_all = cv2.fisheye.projectPoints(ahead, np.zeros(3), np.zeros(3), matrix, np.array(given, float))
-    assert_same_derivatives(found, by_camera_point(by_all[:, 11:14]))
+    _, by_all = cv2.fisheye.projectPoints(ahead, np.zeros(3), np.zeros(3), matrix, np.array(terms, float))
+    assert_same_derivatives(jacobian, by_camera_point(by_all[:, 11:14]))
 
 
 @pytest.mark.parametrize("lens", LENSES)
@@ -238,7 +238,7 @@ def test_rays_of_a_picture_are_those_of_its_pixels(name, width):
     assert x.size > SMALLEST_SIZE[1]
     assert y.size > SMALLEST_SIZE[0]
     rows = eye.rays_at(x, y)
-    pixels = eye.rays_at(*(part.reshape(-1) for part in np.broadcast_arrays(x, y)))
+    pixels = eye.rays_at(*(array.reshape(-1) for array in np.broadcast_arrays(x, y)))
     assert np.array_equal(rows.valid.reshape(-1), pixels.valid)
     assert rows.valid.all() == ((name, width) != ("barrel", 2000))
     difference = np.abs(rows.directions.reshape(-1, 3) - pixels.directions)[pixels.valid]

@@ -174,8 +174,8 @@ def test_pixel_to_ray_to_pixel_and_point_to_pixel_to_ray(case):
     seen = ~np.isnan(where).any(axis=-1)
     assert seen.any()
     towards = points / np.linalg.norm(points, axis=-1, keepdims=True)
-    found = ray(cam, where[seen, 0], where[seen, 1])
-    np.testing.assert_allclose(found, towards[seen], rtol=0, atol=1e-13)
+    returned = ray(cam, where[seen, 0], where[seen, 1])
+    np.testing.assert_allclose(returned, towards[seen], rtol=0, atol=1e-13)
 
 
 @each_case

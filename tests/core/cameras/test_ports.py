@@ -121,7 +121,7 @@ def test_rays_of_a_lens_s_aperture_are_refracted_too():
     x, y, point = 20.5, 31.5, (0.004, -0.003)
     origin, direction = cam.model.through(cam.aperture, None, x, y, point)
     in_air = cam.model.lens.rays(x, y)[1]
-    focus = [2.0 * float(part) for part in in_air]
+    focus = [2.0 * float(number) for number in in_air]
     lens = [point[0], point[1], 0.0]
     exact = behind(raw, (truth.exact(lens), truth.exact([f - o for f, o in zip(focus, lens, strict=True)])))
     np.testing.assert_allclose(np.array(origin, float), np.array(exact[0], float), rtol=0, atol=8 * EPS)
@@ -215,7 +215,7 @@ def test_a_ball_is_sought_wherever_its_blur_behind_a_port_shows_it(model, settin
     with np.errstate(all="ignore"):
         point = camera.aperture.points(*rng.random((2, 4000)))
         ray = camera.model.through(camera.aperture, camera.model.rays(x, y), x, y, point)
-    origin, direction = (np.stack(np.broadcast_arrays(*part), axis=-1) for part in ray)
+    origin, direction = (np.stack(np.broadcast_arrays(*vectors), axis=-1) for vectors in ray)
     there = np.isfinite(direction).all(axis=1) & np.isfinite(origin).all(axis=1)
     origin, direction, x, y = origin[there], direction[there], x[there], y[there]
     count = len(x)

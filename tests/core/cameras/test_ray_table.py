@@ -48,14 +48,14 @@ def test_the_error_between_entries_is_what_the_report_estimates(key, settings, k
     cam = camera(key, settings)
     table = sampled(cam, ray_interpolation=kind)
     x, y = everywhere(cam)
-    own, found = cam.rays_at(x, y), table.rays_at(x, y)
-    both = own.valid & found.valid
-    assert both.mean() > 0.95 * own.valid.mean()
-    angle = np.linalg.norm(own.directions - found.directions, axis=1)[both].max()
+    rays, of_table = cam.rays_at(x, y), table.rays_at(x, y)
+    both = rays.valid & of_table.valid
+    assert both.mean() > 0.95 * rays.valid.mean()
+    angle = np.linalg.norm(rays.directions - of_table.directions, axis=1)[both].max()
     facts = table.model.facts()
     assert facts["interpolation_error"] / 10 <= angle <= 2 * facts["interpolation_error"]
     if not cam.model.central:
-        off = np.linalg.norm(own.origins - found.origins, axis=1)[both].max()
+        off = np.linalg.norm(rays.origins - of_table.origins, axis=1)[both].max()
         estimate = facts["interpolation_error_of_origins"]
         assert estimate / 10 - 32 * EPS <= off <= 2 * estimate + 32 * EPS
 
@@ -69,17 +69,17 @@ def test_finer_tables_are_nearer_to_their_camera(key, settings):
     errors = []
     for fine in (1, 2, 4):
         table = sampled(cam, 24 * fine, 14 * fine)
-        own, found = cam.rays_at(x, y), table.rays_at(x, y)
+        rays, of_table = cam.rays_at(x, y), table.rays_at(x, y)
         inside = np.abs(np.stack((x, y), 1) / FRAME - 0.5).max(axis=1) < 0.45
-        whole = own.valid & found.valid & inside
+        whole = rays.valid & of_table.valid & inside
         if key == "FISHEYE_EQUIDISTANT":
             whole &= np.hypot(x - 48, y - 27) < 38
-        errors.append(np.linalg.norm(own.directions - found.directions, axis=1)[whole].max())
+        errors.append(np.linalg.norm(rays.directions - of_table.directions, axis=1)[whole].max())
         u, v = (np.arange(24 * fine) + 0.5) * 4 / fine, (np.arange(14 * fine)[:, None] + 0.5) * 54 / 14 / fine
-        one, other = cam.rays_at(u, v), table.rays_at(u, v)
-        np.testing.assert_array_equal(one.valid, other.valid)
-        np.testing.assert_allclose(other.directions, one.directions, rtol=0, atol=16 * EPS)
-        np.testing.assert_allclose(other.origins, one.origins, rtol=0, atol=32 * EPS)
+        exact, other = cam.rays_at(u, v), table.rays_at(u, v)
+        np.testing.assert_array_equal(exact.valid, other.valid)
+        np.testing.assert_allclose(other.directions, exact.directions, rtol=0, atol=16 * EPS)
+        np.testing.assert_allclose(other.origins, exact.origins, rtol=0, atol=32 * EPS)
     assert errors[1] < errors[0] / 8
     assert errors[2] < errors[1] / 8
 
@@ -101,15 +101,15 @@ def test_ray_maps_are_tables_of_the_same_rays(key, settings, tmp_path):
     """In the camera's place and in another, also of a part of the picture."""
     border = {"use_border": True, "border_min_x": 0.25, "border_max_x": 0.75, "border_max_y": 0.5}
     turned = np.array(((0, -1, 0, 3), (1, 0, 0, -2), (0, 0, 1, 5), (0, 0, 0, 1.0)))
-    for own in ({}, border):
-        cam = camera(key, settings | own | {"matrix_world": turned})
+    for window in ({}, border):
+        cam = camera(key, settings | window | {"matrix_world": turned})
         (path,) = crc.export(cam, tmp_path, "npz").paths
         table = crc.load_calibration(path, pose=turned)
         assert (table.model.key, table.raster.size) == ("RAY_TABLE", FRAME)
-        one, other = cam.rays(), table.rays_at(cam.raster.columns(), cam.raster.rows())
-        np.testing.assert_array_equal(one.valid, other.valid)
-        np.testing.assert_allclose(other.directions, one.directions, rtol=0, atol=32 * EPS)
-        np.testing.assert_allclose(other.origins, one.origins, rtol=0, atol=64 * EPS)
+        exact, other = cam.rays(), table.rays_at(cam.raster.columns(), cam.raster.rows())
+        np.testing.assert_array_equal(exact.valid, other.valid)
+        np.testing.assert_allclose(other.directions, exact.directions, rtol=0, atol=32 * EPS)
+        np.testing.assert_allclose(other.origins, exact.origins, rtol=0, atol=64 * EPS)
         assert crc.load_calibration(path, size=(48, 27)).raster.size == (48, 27)
         path.unlink()
 
@@ -152,8 +152,8 @@ def test_origins_that_jump_along_their_rays_may_be_slid():
     expected = cam.rays_at(x, y)
     off = []
     for slide in (False, True):
-        found = crc.camera("RAY_TABLE", FRAME, **table, ray_slide=slide).rays_at(x, y)
-        off.append(np.linalg.norm(np.cross(found.origins - expected.origins, expected.directions), axis=1).max())
+        of_table = crc.camera("RAY_TABLE", FRAME, **table, ray_slide=slide).rays_at(x, y)
+        off.append(np.linalg.norm(np.cross(of_table.origins - expected.origins, expected.directions), axis=1).max())
     assert off[1] < 1e-4 < 1e-3 < off[0]
 
 
@@ -165,9 +165,9 @@ def test_a_table_larger_than_the_memory_is_refused_before_it_is_copied():
 
 def test_rays_that_are_the_same_or_cross_are_named_as_the_cause():
     same, random = np.broadcast_to((0.0, 0.0, -1.0), (12, 16, 3)), np.random.default_rng(0).normal(size=(12, 16, 3))
-    for given in ({"ray_directions": same}, {"ray_directions": pinhole(16, 12), "ray_origins": random}):
+    for table in ({"ray_directions": same}, {"ray_directions": pinhole(16, 12), "ray_origins": random}):
         with pytest.raises(crc.InputError, match="its rays are the same or cross each other"):
-            crc.camera("RAY_TABLE", FRAME, **given)
+            crc.camera("RAY_TABLE", FRAME, **table)
 
 
 def saved(**arrays):
@@ -199,9 +199,9 @@ def test_arrays_of_numpy_are_tables(tmp_path):
 
 def encrypted(data):
     """The file with the marks of encrypted entries."""
-    for mark, place in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
-        for part in re.finditer(re.escape(mark), bytes(data)):
-            data = data[: part.start() + place] + b"\x01" + data[part.start() + place + 1 :]
+    for mark, offset in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
+        for header in re.finditer(re.escape(mark), bytes(data)):
+            data = data[: header.start() + offset] + b"\x01" + data[header.start() + offset + 1 :]
     return data
 
 

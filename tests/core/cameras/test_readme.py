@@ -27,9 +27,9 @@ def test_every_model_and_every_setting_is_on_the_page():
 def test_every_export_and_every_program_is_on_the_page_of_files():
     page = PAGES["files"]()
     exports = {program.export.key for program in PROGRAMS if program.export}
-    for one in EXPORT_FORMATS:
-        assert one.key in exports, f"no program of core/programs has the export {one.key}"
-    assert exports == {one.key for one in EXPORT_FORMATS}
+    for export in EXPORT_FORMATS:
+        assert export.key in exports, f"no program of core/programs has the export {export.key}"
+    assert exports == {export.key for export in EXPORT_FORMATS}
     for program in PROGRAMS:
         assert f"| {program.name} | {program.files} | {program.reads} |" in page
         assert program.read is None or program.name in READ

@@ -52,8 +52,8 @@ def test_beams_are_numbered_as_their_makers_do():
 def test_another_frame_shows_the_same_sweep():
     full, small = scanner("VLP_32C"), scanner("VLP_32C", (904, 16))
     x, y = np.random.default_rng(1).uniform(1, 15, (2, 50))
-    one, other = full.rays_at(2 * x, 2 * y), small.rays_at(x, y)
-    np.testing.assert_allclose(one.directions, other.directions, rtol=0, atol=1e-14)
+    rays, other = full.rays_at(2 * x, 2 * y), small.rays_at(x, y)
+    np.testing.assert_allclose(rays.directions, other.directions, rtol=0, atol=1e-14)
 
 
 VELODYNE = """lasers:
@@ -104,8 +104,8 @@ def test_ousters_metadata_in_both_generations(tmp_path, metadata):
     direction = np.array((*(np.cos(altitude) * lidar), np.sin(altitude))) * (-1, -1, 1)
     origin = np.array((0.015806 * np.cos(encoder), 0.015806 * np.sin(encoder), 0.03618)) * (-1, -1, 1)
     ray = cam.rays_at(70.5, 2.5)
-    for found, expected in ((ray.directions, direction), (ray.origins, origin)):
-        np.testing.assert_allclose(found, (-expected[1], expected[2], -expected[0]), rtol=0, atol=16 * EPS)
+    for vector, expected in ((ray.directions, direction), (ray.origins, origin)):
+        np.testing.assert_allclose(vector, (-expected[1], expected[2], -expected[0]), rtol=0, atol=16 * EPS)
 
 
 def test_hesais_angles(tmp_path):

@@ -55,14 +55,14 @@ def assert_nearest(cam, shapes, crossings):
             nearer = opaque & (t < nearest)
             nearest[nearer], row[nearer] = t[nearer], k
     assert sure.mean() > (0.6 if cam.model.key in ON_EDGES else 0.9)
-    distance, bound, found = (images[name][rays.valid][sure] for name in BOUNDS)
-    np.testing.assert_array_equal(found, row[sure])
+    distance, bound, index = (images[name][rays.valid][sure] for name in BOUNDS)
+    np.testing.assert_array_equal(index, row[sure])
     met = np.isfinite(distance)
     assert (np.abs(distance[met] - nearest[sure][met]) <= bound[met]).all()
     assert met.any()
-    given = cast_rays(origins[sure], rays.directions[rays.valid][sure], shapes, passes=BOUNDS)
-    beyond = cam.clip_start + 1e-9 < given["distance"]  # the clip start may be a plane
-    np.testing.assert_array_equal(given["shape_index"][beyond], found[beyond])
+    by_rays = cast_rays(origins[sure], rays.directions[rays.valid][sure], shapes, passes=BOUNDS)
+    beyond = cam.clip_start + 1e-9 < by_rays["distance"]  # the clip start may be a plane
+    np.testing.assert_array_equal(by_rays["shape_index"][beyond], index[beyond])
 
 
 @each_model
@@ -116,10 +116,10 @@ def test_of_meshes_the_nearest_opaque_crossing_is_the_hit(key):
 
     def crossings(k, origins, directions):
         t, inside = meshes.every_hit(shapes, k, origins, directions)
-        place = origins[:, None] + np.where(np.isfinite(t), t, 0.0)[..., None] * directions[:, None]
+        point = origins[:, None] + np.where(np.isfinite(t), t, 0.0)[..., None] * directions[:, None]
         mesh = shapes.meshes[shapes.mesh[k]]
-        own = (place - shapes.center[k]) @ np.linalg.inv(shapes.axes[k]).T + mesh.middle
-        opaque, clear = stripe_at(own[..., 0].astype(float), 6)
+        in_mesh = (point - shapes.center[k]) @ np.linalg.inv(shapes.axes[k]).T + mesh.middle
+        opaque, clear = stripe_at(in_mesh[..., 0].astype(float), 6)
         if shapes.surface[k] < 0:
             opaque, clear = np.ones_like(opaque), np.ones_like(clear)
         sure = (np.abs(inside) > 1e-9).all(axis=1)
@@ -163,8 +163,8 @@ def test_a_threshold_is_met_by_the_same_alpha_and_constants_are_all_or_nothing()
     shapes = card_before_wall()
     for alpha, seen in ((0.5, 0), (np.nextafter(0.5, 0), 1)):
         surfaces = (Surface(constant(0, 1, 0), alpha=constant(alpha)),)
-        own = shapes_of((PLANE, (0, 0, -2), 9.0), (PLANE, (0, 0, -4), 99.0), surfaces=surfaces, surface=shapes.surface)
-        assert (cast(camera_at(), own, passes="shape_index")["shape_index"] == seen).all()
+        both = shapes_of((PLANE, (0, 0, -2), 9.0), (PLANE, (0, 0, -4), 99.0), surfaces=surfaces, surface=shapes.surface)
+        assert (cast(camera_at(), both, passes="shape_index")["shape_index"] == seen).all()
 
 
 @pytest.mark.parametrize("kind", ["plane", "mesh"])
@@ -175,16 +175,16 @@ def test_step_by_step_a_transparent_point_does_not_count(kind):
     shapes = replace(shapes, surfaces=(*shapes.surfaces, glowing), surface=np.array([0, 1], np.int32))
     if kind == "mesh":
         sheet = meshes.grid(1, 1, lambda u, v: (2 * u - 1, 2 * v - 1, 0 * u))
-        left = function_of(lambda place: (place[:1] >= 0) * 1.0, Coordinates(OBJECT))
+        left = function_of(lambda points: (points[:1] >= 0) * 1.0, Coordinates(OBJECT))
         shapes = meshes.shapes_of(
             (sheet, (0, 0, -2), 1.0), (sheet, (0, 0, -4), 9.0),
             surfaces=(Surface(constant(0, 1, 0), alpha=left), glowing), surface=shapes.surface,
         )  # fmt: skip
     for column, seen in ((12, 1), (20, 0)):
-        told = lesson(camera, shapes, column, 16)
-        text = "\n".join(told.lines())
+        steps = lesson(camera, shapes, column, 16)
+        text = "\n".join(steps.lines())
         assert ("transparent there" in text) == (seen == 1)
         assert ("emission (0, 0.25, 0)" in text) == (seen == 1)
         image = cast(camera, shapes, passes=("combined", "shape_index"), dtype=float)
         assert image["shape_index"][16, column] == seen
-        np.testing.assert_array_equal(told.color, image["combined"][16, column])
+        np.testing.assert_array_equal(steps.color, image["combined"][16, column])

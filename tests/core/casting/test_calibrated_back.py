@@ -55,20 +55,20 @@ def test_opencv_finds_the_lens_again(name):
     places, pixels = zip(*views(name), strict=True)
     guess = np.array([[settings["fx"] * 1.1, 0, 319.5], [0, settings["fx"] * 1.1, 239.5], [0, 0, 1.0]])
     if model == "OPENCV_PINHOLE":
-        given = [np.float32(one) for one in places], [np.float32(one) for one in pixels]
+        views_seen = [np.float32(array) for array in places], [np.float32(array) for array in pixels]
         flags = cv2.CALIB_FIX_K3 | cv2.CALIB_USE_INTRINSIC_GUESS
-        _, K, D, *_ = cv2.calibrateCamera(*given, SIZE, guess, np.zeros(5), flags=flags)
+        _, K, D, *_ = cv2.calibrateCamera(*views_seen, SIZE, guess, np.zeros(5), flags=flags)
         names = ("k1", "k2", "p1", "p2")
     else:
-        given = [one[None] for one in places], [one[None] for one in pixels]
+        views_seen = [array[None] for array in places], [array[None] for array in pixels]
         names = vars(cv2.fisheye if hasattr(cv2.fisheye, "CALIB_FIX_SKEW") else cv2)  # OpenCV 5 has them in cv2
         flags = names["CALIB_USE_INTRINSIC_GUESS"] | names["CALIB_RECOMPUTE_EXTRINSIC"] | names["CALIB_FIX_SKEW"]
-        _, K, D, *_ = cv2.fisheye.calibrate(*given, SIZE, guess, np.zeros(4), flags=flags)
+        _, K, D, *_ = cv2.fisheye.calibrate(*views_seen, SIZE, guess, np.zeros(4), flags=flags)
         names = ("k1", "k2", "k3", "k4")
     expected = [settings["fx"], settings["fy"], 322.3, 236.1]
     np.testing.assert_allclose((K[0, 0], K[1, 1], K[0, 2], K[1, 2]), expected, atol=NEAR)
-    found = dict(zip(names, D.ravel().tolist(), strict=False))
-    theirs = crc.camera(model, SIZE, fx=K[0, 0], fy=K[1, 1], cx=K[0, 2], cy=K[1, 2], **found)
+    terms = dict(zip(names, D.ravel().tolist(), strict=False))
+    theirs = crc.camera(model, SIZE, fx=K[0, 0], fy=K[1, 1], cx=K[0, 2], cy=K[1, 2], **terms)
     ours = crc.camera(model, SIZE, cx=322.3, cy=236.1, **settings)
     rays = ours.rays()
     away = np.linalg.norm(theirs.project(rays.directions[rays.valid]) - np.argwhere(rays.valid)[:, ::-1] - 0.5, axis=1)

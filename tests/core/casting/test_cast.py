@@ -249,10 +249,10 @@ def test_one_pass_may_be_named_alone_and_no_threads_are_refused():
 def test_progress_rises_to_one_and_can_stop_the_cast(monkeypatch):
     monkeypatch.setattr(tuning, "TILE_WORK", 1 << 16)
     camera = camera_at(resolution_x=1024, resolution_y=1024)
-    told = []
-    cast(camera, shapes_of(), passes=("depth",), threads=8, progress=lambda fraction: told.append(fraction) or True)
-    assert told == sorted(told)
-    assert told[-1] == 1.0
-    assert len(told) >= 4
+    shares = []
+    cast(camera, shapes_of(), passes=("depth",), threads=8, progress=lambda fraction: shares.append(fraction) or True)
+    assert shares == sorted(shares)
+    assert shares[-1] == 1.0
+    assert len(shares) >= 4
     with pytest.raises(Cancelled):
         cast(camera, shapes_of(), passes=("depth",), progress=lambda fraction: False)

@@ -87,10 +87,10 @@ BAD = {
 
 @pytest.mark.parametrize("case", BAD)
 def test_images_that_do_not_fit_are_refused_before_anything_is_written(case):
-    make, said = BAD[case]
+    make, message = BAD[case]
     images = make()
     before = {name: np.array(image) for name, image in images.items()}
-    with pytest.raises(crc.InputError, match=re.escape(said)):
+    with pytest.raises(crc.InputError, match=re.escape(message)):
         crc.cast(camera(), OTHER, passes=TWO, into=images)
     assert list(images) == list(before)
     for name, image in before.items():

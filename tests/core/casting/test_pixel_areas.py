@@ -35,39 +35,39 @@ def of_one_eye(key):
 def solid_angles(key, settings=(), cast_at=BALL):
     """The pass, and the image-plane place of each pixel."""
     cam = camera(key, settings)
-    place = cam.model.window.plane_from_pixels(cam.raster.columns(), cam.raster.rows())
-    return cam, area_pass(cam, "solid_angle", cast_at), place
+    plane = cam.model.window.plane_from_pixels(cam.raster.columns(), cam.raster.rows())
+    return cam, area_pass(cam, "solid_angle", cast_at), plane
 
 
 @pytest.mark.parametrize("settings", of_one_eye("PERSP"))
 def test_a_pinhole_s_fall_off_with_the_cube_of_the_cosine(settings):
-    cam, found, (x, y) = solid_angles("PERSP", settings)
+    cam, angles, (x, y) = solid_angles("PERSP", settings)
     expected = cam.model.window.pitch_x * cam.model.window.pitch_y / (1 + x * x + y * y) ** 1.5
-    np.testing.assert_allclose(found, expected, rtol=ROUNDED)
+    np.testing.assert_allclose(angles, expected, rtol=ROUNDED)
 
 
 @pytest.mark.parametrize("settings", EXAMPLES["EQUIRECTANGULAR"])
 def test_a_panorama_s_fall_off_with_the_cosine_of_the_latitude(settings):
-    cam, found, (_, latitude) = solid_angles("EQUIRECTANGULAR", settings)
-    expected = np.abs(np.cos(latitude)) * cam.model.window.pitch_x * cam.model.window.pitch_y + np.zeros_like(found)
-    np.testing.assert_allclose(found, expected, rtol=0, atol=ROUNDED * expected.max())
+    cam, angles, (_, latitude) = solid_angles("EQUIRECTANGULAR", settings)
+    expected = np.abs(np.cos(latitude)) * cam.model.window.pitch_x * cam.model.window.pitch_y + np.zeros_like(angles)
+    np.testing.assert_allclose(angles, expected, rtol=0, atol=ROUNDED * expected.max())
 
 
 @pytest.mark.parametrize("settings", of_one_eye("FISHEYE_EQUIDISTANT"))
 def test_an_equidistant_fisheye_s_are_as_sine_over_angle(settings):
-    cam, found, (a, b) = solid_angles("FISHEYE_EQUIDISTANT", settings)
+    cam, angles, (a, b) = solid_angles("FISHEYE_EQUIDISTANT", settings)
     theta = cam.model.half_fov * np.hypot(a, b)
     pixel = cam.model.half_fov**2 * cam.model.window.pitch_x * cam.model.window.pitch_y
     expected = np.where(cam.rays().valid, np.abs(np.sinc(theta / np.pi)) * pixel, 0.0)
-    np.testing.assert_allclose(found, expected, rtol=0, atol=ROUNDED * pixel)
+    np.testing.assert_allclose(angles, expected, rtol=0, atol=ROUNDED * pixel)
 
 
 def test_a_mirror_ball_s_are_all_alike():
-    cam, found, _ = solid_angles("MIRRORBALL")
+    cam, angles, _ = solid_angles("MIRRORBALL")
     expected = 4 * cam.model.window.pitch_x * cam.model.window.pitch_y
-    inner = found[np.hypot(*cam.model.window.plane_from_pixels(cam.raster.columns(), cam.raster.rows())) < 0.99]
+    inner = angles[np.hypot(*cam.model.window.plane_from_pixels(cam.raster.columns(), cam.raster.rows())) < 0.99]
     np.testing.assert_allclose(inner, expected, rtol=16 * ROUNDED)  # the rim is near
-    np.testing.assert_array_equal(found == 0, ~cam.rays().valid)
+    np.testing.assert_array_equal(angles == 0, ~cam.rays().valid)
 
 
 @pytest.mark.parametrize("key", ["EQUIRECTANGULAR", "OMNIDIRECTIONAL_STEREO"])
@@ -75,15 +75,15 @@ def test_a_full_panorama_s_sum_tends_to_the_whole_sphere(key):
     """Of n rows, whose step is s, the middles' cosines sum to 1 / sin(s / 2)."""
     for rows in (30, 60):
         step = np.pi / rows
-        _, found, _ = solid_angles(key, {"resolution_x": 2 * rows, "resolution_y": rows})
-        assert found.sum() == pytest.approx(4 * np.pi * (step / 2) / np.sin(step / 2), rel=ROUNDED)
+        _, angles, _ = solid_angles(key, {"resolution_x": 2 * rows, "resolution_y": rows})
+        assert angles.sum() == pytest.approx(4 * np.pi * (step / 2) / np.sin(step / 2), rel=ROUNDED)
 
 
 def test_six_faces_of_a_cube_tend_to_the_whole_sphere():
     off = []
     for side in (32, 64):
-        _, found, _ = solid_angles("EQUIANGULAR_CUBEMAP_FACE", {"resolution_x": side, "resolution_y": side})
-        off.append(6 * found.sum() / (4 * np.pi) - 1)
+        _, angles, _ = solid_angles("EQUIANGULAR_CUBEMAP_FACE", {"resolution_x": side, "resolution_y": side})
+        off.append(6 * angles.sum() / (4 * np.pi) - 1)
     assert abs(off[1]) < 1e-4
     assert off[0] / off[1] == pytest.approx(4, rel=1e-2), "as the square of a pixel"
 
@@ -149,7 +149,7 @@ APART = 2.0**-12
 def test_a_footprint_is_what_the_hits_of_rays_beside_span(key, surface):
     things, meet = SURFACES[surface]
     cam = camera(key)
-    found, distance = (
+    footprint, distance = (
         cast(cam, things, passes=("footprint", "distance"), dtype=np.float64)[name]
         for name in ("footprint", "distance")
     )
@@ -164,11 +164,11 @@ def test_a_footprint_is_what_the_hits_of_rays_beside_span(key, surface):
     expected = np.linalg.norm(np.cross(by_x, by_y), axis=-1) / (2 * APART) ** 2
     seen = np.isfinite(distance) & np.isfinite(expected)
     assert seen.sum() > 20
-    off = np.abs(found / expected - 1)[seen]
+    off = np.abs(footprint / expected - 1)[seen]
     assert np.median(off) <= 1e-8
     grazing = surface in ("ball", "floor")  # at silhouette and horizon the hits of rays beside run away
     assert np.quantile(off, 0.9 if grazing else 1.0) <= 1e-6
-    assert (found[~np.isfinite(distance)] == np.inf).all()
+    assert (footprint[~np.isfinite(distance)] == np.inf).all()
 
 
 @pytest.mark.parametrize("matrix", [TURN, SHEARED])

@@ -68,7 +68,9 @@ def test_meshes_at_pixels_are_those_of_the_picture_and_are_not_placed_again(mode
         np.testing.assert_allclose(some["distance"], images["distance"][at], rtol=1e-12)
     if camera.pixel_time is None:
         plan = images.plan.at_pixels(np.array([3, 7]), np.array([2]))
-        assert [one.meshes for one in plan.sets] == [one.meshes for one in images.plan.sets][: len(plan.sets)]
+        assert [blocks.meshes for blocks in plan.sets] == [blocks.meshes for blocks in images.plan.sets][
+            : len(plan.sets)
+        ]
 
 
 def test_the_time_of_a_pixel_is_left_out():

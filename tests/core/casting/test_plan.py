@@ -135,9 +135,9 @@ def test_a_row_a_column_and_a_pixel_are_those_of_the_picture(model):
     whole = cast(camera, shapes, passes=EVERY, dtype=np.float64)
     for rows, columns in ((slice(33, 34), slice(0, 64)), (slice(0, 80), slice(21, 22)), (slice(50, 51), slice(40, 41))):
         edges = {"x0": columns.start, "x1": columns.stop, "y0": rows.start, "y1": rows.stop}
-        part = cast(replace(camera, raster=replace(camera.raster, **edges)), shapes, passes=EVERY, dtype=np.float64)
+        alone = cast(replace(camera, raster=replace(camera.raster, **edges)), shapes, passes=EVERY, dtype=np.float64)
         for name in EVERY:
-            assert np.array_equal(part[name], whole[name][rows, columns], equal_nan=True), name
+            assert np.array_equal(alone[name], whole[name][rows, columns], equal_nan=True), name
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)

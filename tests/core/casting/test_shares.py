@@ -131,27 +131,27 @@ def test_a_ray_does_not_depend_on_how_threads_share_the_picture(monkeypatch, key
 def test_rows_are_told_once_each_when_they_are_complete(samples, monkeypatch):
     """In the calling thread, before the whole picture is done."""
     monkeypatch.setattr(tuning, "TILE_WORK", 1 << 16)
-    camera, told = camera_at(resolution_x=1024, resolution_y=512), []
+    camera, finished_rows = camera_at(resolution_x=1024, resolution_y=512), []
 
     def finished(images, rows):
         assert get_ident() == here
-        told.append((rows, {name: image[rows].copy() for name, image in images.items()}))
+        finished_rows.append((rows, {name: image[rows].copy() for name, image in images.items()}))
 
     here = get_ident()
     images = cast(
         camera, shapes_of((SPHERE, (0, 0, -5), 1.0)), passes=("depth", "combined"), samples=samples, finished=finished
     )
-    assert len(told) >= 2
-    assert sorted(row for rows, _ in told for row in range(512)[rows]) == list(range(512))
-    for rows, parts in told:
-        for name, part in parts.items():
-            np.testing.assert_array_equal(part, images[name][rows])
+    assert len(finished_rows) >= 2
+    assert sorted(row for rows, _ in finished_rows for row in range(512)[rows]) == list(range(512))
+    for rows, parts in finished_rows:
+        for name, rows_of in parts.items():
+            np.testing.assert_array_equal(rows_of, images[name][rows])
     assert images.seconds["write"] > 0
 
 
 def test_a_picture_of_many_times_is_told_as_a_whole():
     """Though it is cast time by time, since columns are complete long before a row is."""
-    told = []
+    finished_rows = []
     camera = camera_at(settings=ROWS | {"time_mode": "COLUMNS"})
-    cast(camera, shapes_of((SPHERE, (0, 0, -5), 1.0)), finished=lambda images, rows: told.append(rows))
-    assert told == [slice(0, 33)]
+    cast(camera, shapes_of((SPHERE, (0, 0, -5), 1.0)), finished=lambda images, rows: finished_rows.append(rows))
+    assert finished_rows == [slice(0, 33)]

@@ -80,13 +80,13 @@ def test_a_stop_is_heard_between_triangles(monkeypatch):
 def test_a_stop_is_heard_while_the_tiles_of_pixel_times_are_found(monkeypatch):
     """Those of 65,536 columns take many seconds, in which a picture said nothing."""
     monkeypatch.setattr(tiles, "LISTEN", 0.0)
-    told = []
+    fractions = []
 
     def stop(fraction):
-        told.append(fraction)
-        return len(told) < 3
+        fractions.append(fraction)
+        return len(fractions) < 3
 
     with pytest.raises(Cancelled):
         list(tiles.listening([tiles.Tile(slice(0, 1), slice(k, k + 1)) for k in range(9)], stop))
-    assert told == [0.0] * 3
+    assert fractions == [0.0] * 3
     assert len(list(tiles.listening([tiles.Tile(slice(0, 1), slice(0, 1))], None))) == 1

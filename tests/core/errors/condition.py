@@ -53,6 +53,6 @@ def moves(raw, x, y, ray):
         other = truth.ray(raw, mpf(x) + dx, mpf(y) + dy) or truth.ray(raw, mpf(x) - dx, mpf(y) - dy)
         if other is None:
             return None
-        for part, (there, here) in enumerate(((other.origin, ray.origin), (other.direction, ray.direction))):
-            total[part] += truth.norm(truth.minus(there, here)) / STEP * side
+        for k, (there, here) in enumerate(((other.origin, ray.origin), (other.direction, ray.direction))):
+            total[k] += truth.norm(truth.minus(there, here)) / STEP * side
     return total

@@ -85,8 +85,8 @@ def of_mesh(shapes, at, rays):
             corners = [difference([c[:, None] for c in corner], origin[:, None, mine]) for corner in some.corners]
             lengths = [norm(corner) for corner in corners]
             scale = np.maximum.reduce(lengths) ** 2 * norm(direction[:, mine])
-            found = [v / scale for v in volumes(corners, direction[:, None, mine])]
-            inner = np.maximum(np.minimum.reduce(found), -np.maximum.reduce(found))
+            volume_bounds = [v / scale for v in volumes(corners, direction[:, None, mine])]
+            inner = np.maximum(np.minimum.reduce(volume_bounds), -np.maximum.reduce(volume_bounds))
             value[mine] = np.maximum(value[mine], inner.max(axis=0))
             reach = np.minimum.reduce(np.maximum.reduce(lengths))
             bound = TriangleErrors(some, np.zeros(len(number)), rays)._moved.max()

@@ -105,12 +105,12 @@ def test_a_million_spheres_at_one_point():
     count, rows = 1_000_000, shapes_of([(SPHERE, (0, 0, -5), 2.0)])
     fields = {name: np.repeat(getattr(rows, name), count, axis=0) for name in ARRAYS}
     shapes = replace(rows, **fields)
-    one, many = (
+    single, many = (
         cast(Case("", "", [], {"resolution_x": 1, "resolution_y": 1}).camera, s, passes=PASSES, dtype=np.float64)
         for s in (rows, shapes)
     )
     for name in PASSES:
-        assert np.array_equal(one[name], many[name]), name
+        assert np.array_equal(single[name], many[name]), name
 
 
 @pytest.mark.parametrize("axes", [

@@ -17,7 +17,7 @@ from ..truth import truth
 from .extreme_cases import Case, around, pose, shapes_of
 
 BOUNDS = ("distance_bound", "position_bound", "normal_bound")
-DUST = [(SPHERE, place, 0.15) for place in np.random.default_rng(2).uniform(-4, 4, (200, 3)) - (0, 0, 8)]
+DUST = [(SPHERE, center, 0.15) for center in np.random.default_rng(2).uniform(-4, 4, (200, 3)) - (0, 0, 8)]
 """Shapes of few pixels, which are cast many at once."""
 TIMED = {"resolution_x": 70, "resolution_y": 80}
 
@@ -67,9 +67,9 @@ def agrees(measured, passes, rounded=2.0**-9):
     for name in BOUNDS:
         up = (1 + rounded) * (1 + 1e-12)
         bound = passes[name] / up - np.finfo(float).eps * storing[name] * (1 + 1e-6)
-        for own, of_picture in ((measured.median, np.median), (measured.worst, np.max)):
+        for measure, of_picture in ((measured.median, np.median), (measured.worst, np.max)):
             low, high = (of_picture(each) for each in (bound, passes[name]))
-            assert low <= own(name.removesuffix("_bound")) <= high, name
+            assert low <= measure(name.removesuffix("_bound")) <= high, name
 
 
 @pytest.mark.parametrize("settings", [

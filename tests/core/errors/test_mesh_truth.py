@@ -42,15 +42,15 @@ def hit(shapes, row, triangle, ray):
     (a, b, c), normals = corners_of(shapes, row, triangle)
     area = cross(minus(b, a), minus(c, a))
     t = dot(area, minus(a, ray.origin)) / dot(area, ray.direction)
-    place = [o + t * d for o, d in zip(ray.origin, ray.direction, strict=True)]
-    weights = [dot(cross(minus(q, p), minus(place, p)), area) / dot(area, area) for p, q in ((b, c), (c, a), (a, b))]
+    point = [o + t * d for o, d in zip(ray.origin, ray.direction, strict=True)]
+    weights = [dot(cross(minus(q, p), minus(point, p)), area) / dot(area, area) for p, q in ((b, c), (c, a), (a, b))]
     normal = area
     if normals is not None:
         normal = [sum(w * n[i] for w, n in zip(weights, normals, strict=True)) for i in range(3)]
         outward = dot(normal, area)  # of a mirrored mesh the area looks in
         area = area if outward > 0 else [-x for x in area]
     side = -1 if dot(area, ray.direction) > 0 else 1
-    return t * ray.length, place, [side * x / norm(normal) for x in normal], min(weights)
+    return t * ray.length, point, [side * x / norm(normal) for x in normal], min(weights)
 
 
 @pytest.mark.parametrize("key", [model.key for model in MODELS])
@@ -74,10 +74,10 @@ def test_no_bound_is_exceeded(key):
         hits = np.argwhere(images["shape_index"] >= 0)
         for j, i in rng.permutation(hits)[:PIXELS].tolist():
             ray = truth.ray(raw, camera.raster.x0 + i + 0.5, camera.raster.y0 + j + 0.5)
-            own = {name: images[name][j, i] for name in PASSES}
-            distance, place, normal, least = hit(shapes, own["shape_index"], own["face_index"], ray)
+            cast_values = {name: images[name][j, i] for name in PASSES}
+            distance, point, normal, least = hit(shapes, cast_values["shape_index"], cast_values["face_index"], ray)
             assert least > -1e-9
-            assert abs(exact([own["distance"]])[0] - distance) <= own["distance_bound"]
-            assert norm(minus(exact(own["position"]), place)) <= own["position_bound"]
-            assert norm(minus(exact(own["normal"]), normal)) <= own["normal_bound"]
+            assert abs(exact([cast_values["distance"]])[0] - distance) <= cast_values["distance_bound"]
+            assert norm(minus(exact(cast_values["position"]), point)) <= cast_values["position_bound"]
+            assert norm(minus(exact(cast_values["normal"]), normal)) <= cast_values["normal_bound"]
         assert not len(hits) or np.median(images["distance_bound"][images["shape_index"] >= 0]) < 1e-11

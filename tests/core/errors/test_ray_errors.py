@@ -31,10 +31,10 @@ def test_bounds_hold_at_the_rim_of_an_orthographic_fisheye():
     worst, count = 0.0, 0
     for width in range(3, 60):
         images = bounds(camera("FISHEYE_ORTHOGRAPHIC", {"resolution_x": width, "resolution_y": width + 1}))
-        for row, column, place in rim(width, width + 1):
+        for row, column, unit in rim(width, width + 1):
             if images["valid"][row, column]:
                 count += 1
-                error = np.linalg.norm(images["position"][row, column] - RADIUS * np.array(place))
+                error = np.linalg.norm(images["position"][row, column] - RADIUS * np.array(unit))
                 worst = max(worst, error / images["position_bound"][row, column])
     assert count > 60
     assert 0 < worst <= 1
@@ -62,13 +62,13 @@ def test_bounds_hold_where_a_cross_slits_rays_meet_in_a_small_place():
         settings = {"slit_1": (first, first + along), "slit_2": (second, second + other)}
         settings |= {"resolution_x": 9, "resolution_y": 7}
         raw, cam = raw_of("CROSS_SLIT", settings), camera("CROSS_SLIT", settings)
-        x, y = (part.ravel() for part in np.meshgrid(cam.raster.columns(), cam.raster.rows()))
+        x, y = (grid.ravel() for grid in np.meshgrid(cam.raster.columns(), cam.raster.rows()))
         rays = world_rays(cam, x, y)
         for k in rng.integers(0, 63, 4):
             exact = truth.ray(raw, x[k], y[k])
             for name in ("origin", "direction"):
-                found = truth.exact([np.broadcast_to(part, x.shape)[k] for part in getattr(rays, name)])
-                off = truth.norm(truth.minus(found, getattr(exact, name)))
+                ours = truth.exact([np.broadcast_to(numbers, x.shape)[k] for numbers in getattr(rays, name)])
+                off = truth.norm(truth.minus(ours, getattr(exact, name)))
                 worst = max(worst, float(off / getattr(rays, f"{name}_error")[k]))
     assert 0.01 < worst <= 1
 

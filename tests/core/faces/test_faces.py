@@ -21,9 +21,9 @@ def test_every_ray_meets_its_face_within_the_texels(model):
     assert 1 <= len(faces) <= 6
     directions = rays.directions[rays.valid] @ turn_of(camera)
     which = chosen(faces, directions)
-    for place, face in enumerate(faces):
+    for number, face in enumerate(faces):
         assert max(face.angles) <= 100.001
-        at = face.places(directions[which == place])
+        at = face.places(directions[which == number])
         assert (at >= 1).all()  # a texel's rim is left for the filter
         assert (at <= np.array(face.size) - 1).all()
 
@@ -36,7 +36,7 @@ def test_every_ray_meets_its_face_within_the_texels(model):
 ], ids=lambda case: str(case))  # fmt: skip
 def test_only_faces_that_are_looked_into(settings, ahead):
     faces = faces_of(crc.camera(size=(400, 400), **settings))
-    assert [list(-face.axes[2]) for face in faces] == [list(one) for one in ahead]
+    assert [list(-face.axes[2]) for face in faces] == [list(axis) for axis in ahead]
 
 
 def test_a_pinhole_s_face_is_its_picture():
@@ -75,8 +75,8 @@ def test_a_turned_and_sheared_camera_s_rays_meet_the_faces():
     assert turn.T @ turn == pytest.approx(np.eye(3), abs=1e-15)
     directions = rays.directions[rays.valid] @ turn
     which = chosen(faces, directions)
-    for place, face in enumerate(faces):
-        at = face.places(directions[which == place])
+    for number, face in enumerate(faces):
+        at = face.places(directions[which == number])
         assert ((at >= 0) & (at <= face.size)).all()
 
 

@@ -14,7 +14,7 @@ def looked_up(table, directions):
     """Places of directions (n, 3) and whether they are known, by the four texels around."""
     side = table.texels.shape[0]
     x, y, z = directions.T
-    across, up = ((part / (1 + abs(z)) / table.reach + 1) / 2 * side - 0.5 for part in (x, y))
+    across, up = ((values / (1 + abs(z)) / table.reach + 1) / 2 * side - 0.5 for values in (x, y))
     square = side * (z > 0)
     inside = (across >= 0) & (across < side - 1) & (up >= 0) & (up < side - 1) & (table.has_behind | (z <= 0))
     i, j = (np.where(inside, at, 0).astype(int) for at in (across, up))

@@ -7,7 +7,7 @@ mp.dps = 60
 
 def traced(surfaces, origin, direction):
     """The ray behind the last of some surfaces, from the scene to the film: origin and unit direction."""
-    point, ahead = [mpf(part) for part in origin], [mpf(part) for part in direction]
+    point, ahead = [mpf(number) for number in origin], [mpf(number) for number in direction]
     for surface in surfaces:
         z, curvature = mpf(surface.z), mpf(surface.curvature)
         if surface.asphere:
@@ -32,8 +32,8 @@ def on_asphere(surface, point, ahead):
     def height(x, y):
         q = x * x + y * y
         root = sqrt(1 - (1 + mpf(surface.conic)) * curvature**2 * q)
-        slope = curvature / root + sum(power * mpf(part) * q ** (mpf(power) / 2 - 1) for power, part in surface.asphere)
-        powers = sum(mpf(part) * q ** (mpf(power) / 2) for power, part in surface.asphere)
+        slope = curvature / root + sum(power * mpf(term) * q ** (mpf(power) / 2 - 1) for power, term in surface.asphere)
+        powers = sum(mpf(term) * q ** (mpf(power) / 2) for power, term in surface.asphere)
         return mpf(surface.z) + curvature * q / (1 + root) + powers, slope
 
     def at(t):
@@ -53,13 +53,13 @@ def on_sphere(point, ahead, middle, radius):
     root = sqrt(half * half - sum(o * o for o in off) + radius * radius)
     vertex = middle - radius
     crossings = [[p + t * d for p, d in zip(point, ahead, strict=True)] for t in (-half - root, -half + root)]
-    return min(crossings, key=lambda place: abs(place[2] - vertex))
+    return min(crossings, key=lambda point: abs(point[2] - vertex))
 
 
 def refracted(ahead, normal, ratio):
     """Snell's law for a unit normal of either sign."""
     cosine = -sum(a * n for a, n in zip(ahead, normal, strict=True))
     if cosine < 0:
-        normal, cosine = [-part for part in normal], -cosine
+        normal, cosine = [-number for number in normal], -cosine
     along = ratio * cosine - sqrt(1 - ratio * ratio * (1 - cosine * cosine))
     return [ratio * a + along * n for a, n in zip(ahead, normal, strict=True)]

@@ -58,9 +58,7 @@ def test_the_light_of_a_picture_is_what_passes_the_rims_and_falls_off(vignetting
     camera, light = light_of_a_wall(aperture_fstop=2.0, lens_vignetting=vignetting, lens_falloff=falloff)
     optics, film = camera.model.optics, camera.model.film
     plane, side = optics.exit_pupil[0], np.linspace(-15.0, 15.0, 301)  # rays pass up to 13.8 mm from the axis
-    middle, edge = (
-        passing(optics, (place, 0.0, film), (side[:, None], side, plane), falloff) for place in (0.0, -17.45)
-    )
+    middle, edge = (passing(optics, (x, 0.0, film), (side[:, None], side, plane), falloff) for x in (0.0, -17.45))
     assert light[:, 15:18].mean() == pytest.approx(1.0, abs=noise(0.91, 9 * SAMPLES))
     fall = edge.sum() / middle.sum()
     if not vignetting:
@@ -71,9 +69,9 @@ def test_the_light_of_a_picture_is_what_passes_the_rims_and_falls_off(vignetting
 def passing(optics, origin, target, falloff):
     """cos^4 (or 1) of rays from the film to places of the exit pupil that pass all rims; 0 for the others."""
     ahead = np.broadcast_arrays(*(there - here for there, here in zip(target, origin, strict=True)))
-    length = np.sqrt(sum(part * part for part in ahead))
+    length = np.sqrt(sum(values * values for values in ahead))
     with np.errstate(invalid="ignore"):
-        _, (dx, _, _) = trace(optics.surfaces[::-1], origin, tuple(part / length for part in ahead), to_film=False)
+        _, (dx, _, _) = trace(optics.surfaces[::-1], origin, tuple(values / length for values in ahead), to_film=False)
     return np.isfinite(dx) * (np.abs(ahead[2]) / length) ** (4 if falloff else 0)
 
 
@@ -87,8 +85,8 @@ def test_light_beyond_the_last_chief_ray_is_that_of_the_rays_that_pass():
     assert camera.model.chief.end < 21.2
     side = np.linspace(-20.0, 20.0, 401)
     middle, *edge = (
-        passing(optics, (place, 0.0, film), (side[:, None], side, optics.exit_pupil[0]), True).sum()
-        for place in (0.0, *(-21.3 + camera.model.window.pitch_x * np.linspace(-0.4, 0.4, 5)))
+        passing(optics, (x, 0.0, film), (side[:, None], side, optics.exit_pupil[0]), True).sum()
+        for x in (0.0, *(-21.3 + camera.model.window.pitch_x * np.linspace(-0.4, 0.4, 5)))
     )
     assert light[:, [0, -1]].mean() == pytest.approx(np.mean(edge) / middle, rel=noise(0.06, 6 * 512))
 
@@ -135,7 +133,7 @@ def test_a_ball_is_sought_wherever_the_blur_shows_it(name, tilt, focus):
         point = camera.aperture.points(*rng.random((2, 3000)))
         origin, direction = camera.model.through(camera.aperture, None, x, y, point)
     ray = np.isfinite(direction[0])
-    origin, direction = (np.stack(part, axis=-1)[ray] for part in (origin, direction))
+    origin, direction = (np.stack(vectors, axis=-1)[ray] for vectors in (origin, direction))
     count = len(origin)
     assert count > 300
     for nearest, farthest in ((0.01, 100.0), (0.9 * focus, 1.1 * focus)):
@@ -174,7 +172,7 @@ def test_red_green_and_blue_pass_the_glass_with_their_own_indices():
         assert 85 < mine.sum() < 115  # a third of them
         colored = replace(model, optics=Optics.of(lens, wavelength))
         with np.errstate(invalid="ignore"):
-            _, theirs = colored.through(plain.aperture, None, x[mine], y[mine], tuple(part[mine] for part in point))
+            _, theirs = colored.through(plain.aperture, None, x[mine], y[mine], tuple(values[mine] for values in point))
         # the disc stands in the plane of the pupil for the d line in both
         np.testing.assert_allclose(np.stack(ours)[:, mine], np.stack(theirs), rtol=0, atol=1e-15)
 

@@ -15,8 +15,8 @@ ROWS = [(60.0, 6.0, 1.52, 24.0), (-40.0, 2.0, 1.62, 24.0), (-150.0, 5.0, 1.0, 22
 
 def optical_bench(rows=ROWS, extra=""):
     lines = ["[lens data]"]
-    for place, (radius, gap, index, diameter) in enumerate(rows):
-        name = "AS" if radius == 0 else str(place + 1)
+    for number, (radius, gap, index, diameter) in enumerate(rows):
+        name = "AS" if radius == 0 else str(number + 1)
         lines.append(f"{name}\t{radius or 'Infinity'}\t{gap}\t{index if index > 1 else ''}\t{diameter}\t")
     return "\n".join(lines) + "\n" + extra
 
@@ -29,8 +29,8 @@ def isetcam(rows=ROWS):
 
 def zemax(rows=ROWS, unit="MM", size=1.0):
     lines = ["VERS 1", f"UNIT {unit} X W X CM MR CPMM", "SURF 0", "  TYPE STANDARD", "  DISZ INFINITY"]
-    for place, (radius, gap, index, diameter) in enumerate(rows, 1):
-        lines += [f"SURF {place}", "  TYPE STANDARD", f"  CURV {size / radius if radius else 0.0!r} 0 0"]
+    for number, (radius, gap, index, diameter) in enumerate(rows, 1):
+        lines += [f"SURF {number}", "  TYPE STANDARD", f"  CURV {size / radius if radius else 0.0!r} 0 0"]
         lines += ["  STOP"] if radius == 0 else []
         lines += [f"  DISZ {gap / size!r}", f"  DIAM {diameter / 2 / size!r} 1 0 0"]
         lines += [f"  GLAS ___BLANK 1 0 {index} 60.0"] if index > 1 else []
@@ -45,10 +45,10 @@ def rayoptics(rows=ROWS, profile="Spherical", **more):
 
     surfaces = [(0.0, 1e10, 1.0, 0.0), *rows, (0.0, 0.0, 1.0, 40.0)]
     ifcs, gaps, profiles = [], [], {}
-    for place, (radius, gap, index, diameter) in enumerate(surfaces):
-        asphere = more if place == 1 else {"coefs": []}
-        profiles[str(place)] = instance(profile, cv=1 / radius if radius else 0.0, **asphere)
-        ifcs.append(instance("Surface", profile_id=place, max_aperture=diameter / 2, clear_apertures=[], decenter=None,
+    for number, (radius, gap, index, diameter) in enumerate(surfaces):
+        asphere = more if number == 1 else {"coefs": []}
+        profiles[str(number)] = instance(profile, cv=1 / radius if radius else 0.0, **asphere)
+        ifcs.append(instance("Surface", profile_id=number, max_aperture=diameter / 2, clear_apertures=[], decenter=None,
                          interact_mode="transmit"))  # fmt: skip
         medium = instance("ModelGlass", n=index, v=60.0) if index > 1 else instance("Air")
         gaps.append(instance("Gap", thi=gap, medium=medium))
@@ -62,13 +62,13 @@ def optiland(rows=ROWS, kind="StandardGeometry", aperture=None, **more):
     """As Optiland saves it, but for what is of no use here. Without rims if the system's aperture is given."""
     z, surfaces = 0.0, [{"type": "ObjectSurface", "geometry": {"type": "Plane", "cs": {"z": float("-inf")}},
                          "material_post": {"type": "IdealMaterial", "index": 1.0, "absorp": 0.0}}]  # fmt: skip
-    for place, (radius, gap, index, diameter) in enumerate([*rows, (0.0, 0.0, 1.0, 40.0)]):
+    for number, (radius, gap, index, diameter) in enumerate([*rows, (0.0, 0.0, 1.0, 40.0)]):
         frame = {"cs": {"x": 0.0, "y": 0.0, "z": z, "rx": 0.0, "ry": 0.0, "rz": 0.0, "reference_cs": None}}
         shape = {"type": kind, "radius": radius, "conic": 0.0} | more if radius else {"type": "Plane"}
         glass = {"type": "AbbeMaterial", "abbe": 60.0} if index > 1 else {"type": "IdealMaterial"}
         rim = None if aperture else {"type": "RadialAperture", "r_max": diameter / 2, "r_min": 0.0}
         surfaces.append({"type": "Surface", "geometry": shape | frame, "material_post": glass | {"index": index},
-                         "is_stop": radius == 0 and place < len(rows), "aperture": rim,
+                         "is_stop": radius == 0 and number < len(rows), "aperture": rim,
                          "interaction_model": {"is_reflective": False}})  # fmt: skip
         z += gap
     return json.dumps({"name": "doublet", "aperture": aperture, "surface_group": {"surfaces": surfaces}})

@@ -37,9 +37,9 @@ def test_rays_are_those_of_snell_s_law_with_60_digits(name):
     origin, direction = trace(optics.surfaces, (0 * x, 0 * x, 0 * x - 1000.0), tuple(unit), to_film=True)
     for k in range(4):
         point, ahead = traced(optics.surfaces, (0, 0, -1000), unit[:, k])
-        place = [np.broadcast_to(part, 4)[k] for part in origin]
-        assert max(abs(mpf(part) - exact) for part, exact in zip(place, point, strict=True)) < 1e-11
-        assert max(abs(mpf(part[k]) - exact) for part, exact in zip(direction, ahead, strict=True)) < 1e-13
+        start = [np.broadcast_to(values, 4)[k] for values in origin]
+        assert max(abs(mpf(number) - exact) for number, exact in zip(start, point, strict=True)) < 1e-11
+        assert max(abs(mpf(values[k]) - exact) for values, exact in zip(direction, ahead, strict=True)) < 1e-13
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -53,16 +53,16 @@ def test_chief_rays_pass_the_center_of_the_stop(name):
     chief = chief_rays(optics, film)
     for share in (0.2, 0.6, 0.9):
         r = share * chief.rim
-        height, place, tangent = (float(part) for part in chief.at(np.float64(r * r)))
+        height, z, tangent = (float(number) for number in chief.at(np.float64(r * r)))
         turn = 2 / (1 + (tangent * r) ** 2)
-        origin, direction = (height * r, 0.0, place), (-tangent * r * turn, 0.0, turn - 1)
-        stop, place = _met(optics, film, origin, direction)
-        moved, turned = (mpf(part) * mpf(10) ** -20 for part in (direction[2], -direction[0]))
+        origin, direction = (height * r, 0.0, z), (-tangent * r * turn, 0.0, turn - 1)
+        stop, z = _met(optics, film, origin, direction)
+        moved, turned = (mpf(number) * mpf(10) ** -20 for number in (direction[2], -direction[0]))
         beside, above = _met(optics, film, (origin[0] + moved, 0, origin[2] + turned), direction)
         around, along = _met(optics, film, origin, (direction[0] + moved, 0, direction[2] + turned))
         off, angle = chief.errors[0] + 1e-11, chief.errors[1] + 1e-13
         assert abs(stop) < 1e20 * (off * abs(beside - stop) + angle * abs(around - stop))
-        assert abs(-r - place) < 1e20 * (off * abs(above - place) + angle * abs(along - place))
+        assert abs(-r - z) < 1e20 * (off * abs(above - z) + angle * abs(along - z))
 
 
 def _met(optics, film, origin, direction):
@@ -78,7 +78,7 @@ def _met(optics, film, origin, direction):
 def test_a_lens_of_the_library_is_what_its_name_says(name):
     camera = crc.camera("REAL_LENS", SIZE, lens_file=name, focus_distance=50.0)
     facts = camera.model.facts()
-    stated = next((part for part in name.split("_") if part.endswith("mm")), None)
+    stated = next((word for word in name.split("_") if word.endswith("mm")), None)
     focal = facts["focal_length"]
     assert focal == pytest.approx(float(stated[:-2]), rel=0.05)  # nominal: the fisheye of 5 mm has 5.208
     assert facts["source"] or name == "singlet_100mm"
@@ -124,9 +124,9 @@ def test_a_symmetric_lens_at_one_to_one_has_no_distortion():
     film = optics.paraxial_film(away + optics.entrance_pupil[0])
     chief = chief_rays(optics, film)
     for r in (1.0, 4.0, 8.0):
-        height, place, tangent = (float(part) for part in chief.at(np.float64(r * r)))
+        height, z, tangent = (float(number) for number in chief.at(np.float64(r * r)))
         turn = 2 / (1 + (tangent * r) ** 2)
-        assert height * r + (-away - place) * (tangent * r * turn) / (1 - turn) == pytest.approx(r, rel=1e-9)
+        assert height * r + (-away - z) * (tangent * r * turn) / (1 - turn) == pytest.approx(r, rel=1e-9)
 
 
 def test_framing_is_that_of_perspective_with_the_same_focal_length():
@@ -138,11 +138,11 @@ def test_framing_is_that_of_perspective_with_the_same_focal_length():
 
 
 def test_without_a_focal_length_the_lens_has_its_own_size_and_with_one_it_is_scaled():
-    own, scaled = (crc.camera("REAL_LENS", SIZE, focus_distance=1e4, **lens) for lens in ({}, {"lens": 25.0}))
-    assert own.model.facts()["focal_length"] == pytest.approx(50.35816695831366, rel=1e-12)
+    unscaled, scaled = (crc.camera("REAL_LENS", SIZE, focus_distance=1e4, **lens) for lens in ({}, {"lens": 25.0}))
+    assert unscaled.model.facts()["focal_length"] == pytest.approx(50.35816695831366, rel=1e-12)
     assert scaled.model.facts()["focal_length"] == pytest.approx(25.0, rel=1e-12)
     assert scaled.model.facts()["back_focus"] == pytest.approx(
-        own.model.facts()["back_focus"] * 25.0 / 50.35816695831366, rel=1e-12
+        unscaled.model.facts()["back_focus"] * 25.0 / 50.35816695831366, rel=1e-12
     )
 
 
@@ -165,7 +165,7 @@ def test_a_zoom_is_interpolated_between_its_configurations():
     rows = (Row(1 / 60, 4.0, 1.6, 15.0), Row(-1 / 60, 10.0, 1.0, 15.0), Row(0.0, 8.0, 1.0, 6.0),
             Row(1 / 70, 4.0, 1.6, 15.0), Row(-1 / 70, 0.0, 1.0, 15.0))  # fmt: skip
     lens = Prescription(rows, 2, states=(("wide", ((1, 10.0),)), ("long", ((1, 30.0),))))
-    gaps = [lens.in_state(place).rows[1].gap for place in (0.0, 0.25, 1.0, 5.0)]
+    gaps = [lens.in_state(state).rows[1].gap for state in (0.0, 0.25, 1.0, 5.0)]
     assert gaps == [10.0, 15.0, 30.0, 30.0]
     assert lens.in_state(0.25).rows[2] == replace(rows[2])
 

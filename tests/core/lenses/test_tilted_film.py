@@ -43,10 +43,10 @@ def test_chief_rays_meet_the_pixel_s_point_of_the_film_with_60_digits(name, tilt
     turn = matrix([[cy, 0, -sy], [0, 1, 0], [sy, 0, cy]]) * matrix([[1, 0, 0], [0, cx, sx], [0, -sx, cx]])
     for x, y in ((3.25, 60.5), (90.0, 8.0), (40.0, 31.5)):
         origin, direction = model.rays(x, y)
-        start = [part / model.unit for part in origin]
+        start = [number / model.unit for number in origin]
         start[2] += model.pupil
-        point, ahead = traced(model.optics.surfaces, start, [-part for part in direction])
-        u, v = ((mpf(place) - center) * 20 / 96 for place, center in ((x, 48), (y, 32)))
+        point, ahead = traced(model.optics.surfaces, start, [-number for number in direction])
+        u, v = ((mpf(pixel) - center) * 20 / 96 for pixel, center in ((x, 48), (y, 32)))
         across, down, behind = (turn.T * matrix([u, -v, 0]))[:]
         way = (mpf(model.film) + behind - point[2]) / ahead[2]
         met = [point[k] + way * ahead[k] for k in range(2)]
@@ -64,13 +64,13 @@ def test_the_plane_of_focus_is_tilted_by_scheimpflug_s_rule(thin):
     camera = crc.camera("REAL_LENS", SIZE, tau_x=tau, lens_focus="PARAXIAL", **settings)
     line = camera.model.film * 1e-3 / np.tan(tau)
     x, y = np.meshgrid([10.0, 48.0, 80.0], [4.0, 20.0, 32.0, 60.0])
-    place = camera.aperture.radius / 2
-    rays = [camera.model.through(camera.aperture, None, x, y, (side * place, 0.3 * side * place)) for side in (-1, 1)]
-    (one, way), (other, beside) = ((np.stack(np.broadcast_arrays(*part)) for part in ray) for ray in rays)
+    height = camera.aperture.radius / 2
+    rays = [camera.model.through(camera.aperture, None, x, y, (side * height, 0.3 * side * height)) for side in (-1, 1)]
+    (start, way), (other, beside) = ((np.stack(np.broadcast_arrays(*vectors)) for vectors in ray) for ray in rays)
     # where two rays come closest
-    off, product = other - one, (way * beside).sum(axis=0)
+    off, product = other - start, (way * beside).sum(axis=0)
     along = ((off * way).sum(axis=0) - product * (off * beside).sum(axis=0)) / (1 - product**2)
-    sharp = one + along * way
+    sharp = start + along * way
     depth = focus * (1 + sharp[1] / line)
     assert np.ptp(depth) > 0.15
     np.testing.assert_allclose(-sharp[2], depth, rtol=2e-4)

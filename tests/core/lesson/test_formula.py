@@ -94,9 +94,9 @@ def test_the_normalized_form_of_a_parallel_view_is_the_ray_s_origin_in_every_fra
     lines = dict(lesson(cam, no_shapes(), 30, 170).steps)["Model"]
     origins = [line.rpartition(" = (")[2].rstrip(")") for line in lines if line.startswith("  o = ")]
     assert len(origins) == 2
-    for one in origins:
-        wanted = [float(part) for part in cam.camera_rays(30.5, 170.5)[0]]
-        assert [float(part) for part in one.split(",")] == pytest.approx(wanted, abs=1e-5)
+    for origin in origins:
+        wanted = [float(number) for number in cam.camera_rays(30.5, 170.5)[0]]
+        assert [float(number) for number in origin.split(",")] == pytest.approx(wanted, abs=1e-5)
 
 
 VECTOR = re.compile(r"  ([or]) = .*\(([^()]*, [^()]*, [^()]*)\)")
@@ -115,7 +115,7 @@ def test_the_formula_of_a_model_gives_its_rays_with_numbers_in_every_step(model)
         cam = camera(model.key, settings)
         for column, row in pixels(cam):
             with np.errstate(all="ignore"):
-                rays = [np.array([float(part) for part in v]) for v in cam.camera_rays(column + 0.5, row + 0.5)]
+                rays = [np.array([float(number) for number in v]) for v in cam.camera_rays(column + 0.5, row + 0.5)]
             if not np.isfinite(rays[1]).all():
                 continue
             lines = dict(lesson(cam, no_shapes(), column, row).steps)["Model"]
@@ -123,11 +123,11 @@ def test_the_formula_of_a_model_gives_its_rays_with_numbers_in_every_step(model)
                 at = lines.index(f"{step.words}: {step.symbols}") + 1
                 worked = [line for line, _ in assignments(step.symbols)]
                 assert [line.split()[0] for line in lines[at : at + len(worked)]] == worked, step
-            vectors = [one for one in map(VECTOR.fullmatch, lines) if one]
+            vectors = [match for match in map(VECTOR.fullmatch, lines) if match]
             vectors = vectors[-2:] if "port" in settings else vectors  # before: the ray in air
-            assert "r" in {one[1] for one in vectors}
-            for name, numbers in (one.groups() for one in vectors):
-                shown = np.array([float(part) for part in numbers.split(",")])
+            assert "r" in {match[1] for match in vectors}
+            for name, numbers in (match.groups() for match in vectors):
+                shown = np.array([float(number) for number in numbers.split(",")])
                 ray = rays[name == "r"]
                 if name == "r":
                     shown, ray = (v / np.linalg.norm(v) for v in (shown, ray))

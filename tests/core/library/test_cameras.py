@@ -23,7 +23,7 @@ LINES = {
 
 
 def lines_of(model):
-    return {one.name: LINES[one.name] for one in model.SETTINGS if isinstance(one, Line)}
+    return {setting.name: LINES[setting.name] for setting in model.SETTINGS if isinstance(setting, Line)}
 
 
 def tables_of(model):
@@ -34,7 +34,8 @@ def tables_of(model):
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)
 def test_a_model_by_its_key_is_that_of_its_declared_defaults(model):
     cam = crc.camera(model.key, SIZE, **lines_of(model), **tables_of(model))
-    settings = {one.name: one.default for one in model.SETTINGS if one.name not in RECORD_FIELDS} | tables_of(model)
+    declared = [setting for setting in model.SETTINGS if setting.name not in RECORD_FIELDS]
+    settings = {setting.name: setting.default for setting in declared} | tables_of(model)
     for name, line in lines_of(model).items():
         points = np.array(line) if name == "path" else np.array((line[0], np.add(*line)))
         settings[name] = points, np.eye(4), [(k, k + 1) for k in range(len(points) - 1)]
@@ -157,14 +158,14 @@ def test_a_calibration_file_is_a_camera_of_its_size(tmp_path):
     np.testing.assert_array_equal(loaded.pose.eye, (1, 2, 3))
     assert loaded.model.key == "OPENCV_FISHEYE"
     assert crc.load_calibration(Path(path), size=(320, 240)).K[0, 0] == camera.K[0, 0] / 2
-    for words, said in (
+    for words, message in (
         (("/no/such.yml",), "No such file"),
         ((3,), "path is 3"),
         ((path, "right"), "no camera 'right'"),
         ((path,), "of another shape"),
     ):
-        with pytest.raises(crc.InputError, match=said):
-            crc.load_calibration(*words, size=(640, 640) if "shape" in said else None)
+        with pytest.raises(crc.InputError, match=message):
+            crc.load_calibration(*words, size=(640, 640) if "shape" in message else None)
 
 
 def test_poses_of_opencv_and_of_two_points():

@@ -29,26 +29,26 @@ def loaded(tmp_path, text, **more):
     """The camera, and what was said."""
     path = tmp_path / "lens.txt"
     path.write_text(text)
-    with warnings.catch_warnings(record=True) as said:
+    with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        return crc.load_calibration(path, **more), [str(one.message) for one in said]
+        return crc.load_calibration(path, **more), [str(warning.message) for warning in caught]
 
 
 def test_the_second_camera_of_kalibr_stands_beside_the_first(tmp_path):
     """x1 = x0 - (0.12, 0, -0.01) in OpenCV's axes: the world is that of the first camera."""
-    camera, said = loaded(tmp_path, KALIBR, camera="cam1")
+    camera, messages = loaded(tmp_path, KALIBR, camera="cam1")
     np.testing.assert_allclose(camera.pose.eye, (0.12, 0.0, -0.01), atol=1e-12)
     np.testing.assert_allclose(camera.opencv_from_world[:3, 3], (-0.12, 0.0, 0.01), atol=1e-12)
-    assert (said, loaded(tmp_path, KALIBR, camera="cam0")[0].pose.eye.tolist()) == ([], [0, 0, 0])
+    assert (messages, loaded(tmp_path, KALIBR, camera="cam0")[0].pose.eye.tolist()) == ([], [0, 0, 0])
 
 
 def test_the_pose_of_a_picture_is_that_of_the_file_unless_it_is_given(tmp_path):
     rounded = POSE.round(4).tolist()
-    camera, said = loaded(tmp_path, transforms(rounded))
+    camera, messages = loaded(tmp_path, transforms(rounded))
     np.testing.assert_allclose(camera.pose.basis, POSE[:3, :3], atol=1e-4)
     np.testing.assert_allclose(camera.pose.basis.T @ camera.pose.basis, np.eye(3), atol=1e-12)
     np.testing.assert_allclose(camera.pose.eye, (1, 2, 3))
-    assert not said
+    assert not messages
     assert loaded(tmp_path, transforms(rounded), pose=np.eye(4))[0].pose.eye.tolist() == [0, 0, 0]
 
 
@@ -62,18 +62,18 @@ def test_the_pose_of_a_picture_is_that_of_the_file_unless_it_is_given(tmp_path):
 )
 def test_poses_that_are_left_out_are_said(tmp_path, text, words):
 
-    camera, (said,) = loaded(tmp_path, text)
-    assert re.search(words, said)
-    assert "\n" not in said
+    camera, (message,) = loaded(tmp_path, text)
+    assert re.search(words, message)
+    assert "\n" not in message
     assert camera.pose.eye.tolist() == [0, 0, 0]
 
 
 def test_a_table_of_rays_stands_where_it_was_written(tmp_path):
     first = crc.camera("OPENCV_FISHEYE", (8, 6), POSE, fx=5.0)
     (path,) = crc.export(first, tmp_path, "npz").paths
-    found = crc.load_calibration(path)
-    np.testing.assert_allclose(found.rays().directions, first.rays().directions, atol=1e-12)
-    np.testing.assert_allclose(found.pose.eye, (1, 2, 3))
+    camera = crc.load_calibration(path)
+    np.testing.assert_allclose(camera.rays().directions, first.rays().directions, atol=1e-12)
+    np.testing.assert_allclose(camera.pose.eye, (1, 2, 3))
 
 
 def test_a_file_without_poses_says_nothing(tmp_path):

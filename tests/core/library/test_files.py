@@ -21,7 +21,7 @@ def perspectives():
     return [crc.camera("PERSP", SIZE, crc.look_at((k, -4, 2), (0, 0, 0)), name="left", frame=k) for k in (2, 1)]
 
 
-@pytest.mark.parametrize("key", [one.key for one in EXPORT_FORMATS if one.key != "stmap"])
+@pytest.mark.parametrize("key", [export.key for export in EXPORT_FORMATS if export.key != "stmap"])
 @pytest.mark.one_for_each("key")
 def test_each_format_is_written(tmp_path, key):
     paths, remarks = crc.export(perspectives(), tmp_path / "out", key)
@@ -36,8 +36,8 @@ def test_maps_are_images_that_others_read(tmp_path):
     paths, _ = crc.export(fisheye, tmp_path, "stmap", target=perspective)
     (distort,) = (path for path in paths if path.name.endswith("_distort.exr"))
     channels, expected = read_exr(distort), places(fisheye, perspective)
-    for name, own in zip("RGB", np.moveaxis(expected, -1, 0), strict=True):
-        np.testing.assert_array_equal(channels[name], own)
+    for name, channel in zip("RGB", np.moveaxis(expected, -1, 0), strict=True):
+        np.testing.assert_array_equal(channels[name], channel)
 
 
 READ = """
@@ -76,8 +76,8 @@ def test_what_cannot_be_exported_is_one_line_and_leaves_nothing(tmp_path, words,
 
 
 def test_the_help_names_every_format():
-    for one in EXPORT_FORMATS:
-        assert f'"{one.key}"' in crc.export.__doc__, f"crc.export, core/library/files.py, has no {one.key}"
+    for export in EXPORT_FORMATS:
+        assert f'"{export.key}"' in crc.export.__doc__, f"crc.export, core/library/files.py, has no {export.key}"
 
 
 @pytest.mark.parametrize("meters", [0, -1.0, np.float64(0)])

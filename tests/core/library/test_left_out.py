@@ -26,7 +26,7 @@ FULL = {"fx": 50.0, "fy": 60.0, "cx": 30.0, "cy": 20.0, "calibration_width": 160
 
 def pairs_by_name(model):
     """The pairs of settings whose names differ only by the words of two ends."""
-    names = {one.name for one in model.SETTINGS}
+    names = {setting.name for setting in model.SETTINGS}
     for first, second in ENDS:
         for name in sorted(names):
             for other in {re.sub(rf"(^|_){first}($|_)", rf"\g<1>{second}\g<2>", name), f"{name[:-1]}{second}"}:
@@ -37,28 +37,33 @@ def pairs_by_name(model):
 @pytest.mark.one_for_each("model")
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)
 def test_every_pair_has_a_rule(model):
-    declared = {one.name: one for one in model.SETTINGS}
+    declared = {setting.name: setting for setting in model.SETTINGS}
     for name, other in pairs_by_name(model):
         ruled = declared[name].partner == other or declared[name].left_out == MIDDLE
         assert ruled or name in ALONE, f"{name} and {other}: say what is left out, or add {name} to ALONE"
-    for one in declared.values():
-        if one.partner:
-            assert declared[one.partner].partner == one.name
-            assert declared[one.partner].left_out == one.left_out
+    for setting in declared.values():
+        if setting.partner:
+            assert declared[setting.partner].partner == setting.name
+            assert declared[setting.partner].left_out == setting.left_out
 
 
-RULED = [(model, one) for model in MODELS for one in model.SETTINGS if one.partner or one.left_out != DECLARED]
+RULED = [
+    (model, setting)
+    for model in MODELS
+    for setting in model.SETTINGS
+    if setting.partner or setting.left_out != DECLARED
+]
 
 
 def given_with(model, setting):
     """Settings of a model with a calibration, or all that the others of a pair need, without ``setting``."""
-    names = {one.name for one in model.SETTINGS}
+    names = {item.name for item in model.SETTINGS}
     full = {name: value for name, value in FULL.items() if name in names}
-    full |= {one.name: one.default for one in model.SETTINGS if one.left_out == NEEDED and not one.used_with}
+    full |= {item.name: item.default for item in model.SETTINGS if item.left_out == NEEDED and not item.used_with}
     if "ftheta_angle_to_radius" in names:
         full["ftheta_angle_to_radius"] = "0 50"
     if setting.partner in names and setting.partner not in full:
-        other = next(one for one in model.SETTINGS if one.name == setting.partner)
+        other = next(item for item in model.SETTINGS if item.name == setting.partner)
         full[other.name] = other.default
     if setting.name == "ftheta_radius_to_angle":
         full["ftheta_reference"] = "RADIUS_TO_ANGLE"
@@ -67,7 +72,7 @@ def given_with(model, setting):
     return full
 
 
-@pytest.mark.parametrize(("model", "setting"), RULED, ids=[f"{model.key}-{one.name}" for model, one in RULED])
+@pytest.mark.parametrize(("model", "setting"), RULED, ids=[f"{model.key}-{setting.name}" for model, setting in RULED])
 def test_what_is_left_out_follows_or_is_refused(model, setting):
     explicit = given_with(model, setting)
     if setting.left_out == SAME:
@@ -92,7 +97,7 @@ def test_nothing_belongs_to_a_picture_of_another_size():
         crc.camera("UCM", (640, 480), cx=300.0)
 
 
-CALIBRATED = [model for model in MODELS if any(one.name == "calibration_unit" for one in model.SETTINGS)]
+CALIBRATED = [model for model in MODELS if any(setting.name == "calibration_unit" for setting in model.SETTINGS)]
 
 
 @pytest.mark.one_for_each("model")
@@ -130,7 +135,9 @@ def test_a_setting_without_effect_is_refused(key, settings, message):
 def test_coefficients_grow_with_the_picture_by_their_declaration():
     """The rays of a lens in a frame twice as large, whose polynomials are declared by ``grows``."""
     for model in MODELS:
-        for one in (one for one in model.SETTINGS if isinstance(one, Coefficients) and one.left_out == NEEDED):
-            reference = dict(one.used_with)
+        for setting in (
+            setting for setting in model.SETTINGS if isinstance(setting, Coefficients) and setting.left_out == NEEDED
+        ):
+            reference = dict(setting.used_with)
             rays = [crc.camera(model.key, (side, side), **reference).rays() for side in (9, 27)]
             np.testing.assert_allclose(rays[0].directions, rays[1].directions[1::3, 1::3], rtol=0, atol=1e-12)

@@ -74,8 +74,8 @@ def test_the_ending_of_a_path_tells_the_format(tmp_path):
         assert len(paths) == files
         assert tmp_path / name / name in paths
     assert pytest.approx(CAMERA.K, rel=1e-12) == crc.load_calibration(tmp_path / "left.yml" / "left.yml").K
-    for name, said in {"a.exr": "2 files: give a folder", "a": "give format=", "a.txt": "give format="}.items():
-        with pytest.raises(crc.InputError, match=said):
+    for name, message in {"a.exr": "2 files: give a folder", "a": "give format=", "a.txt": "give format="}.items():
+        with pytest.raises(crc.InputError, match=message):
             crc.export(CAMERA, tmp_path / "no" / name)
     assert not (tmp_path / "no" / "a.exr").exists()
 

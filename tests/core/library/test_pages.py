@@ -51,7 +51,7 @@ def leads_somewhere(page: Path, link: str) -> bool:
     if not file.exists() or not file.is_relative_to(ROOT):
         return False
     headings = HEADING.findall(file.read_text(encoding="utf-8")) if anchor else []
-    return not anchor or anchor in {re.sub(r"[^\w -]", "", one.lower()).replace(" ", "-") for one in headings}
+    return not anchor or anchor in {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
 def test_a_link_to_nothing_is_seen():

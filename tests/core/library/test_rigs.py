@@ -29,14 +29,14 @@ def test_a_camera_that_moves_has_its_pose_at_each_of_its_frames(tmp_path):
     assert camera.frames == (1.0, 3.0)
     np.testing.assert_allclose(camera.pose.eye, (1, 2, 3), atol=1e-12)
     np.testing.assert_allclose(camera.at(3).pose.eye, (2, 2, 3), atol=1e-12)
-    assert [one.pose.eye[0] for one in camera] == pytest.approx([1, 2])
+    assert [view.pose.eye[0] for view in camera] == pytest.approx([1, 2])
     assert len(camera) == 2
     assert camera[1].record.settings["frame"] == 3
     with pytest.raises(crc.InputError, match="no pose at frame 2: the nearest is 1"):
         camera.at(2)
     crc.export(list(camera), tmp_path / "again", "colmap")
     (again,) = crc.load_rig(tmp_path / "again").values()
-    np.testing.assert_allclose([one.pose.eye for one in again], [one.pose.eye for one in camera], atol=1e-12)
+    np.testing.assert_allclose([view.pose.eye for view in again], [view.pose.eye for view in camera], atol=1e-12)
     distance = crc.cast(camera, crc.spheres((0, 0, 0), 1.0), passes=("distance",))["distance"]
     assert distance[240, 320] == pytest.approx(14**0.5 - 1, rel=1e-5)  # half a pixel beside the middle
 

@@ -37,16 +37,16 @@ def test_what_is_read_is_written_again(readout, start, duration, tmp_path):
     path = written(tmp_path, offsets, readout)
     camera = crc.load_rig(path, frame_rate=RATE)["a"]
     assert camera.frames == (3, 8)
-    for own in camera:
-        assert own.record.settings["motion_blur_shutter"] == pytest.approx(0.5, rel=1e-12)
+    for view in camera:
+        assert view.record.settings["motion_blur_shutter"] == pytest.approx(0.5, rel=1e-12)
     crc.export(list(camera), tmp_path / "again", format="nerfstudio")
     before, after = (json.loads(file.read_text())["frames"]
                      for file in (path, tmp_path / "again" / "transforms.json"))  # fmt: skip
-    for one, other in zip(before, after, strict=True):
-        assert one["rolling_shutter"] == other["rolling_shutter"]
+    for entry, other in zip(before, after, strict=True):
+        assert entry["rolling_shutter"] == other["rolling_shutter"]
         assert np.multiply(other["rolling_shutter_offsets"], 24 / RATE) == pytest.approx(offsets, abs=1e-12)
         for name in ("transform_matrix", "transform_matrix_rs"):
-            np.testing.assert_allclose(other[name], one[name], rtol=0, atol=1e-12)
+            np.testing.assert_allclose(other[name], entry[name], rtol=0, atol=1e-12)
 
 
 def test_rows_have_the_poses_between(tmp_path):

@@ -102,8 +102,8 @@ def test_several_records_are_one(camera):
     assert [joined.names[k] for k in joined.name_index] == ["a", "b", "cube", "cube", "ground", "small"]
     assert joined.mesh.tolist() == [-1, -1, 0, 0, -1, 1]
     whole, least = cast(camera, joined, "depth")["depth"], np.full((41, 41), np.inf)
-    for part in parts:
-        least = np.minimum(least, cast(camera, part, "depth")["depth"])
+    for shapes in parts:
+        least = np.minimum(least, cast(camera, shapes, "depth")["depth"])
     np.testing.assert_array_equal(whole, least)
     np.testing.assert_array_equal(cast(camera, crc.join(parts[0], no_shapes()), "depth")["depth"],
                                   cast(camera, parts[0], "depth")["depth"])  # fmt: skip
@@ -137,7 +137,7 @@ def test_joining_forgets_no_field():
             value = getattr(group, field.name)
             assert value is getattr(joined, field.name), field.name
             if field.name == "slots":
-                assert [part.name for part in fields(Slots)] == ["first", "material_index", "color", "surface"]
+                assert [field.name for field in fields(Slots)] == ["first", "material_index", "color", "surface"]
                 assert value.first.tolist() == [0, 1]
                 assert value.material_index.tolist() == [0, 0, 1]
                 assert value.surface.tolist() == [0, 1, 1]

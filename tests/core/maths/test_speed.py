@@ -96,9 +96,9 @@ def test_an_error_in_a_shared_part_is_raised_wherever_parts_are_needed():
 
     shared = Shared([fail, both.wait])
     with ThreadPoolExecutor(2) as pool:
-        for found in [pool.submit(shared.results) for _ in range(2)]:
+        for future in [pool.submit(shared.results) for _ in range(2)]:
             with pytest.raises(KeyError, match="part"):
-                found.result()
+                future.result()
 
 
 def test_threads_work_out_a_property_of_different_objects_at_once():

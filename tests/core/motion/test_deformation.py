@@ -26,9 +26,9 @@ def scene(frame: float):
     mesh = swelling(frame)
     turn = frame / 10
     axes = np.array([[np.cos(turn), 0, np.sin(turn)], [0, 1, 0], [-np.sin(turn), 0, np.cos(turn)]])
-    place = np.array([0.1 * frame - 0.5, 0, -4])
+    center = np.array([0.1 * frame - 0.5, 0, -4])
     wall = grid(1, 1, lambda u, v: (8 * u - 4, 8 * v - 4, 0 * u))
-    return CAMERA, shapes_of((mesh, place + axes @ mesh.middle, axes), (wall, (0, 0, -7), 1.0))
+    return CAMERA, shapes_of((mesh, center + axes @ mesh.middle, axes), (wall, (0, 0, -7), 1.0))
 
 
 def test_vertices_between_evaluations_keep_the_tolerance():
@@ -40,12 +40,12 @@ def test_vertices_between_evaluations_keep_the_tolerance():
     off = measured(motion, scene, frames).measured
     assert 1e-9 < off <= 0.05
     for frame in frames[::7]:
-        found, (_, true) = motion.shapes_at(frame), scene(frame)
-        places = [one.axes[0] @ (mesh.vertices - mesh.middle[:, None]) + one.center[0][:, None]
-                  for one, mesh in ((found, found.meshes[0]), (true, true.meshes[0]))]  # fmt: skip
-        there, here = (CAMERA.project(place.T) for place in places)
+        between, (_, true) = motion.shapes_at(frame), scene(frame)
+        places = [shapes.axes[0] @ (mesh.vertices - mesh.middle[:, None]) + shapes.center[0][:, None]
+                  for shapes, mesh in ((between, between.meshes[0]), (true, true.meshes[0]))]  # fmt: skip
+        there, here = (CAMERA.project(vertices.T) for vertices in places)
         assert np.abs(there - here).max() <= 0.05
-        assert found.center[1].tolist() == [0, 0, -7]
+        assert between.center[1].tolist() == [0, 0, -7]
 
 
 def test_a_mesh_between_evaluations_stays_in_the_space_of_its_object():

@@ -91,7 +91,7 @@ def off_by(evaluate, point, **most):
     """
     motion = measured(resolve(evaluate, FIRST, FIRST + 2, 0.1, 1000), evaluate, AT[:0])
     assert not motion.unresolved
-    both = [[one.project(point(own)) for one, own in (motion.at(f), evaluate(f))] for f in np.linspace(FIRST, 3, 60)]
+    both = [[cam.project(point(true)) for cam, true in (motion.at(f), evaluate(f))] for f in np.linspace(FIRST, 3, 60)]
     return np.hypot(*np.diff(both, axis=1)[:, 0].reshape(-1, 2).T).max(), motion
 
 
@@ -137,10 +137,10 @@ def test_clipping_and_focus_are_interpolated():
     motion = resolve(evaluate, FIRST, LAST, 0.1, 1000)
     assert not motion.unresolved
     for frame in AT:
-        found, truth = motion.camera_at(frame), evaluate(frame)[0]
-        assert found.clip_start == pytest.approx(truth.clip_start, rel=1e-9)
-        assert found.clip_end == pytest.approx(truth.clip_end, rel=1e-9)
-        assert found.aperture.focus == pytest.approx(truth.aperture.focus, rel=2 * APPEARANCE)
+        between, truth = motion.camera_at(frame), evaluate(frame)[0]
+        assert between.clip_start == pytest.approx(truth.clip_start, rel=1e-9)
+        assert between.clip_end == pytest.approx(truth.clip_end, rel=1e-9)
+        assert between.aperture.focus == pytest.approx(truth.aperture.focus, rel=2 * APPEARANCE)
 
 
 def test_the_moment_at_which_an_aperture_opens_is_found():

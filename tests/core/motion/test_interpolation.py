@@ -36,9 +36,9 @@ def test_colors_lights_and_maps_are_interpolated(frame):
         sheet = grid(1, 1, lambda u, v: (u, v, 0 * u))
         uv = np.float32([[at, -at]]).repeat(6, axis=0)
         mesh = replace(sheet, loops=np.arange(6, dtype=np.int32).reshape(3, 2), uv=uv)
-        one = mesh_shapes((mesh, (0, 0, -5), 1.0))
+        shapes = mesh_shapes((mesh, (0, 0, -5), 1.0))
         states[at] = still, replace(
-            one, color=np.full((1, 4), 0.1 * at, np.float32), world_color=(0.2 * at, 0.0, 0.5, 1.0),
+            shapes, color=np.full((1, 4), 0.1 * at, np.float32), world_color=(0.2 * at, 0.0, 0.5, 1.0),
             slots=Slots(np.array([0]), np.array([7], np.int32), np.full((1, 4), 0.05 * at, np.float32)),
             lights=Lights(np.array([[at, 0.0, 0.0]]), np.array([False]), np.array([[10 * at, 0.0, 1.0]])),
         )  # fmt: skip

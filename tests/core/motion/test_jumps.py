@@ -69,6 +69,6 @@ def test_a_fast_move_is_followed_or_said_to_be_a_jump(length):
     evaluate = lambda frame: at(np.clip((frame - 4.3) / (length * SHORTEST), 0, 1))  # noqa: E731
     motion = resolve(evaluate, FIRST, LAST, TOLERANCE, 400)
     motion = measured(motion, evaluate, np.linspace(4.3, 4.3 + length * SHORTEST, 50))
-    said = any(line.startswith(("jumps: ", "NOT RESOLVED: ")) for line in motion.in_words())
-    assert said or motion.measured <= 1.5 * TOLERANCE
+    is_reported = any(line.startswith(("jumps: ", "NOT RESOLVED: ")) for line in motion.in_words())
+    assert is_reported or motion.measured <= 1.5 * TOLERANCE
     assert abs(place_in(motion, 4.3 + (length + 1) * SHORTEST) - 1) * WIDTH <= TOLERANCE

@@ -46,15 +46,15 @@ def changed(chance, text):
 
 def assert_read_or_refused(path, content):
     path.write_bytes(content)
-    begin, said = thread_time(), ""
+    begin, message = thread_time(), ""
     try:
         lenses = lenses_of(str(path), "", (640, 480))
         assert lenses or b"[]" in content  # a list of cameras may be empty
     except InputError as refusal:
-        said = str(refusal)
+        message = str(refusal)
     assert thread_time() - begin < 5
-    assert "\n" not in said
-    assert len(said) < 1000
+    assert "\n" not in message
+    assert len(message) < 1000
 
 
 @pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.full) for seed in range(1, 40))])

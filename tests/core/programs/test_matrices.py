@@ -25,7 +25,7 @@ TO_BODY = np.array([[0, -1, 0, 4], [1, 0, 0, 5], [0, 0, 1, 6]])
 
 def poses_of(name):
     """The first three rows of the pose of each camera of a sample."""
-    return {one.camera: one.pose[:3] for one in placed_in(Document(str(SAMPLES / name), SIZE), 1.0)}
+    return {entry.camera: entry.pose[:3] for entry in placed_in(Document(str(SAMPLES / name), SIZE), 1.0)}
 
 
 @pytest.mark.parametrize(
@@ -37,7 +37,7 @@ def poses_of(name):
     ],
 )  # fmt: skip
 def test_lenses(name, camera, numbers):
-    (lens,) = [one for one in lenses_of(str(SAMPLES / name), "", SIZE) if one.name == camera]
+    (lens,) = [entry for entry in lenses_of(str(SAMPLES / name), "", SIZE) if entry.name == camera]
     if name == "nuscenes.json":
         numbers = [*numbers[:4], 0, 0, 0, 0, 0]
     else:
@@ -82,10 +82,10 @@ def test_what_is_not_read_is_refused_in_one_line(name, change, says, tmp_path):
     refusals = []
     for read in (lambda: placed_in(Document(str(tmp_path / name), SIZE), 1.0), lambda: lenses_of(str(tmp_path / name))):
         try:
-            refusals += [one.refusal for one in read() if getattr(one, "refusal", None)]
+            refusals += [entry.refusal for entry in read() if getattr(entry, "refusal", None)]
         except InputError as refusal:
             refusals.append(refusal)
-    assert any(re.search(says, str(one)) for one in refusals)
+    assert any(re.search(says, str(refusal)) for refusal in refusals)
 
 
 def test_the_omni_cameras_of_svo():

@@ -25,13 +25,13 @@ IS_BACKWARD = SIZE | LINEAR | {"ftheta_reference": "RADIUS_TO_ANGLE", "ftheta_ra
 
 def rig(*, name="camera:front:wide", **properties):
     """A DriveWorks rig, whose numbers are text; with a lidar, and another camera that is no f-theta one."""
-    own = {
+    camera_properties = {
         "Model": "ftheta", "width": "640", "height": "480", "cx": "321.25", "cy": "238.5",
         "linear-c": "1.0005", "linear-d": "2e-4", "linear-e": "-1e-4", **properties,
     }  # fmt: skip
     sensors = [
         {"name": "lidar:top", "properties": {"lanes": 128}},
-        {"name": name, "nominalSensor2Rig_FLU": {"t": [0, 0, 1]}, "properties": own},
+        {"name": name, "nominalSensor2Rig_FLU": {"t": [0, 0, 1]}, "properties": camera_properties},
         {"name": "camera:rear", "properties": {"Model": "pinhole"}},
     ]
     return json.dumps({"rig": {"sensors": sensors}, "version": 2})
@@ -48,8 +48,8 @@ def parameters(**changes):
 
 def nurec(kind="ftheta", **changes):
     model = {"type": kind, "parameters": parameters(**changes)}
-    own = {"logical_sensor_name": "camera_front", "T_sensor_rig": np.eye(4).tolist(), "camera_model": model}
-    return json.dumps({"camera_calibrations": {"camera_front@clip": own}})
+    calibration = {"logical_sensor_name": "camera_front", "T_sensor_rig": np.eye(4).tolist(), "camera_model": model}
+    return json.dumps({"camera_calibrations": {"camera_front@clip": calibration}})
 
 
 OCAM = """#polynomial coefficients for the DIRECT mapping function (ocam_model.ss in MATLAB)

@@ -40,9 +40,9 @@ def orb_slam(**settings):
 
 
 def basalt(kind, **more):
-    own = {"camera_type": kind, "intrinsics": K | more}
+    intrinsics = {"camera_type": kind, "intrinsics": K | more}
     pose = {"px": 0, "py": 0, "pz": 0, "qx": 0, "qy": 0, "qz": 0, "qw": 1}
-    return json.dumps({"value0": {"T_imu_cam": [pose, pose], "intrinsics": [own], "resolution": [[640, 480]]}})
+    return json.dumps({"value0": {"T_imu_cam": [pose, pose], "intrinsics": [intrinsics], "resolution": [[640, 480]]}})
 
 
 def sensor(distortion, numbers, model="pinhole"):
@@ -161,7 +161,7 @@ FILES = {
                         PINHOLE, SIZE | K | {"k1": 0.1, "k2": 0.1, "k4": 0.1}),
     "echoed by ROS 2": (
         "header:\n  stamp:\n    sec: 1\n  frame_id: cam\nheight: 480\nwidth: 640\ndistortion_model: plumb_bob\nd:\n"
-        "- -0.1\n- 0.02\n- 0.001\n- -0.002\n- 0.0\nk:\n" + "".join(f"- {one}\n" for one in BY_ROWS)
+        "- -0.1\n- 0.02\n- 0.001\n- -0.002\n- 0.0\nk:\n" + "".join(f"- {number}\n" for number in BY_ROWS)
         + "roi:\n  x_offset: 0\n  width: 0\n  do_rectify: false\n---\n", PINHOLE, SIZE | K | RADTAN,
     ),
     "Aria, line by line": (
@@ -213,16 +213,16 @@ def test_a_file_is_the_lens_of_its_numbers(tmp_path, name):
     text, key, settings = FILES[name]
     lens = lens_of(tmp_path, text)
     assert lens.model == key
-    found = {one: value for one, value in lens.settings.items() if one in settings or value}
-    assert found == pytest.approx(settings, rel=1e-15) if key not in ("FTHETA", "OCAM") else found == settings
+    read = {setting: value for setting, value in lens.settings.items() if setting in settings or value}
+    assert read == pytest.approx(settings, rel=1e-15) if key not in ("FTHETA", "OCAM") else read == settings
     assert has_size(lens) == bool(settings["calibration_width"])
 
 
 def test_the_rays_of_an_orthophoto_are_parallel_where_nerfstudio_has_them(tmp_path):
     lens = lens_of(tmp_path, frames("ORTHOPHOTO", PARALLEL))
     assert lens.model == "ORTHO"
-    given = {name: value for name, value in lens.settings.items() if not name.startswith("calibration")}
-    rays = camera("ORTHO", {"resolution_x": 640, "resolution_y": 480, **given}).rays_at(100.5, 480 - 70.5)
+    settings = {name: value for name, value in lens.settings.items() if not name.startswith("calibration")}
+    rays = camera("ORTHO", {"resolution_x": 640, "resolution_y": 480, **settings}).rays_at(100.5, 480 - 70.5)
     assert rays.origins == pytest.approx([(100.5 - 330) / 40, -(70.5 - 230) / 40, 0], abs=1e-12)
     assert rays.directions == pytest.approx([0, 0, -1])
 
@@ -232,8 +232,8 @@ def test_the_panorama_of_mrcal_is_where_mrcal_has_it(tmp_path):
     text = ("{'lensmodel': 'LENSMODEL_LONLAT', 'intrinsics': [100., 200., 300., 200.], 'extrinsics': [0,0,0,0,0,0], "
             "'imagersize': [640, 480]}")  # fmt: skip
     lens = lens_of(tmp_path, text)
-    given = {name: value for name, value in lens.settings.items() if not name.startswith("calibration")}
-    cam = camera("EQUIRECTANGULAR", {"resolution_x": 640, "resolution_y": 480, **given})
+    settings = {name: value for name, value in lens.settings.items() if not name.startswith("calibration")}
+    cam = camera("EQUIRECTANGULAR", {"resolution_x": 640, "resolution_y": 480, **settings})
     point = (np.sin(0.4) * np.cos(0.3), -np.sin(0.3), -np.cos(0.4) * np.cos(0.3))  # 0.3 down
     assert cam.project([point])[0] == pytest.approx((340 + 0.5, 480 - (260 + 0.5)), abs=1e-9)
 
@@ -249,9 +249,9 @@ def test_nerfs_angle_alone_is_a_pinhole_of_the_frame(tmp_path):
 
 def test_both_cameras_of_orb_slam3s_stereo_are_there(tmp_path):
     common = {"Camera.type": '"PinHole"', "Camera.width": 640, "Camera.height": 480}
-    one, two = ({f"Camera{i}.{name}": value + i for name, value in K.items()} for i in (1, 2))
+    first, two = ({f"Camera{i}.{name}": value + i for name, value in K.items()} for i in (1, 2))
     for i in (1, 2):
-        lens = lens_of(tmp_path, yaml_of(common | one | two), name=f"Camera{i}")
+        lens = lens_of(tmp_path, yaml_of(common | first | two), name=f"Camera{i}")
         assert lens.settings["fx"] == 300 + i
         assert has_size(lens)
 

@@ -159,11 +159,11 @@ def test_a_place_that_vins_does_not_use_is_not_read(tmp_path):
     lens = ("%YAML:1.0\nmodel_type: PINHOLE\nimage_width: 400\nimage_height: 300\n"
             "distortion_parameters:\n  k1: 0\n  k2: 0\n  p1: 0\n  p2: 0\n"
             "projection_parameters:\n  fx: 300\n  fy: 300\n  cx: 200\n  cy: 150\n")  # fmt: skip
-    place = matrix("extrinsicRotation", 3, np.eye(3).ravel().tolist()) + matrix("extrinsicTranslation", 1, PLACE)
-    (camera,) = rig(written(tmp_path, "used.yaml", f"{lens}estimate_extrinsic: 1\n{place}"))
+    extrinsic = matrix("extrinsicRotation", 3, np.eye(3).ravel().tolist()) + matrix("extrinsicTranslation", 1, PLACE)
+    (camera,) = rig(written(tmp_path, "used.yaml", f"{lens}estimate_extrinsic: 1\n{extrinsic}"))
     assert camera.poses[0][:3, 3].tolist() == PLACE
     with pytest.raises(InputError, match="it has no pose of a camera"):
-        rig(written(tmp_path, "unused.yaml", f"{lens}estimate_extrinsic: 2\n{place}"))
+        rig(written(tmp_path, "unused.yaml", f"{lens}estimate_extrinsic: 2\n{extrinsic}"))
 
 
 def test_the_view_of_isaac_sim_is_its_pose():

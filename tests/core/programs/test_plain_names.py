@@ -42,10 +42,10 @@ def test_a_distortion_under_another_name_is_read(entries, tmp_path):
 
 
 def test_photon_vision_called_its_distortion_extrinsics(tmp_path):
-    found = {"cameraIntrinsics": {"rows": 3, "cols": 3, "data": [*K[0], *K[1], *K[2]]},
+    content = {"cameraIntrinsics": {"rows": 3, "cols": 3, "data": [*K[0], *K[1], *K[2]]},
              "resolution": {"width": 640, "height": 480},
              "cameraExtrinsics": {"rows": 1, "cols": 5, "data": [-0.3, 0.05, 0, 0, 0.25]}}  # fmt: skip
-    (tmp_path / "a.json").write_text(json.dumps(found))
+    (tmp_path / "a.json").write_text(json.dumps(content))
     (lens,) = lenses_of(str(tmp_path / "a.json"))
     assert lens.values(("fx", "k1", "k2", "p1", "p2", "k3")) == [400, -0.3, 0.05, 0, 0, 0.25]
 
@@ -118,7 +118,7 @@ def test_equal_cameras_keep_their_names(names, tmp_path):
     rigs = [dict.fromkeys(names, camera), [{"name": name, **camera} for name in names]]
     for entries in rigs if names[0] == "left" else rigs[:1]:
         file.write_text(json.dumps(entries))
-        assert [one.name for one in lenses_of(str(file))] == [*names]
+        assert [lens.name for lens in lenses_of(str(file))] == [*names]
         assert crc.load_calibration(file, camera=names[1]).settings["fx"] == 400
         with pytest.raises(InputError, match=rf"has 2 cameras: set .* to one of {', '.join(names)}"):
             crc.load_calibration(file)

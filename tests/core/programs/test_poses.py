@@ -35,8 +35,8 @@ def test_exported_poses_are_read_back(tmp_path, key, name):
     assert camera.name == ("Camera" if key == "bop" else name)
     assert camera.frames == [1, 12, 10000]
     assert camera.lens is not None
-    for one, pose in zip(shot, camera.poses, strict=True):
-        near = with_rotation(one.camera)[0].pose if key != "json" else one.camera.pose
+    for view, pose in zip(shot, camera.poses, strict=True):
+        near = with_rotation(view.camera)[0].pose if key != "json" else view.camera.pose
         assert np.abs(pose[:3, :3] - near.basis).max() <= EXACT[key]
         assert np.abs(pose[:3, 3] - near.eye).max() <= 20 * EXACT[key]
 
@@ -146,8 +146,8 @@ def test_an_image_may_have_a_camera_of_its_own(tmp_path, images, expected):
     lines = [f"{k} 1 0 0 0 {-k} 0 0 {camera} {name}\n\n" for k, (name, camera) in enumerate(images.items(), 1)]
     (tmp_path / "images.txt").write_text("".join(lines))
     cameras = read(tmp_path)
-    assert {one.name: one.frames for one in cameras} == expected
-    places = {pose[0, 3]: lens.name for one in cameras for pose, lens in zip(one.poses, one.lenses, strict=True)}
+    assert {camera.name: camera.frames for camera in cameras} == expected
+    places = {pose[0, 3]: lens.name for rig in cameras for pose, lens in zip(rig.poses, rig.lenses, strict=True)}
     assert places == {k: str(camera) for k, camera in enumerate(images.values(), 1)}
 
 

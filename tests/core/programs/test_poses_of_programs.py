@@ -74,12 +74,12 @@ def test_maplabs_rig_stands_in_the_body_of_all_sensors(tmp_path):
 
 @pytest.mark.parametrize("in_world", [True, False])
 def test_hot3d_leads_from_the_camera_to_the_world_or_the_headset(tmp_path, in_world):
-    one = json.loads(hot3d(T_device_from_camera={} if in_world else QUATERNION))
+    streams = json.loads(hot3d(T_device_from_camera={} if in_world else QUATERNION))
     if in_world:
-        one["214-1"]["T_world_from_camera"] = QUATERNION
+        streams["214-1"]["T_world_from_camera"] = QUATERNION
     else:
-        del one["214-1"]["T_world_from_camera"]
-    (camera,) = read(tmp_path, json.dumps(one))
+        del streams["214-1"]["T_world_from_camera"]
+    (camera,) = read(tmp_path, json.dumps(streams))
     np.testing.assert_allclose(in_view(camera.poses[0]), (POINTS - PLACE) @ QUARTER * TO_BLENDER, atol=1e-14)
     assert camera.name == "camera-rgb"
 
@@ -111,7 +111,7 @@ def test_metashapes_slave_stands_beside_its_master(tmp_path):
     in_master = (POINTS / 2 - PLACE) @ AXES
     np.testing.assert_allclose(in_view(master.poses[0]), in_master * 2 * TO_BLENDER, atol=1e-14)
     np.testing.assert_allclose(in_view(slave.poses[0]), (in_master - LOCATION) @ QUARTER * 2 * TO_BLENDER, atol=1e-14)
-    assert [(one.name, one.frames, one.lenses[0].name) for one in (master, slave)] == [
+    assert [(camera.name, camera.frames, camera.lenses[0].name) for camera in (master, slave)] == [
         ("IMG-1", [2], "right"), ("IMG-2", [2], "left")
     ]  # fmt: skip
     _, beside = read(tmp_path, rig(offset=""))
@@ -126,8 +126,8 @@ def test_a_georeferenced_project_is_east_north_up_about_its_cameras(tmp_path, la
     east = np.array((-np.sin(longitude), np.cos(longitude), 0.0))
     squared = 0.0066943799901413165
     radius = 6378137.0 / np.sqrt(1 - squared * s * s)
-    place = radius * up - (0, 0, squared * radius * s) + 120.0 * up
-    transform = f"<translation>{' '.join(map(repr, place.tolist()))}</translation><scale>3</scale>"
+    center = radius * up - (0, 0, squared * radius * s) + 120.0 * up
+    transform = f"<translation>{' '.join(map(repr, center.tolist()))}</translation><scale>3</scale>"
     axes = np.column_stack((east, -np.cross(up, east), -up))
     text = metashape(transform, rows(axes, np.zeros(3)), '<reference>GEOGCS["WGS 84"]</reference>')
     (camera,) = read(tmp_path, text)
@@ -238,9 +238,9 @@ def test_what_is_no_pose_of_the_format_is_refused(tmp_path, name):
 def test_woodscape_leads_from_the_camera_to_the_vehicle(tmp_path):
     """Its camera looks along the vehicle's x, and its right is the vehicle's -y."""
     (camera,) = read(tmp_path, (SAMPLES / "woodscape.json").read_text())
-    right, up, back, place = camera.poses[0][:3].T
+    right, up, back, position = camera.poses[0][:3].T
     axes = [[0, -1, 0], [0, 0, 1], [1, 0, 0]]
-    np.testing.assert_allclose([right, up, -back, place], [*axes, [3, 0.5, 1.25]], rtol=0, atol=1e-15)
+    np.testing.assert_allclose([right, up, -back, position], [*axes, [3, 0.5, 1.25]], rtol=0, atol=1e-15)
 
 
 def test_orb_slam_leads_from_the_second_camera_to_the_first(tmp_path):

@@ -46,8 +46,8 @@ def test_a_turned_picture_is_where_pano_trafo_has_it(tmp_path):
     rays = crc.load_rig(tmp_path / "a.pto")["Camera"].rays()
     for (column, row), expected in SEEN.items():
         x, y, z = rays.directions[599 - row, column]
-        place = 1800 + 10 * np.degrees(np.arctan2(x, y)) - 0.5, 900 - 10 * np.degrees(np.arcsin(z)) - 0.5
-        np.testing.assert_allclose(place, expected, rtol=0, atol=1e-6)
+        pixel = 1800 + 10 * np.degrees(np.arctan2(x, y)) - 0.5, 900 - 10 * np.degrees(np.arcsin(z)) - 0.5
+        np.testing.assert_allclose(pixel, expected, rtol=0, atol=1e-6)
     same = crc.load_rig(SAMPLES / "ptgui.json")["b"]  # has the same angles
     np.testing.assert_allclose(same.pose.basis, crc.load_rig(tmp_path / "a.pto")["Camera"].pose.basis, rtol=0, atol=0)
 

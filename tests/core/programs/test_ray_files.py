@@ -81,8 +81,8 @@ def csv_of(names="x,y,dx,dy,dz", drop=(), shift=0.0, directions=None, origins=No
     lines = []
     for j in range(9):
         for i in range(13):
-            place = i / 12 + shift * (i == 5), (1 - j / 8 if "v" in names else j / 8)
-            lines.append([*place, *table[j, i], *([] if origins is None else origins[j, i])])
+            uv = i / 12 + shift * (i == 5), (1 - j / 8 if "v" in names else j / 8)
+            lines.append([*uv, *table[j, i], *([] if origins is None else origins[j, i])])
     lines = [lines[k] for k in np.random.default_rng(2).permutation(len(lines)) if k not in drop]
     return "\n".join([names, *(", ".join(f"{number:.17g}" for number in line) for line in lines)]) + "\n"
 
@@ -103,17 +103,17 @@ def test_a_mesh_may_have_origins_and_be_an_obj(tmp_path):
     lines = []
     for j in range(9):
         for i in range(13):
-            for kind, part in (("v", origins[j, i]), ("vt", (i / 12, j / 8)), ("vn", directions[j, i])):
-                lines.append(" ".join((kind, *(f"{number:.17g}" for number in part))))
+            for kind, numbers in (("v", origins[j, i]), ("vt", (i / 12, j / 8)), ("vn", directions[j, i])):
+                lines.append(" ".join((kind, *(f"{number:.17g}" for number in numbers))))
     for j in range(8):
         for i in range(12):
             corners = [j * 13 + i + k + 1 for k in (0, 1, 14, 13)]
             lines.append("f " + " ".join(f"{k}/{k}/{k}" for k in corners))
     (tmp_path / "mesh.obj").write_text("\n".join(["# a mesh of rays", *lines]) + "\n")
-    one, other = (crc.load_calibration(tmp_path / name, size=(96, 64)) for name in ("mesh.csv", "mesh.obj"))
-    np.testing.assert_array_equal(one.rays().directions, other.rays().directions)
-    np.testing.assert_array_equal(one.rays().origins, other.rays().origins)
-    rays = one.rays_at(np.arange(13) * 8.0, np.arange(9)[:, None] * 8.0)
+    table_camera, other = (crc.load_calibration(tmp_path / name, size=(96, 64)) for name in ("mesh.csv", "mesh.obj"))
+    np.testing.assert_array_equal(table_camera.rays().directions, other.rays().directions)
+    np.testing.assert_array_equal(table_camera.rays().origins, other.rays().origins)
+    rays = table_camera.rays_at(np.arange(13) * 8.0, np.arange(9)[:, None] * 8.0)
     np.testing.assert_allclose(rays.origins, origins, rtol=0, atol=16 * EPS)
 
 

@@ -22,8 +22,8 @@ UPRIGHT = np.eye(3)
 
 def cameras(path):
     """The name of the camera, the frame, the lens, and the matrix of right, down, ahead and place of each pose."""
-    return [(one.name, frame, lens, pose @ FROM_BLENDER) for one in mounted(str(path), "", SIZE, 10.0)
-            for frame, lens, pose in zip(one.frames, one.lenses or [None] * 9, one.poses, strict=False)]  # fmt: skip
+    return [(rig.name, frame, lens, pose @ FROM_BLENDER) for rig in mounted(str(path), "", SIZE, 10.0)
+            for frame, lens, pose in zip(rig.frames, rig.lenses or [None] * 9, rig.poses, strict=False)]  # fmt: skip
 
 
 def check(camera, numbers, axes, position):
@@ -73,7 +73,7 @@ def test_the_radial_coefficient_of_nvm_leads_from_the_picture(k, tmp_path):
 
 def test_gaussian_splatting_and_llff():
     left, right = cameras(SAMPLES / "gaussian_splatting.json")
-    assert [one[:2] for one in (left, right)] == [("Camera", 1), ("Camera", 2)]
+    assert [camera[:2] for camera in (left, right)] == [("Camera", 1), ("Camera", 2)]
     check(left, [510, 500, 319.5, 239.5, 0, 0], BY_Z, (4, 5, 6))
     check(right, [520, 500, 319.5, 239.5, 0, 0], UPRIGHT, (4, 5, 7))
     first, second = cameras(SAMPLES / "llff.npy")
@@ -101,7 +101,7 @@ def test_openmvg():
     check(left, [500, 500, 321, 238, -0.125, 0.0625], BY_Z, (4, 5, 6))
     check(right, [510, 510, 320, 240, 0.25, 0], UPRIGHT, (4, 5, 7))
     assert left[2].values(("p1", "p2")) == [0.001, -0.002]
-    assert [one[0] for one in (left, right)] == ["left", "right"]
+    assert [camera[0] for camera in (left, right)] == ["left", "right"]
 
 
 def test_opensfm():
@@ -116,7 +116,7 @@ def test_the_largest_reconstruction_of_opensfm_is_read(tmp_path):
     other = {"cameras": first["cameras"], "shots": {"lost_1.jpg": first["shots"]["left_0001.jpg"]}}
     file = tmp_path / "reconstruction.json"
     file.write_text(json.dumps([other, first]))
-    assert [one[0] for one in cameras(file)] == ["left", "right"]
+    assert [camera[0] for camera in cameras(file)] == ["left", "right"]
     with pytest.warns(UserWarning, match="of 2 reconstructions, .*; 1 of 3 shots are left out"):
         assert len(crc.load_rig(str(file))) == 2
 
@@ -135,9 +135,9 @@ def test_a_project_of_fspy(tmp_path):
     head = np.array((1, len(state), 3), "<u4").tobytes()
     (tmp_path / "a.fspy").write_bytes(b"fspy" + head + state + b"\x89P\0")
     ((_, _, lens, pose),) = cameras(tmp_path / "a.fspy")
-    ((_, _, same, place),) = cameras(SAMPLES / "fspy.json")
+    ((_, _, same, other_pose),) = cameras(SAMPLES / "fspy.json")
     assert lens == same
-    np.testing.assert_array_equal(pose, place)
+    np.testing.assert_array_equal(pose, other_pose)
     unsolved = b'{"cameraParameters": null}'
     for data in (b"fspy", b"fspy" + head[:9] + b"\xff", b"fspy" + head + unsolved, b"fspy\2\0\0\0" + head[4:] + state):
         (tmp_path / "b.fspy").write_bytes(data)
@@ -233,9 +233,9 @@ def test_lenses_of_meshroom(version, changes, model, focal, tmp_path):
     lens = {"intrinsicId": "7", "width": "640", "height": "480", "sensorWidth": "32", "focalLength": "25",
             "type": "pinhole", "principalPoint": ["2", "-3"], "distortionParams": []}  # fmt: skip
     (tmp_path / "a.sfm").write_text(json.dumps({"version": version, "intrinsics": [lens | changes]}))
-    (found,) = lenses_of(str(tmp_path / "a.sfm"))
-    assert found.model == model
-    assert found.values(PINHOLE)[:4] == [*focal, 322, 237]
+    (read_lens,) = lenses_of(str(tmp_path / "a.sfm"))
+    assert read_lens.model == model
+    assert read_lens.values(PINHOLE)[:4] == [*focal, 322, 237]
 
 
 def test_a_lens_of_3de_in_meshroom(tmp_path):

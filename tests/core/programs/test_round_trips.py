@@ -72,7 +72,7 @@ def is_same(lens, other):
     defaults = {setting.name: setting.default for setting in MODELS[lens.model].SETTINGS}
     sizes = {} if all(other.size) else dict.fromkeys(FRAME_SIZE, 0.0)
     names = sorted({*lens.settings, *other.settings})
-    both = [[{**defaults, **one.settings, **sizes}.get(name, 0.0) for name in names] for one in (lens, other)]
+    both = [[{**defaults, **item.settings, **sizes}.get(name, 0.0) for name in names] for item in (lens, other)]
     return np.allclose(*both, rtol=NEAR, atol=NEAR)
 
 
@@ -95,7 +95,7 @@ def test_a_random_rig_comes_back(program, word, tmp_path):
                 assert any(is_same(record.lens, lens) for lens in lenses), (record.lens, lenses)
         if program.poses:
             documents = [Document(path, (640, 480)) for path in paths]
-            placed = [one.pose for document in documents for one in read(placed_in, document, 1.0)]
+            placed = [entry.pose for document in documents for entry in read(placed_in, document, 1.0)]
             wanted = [record.pose for record in records]
             assert came_back(placed, wanted) or (len(placed) == 2 and came_back(placed, mounted(wanted)))
 
@@ -117,9 +117,9 @@ def in_unit(record, unit):
 
 def mounted(wanted):
     """The poses of the cameras beside the first one, of a program whose rigs stand still."""
-    return [np.linalg.inv(wanted[0]) @ one for one in wanted[:2]]
+    return [np.linalg.inv(wanted[0]) @ pose for pose in wanted[:2]]
 
 
 def came_back(placed, wanted):
     """Whether each pose is there."""
-    return all(any(np.abs(one - other).max() < 20 * NEAR for other in placed) for one in wanted)
+    return all(any(np.abs(pose - other).max() < 20 * NEAR for other in placed) for pose in wanted)

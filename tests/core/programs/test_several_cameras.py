@@ -14,8 +14,8 @@ from .test_formats import GOOD, NUMBERS, PAIR, aria, mrcal, of_file
 
 @pytest.mark.parametrize(("name", "fx", "k1"), [("1", 300, -0.1), ("2", 400, -0.3)])
 def test_a_stereo_pair_of_opencv_has_two_cameras(tmp_path, name, fx, k1):
-    found = of_file(tmp_path / "pair.yml", PAIR, "OPENCV_PINHOLE", calibration_camera=name).settings
-    assert (found["fx"], found["k1"], found["k2"]) == (fx, k1, 0.02)
+    settings = of_file(tmp_path / "pair.yml", PAIR, "OPENCV_PINHOLE", calibration_camera=name).settings
+    assert (settings["fx"], settings["k1"], settings["k2"]) == (fx, k1, 0.02)
 
 
 def test_a_camera_that_cannot_be_read_does_not_hide_the_others(tmp_path):
@@ -75,4 +75,4 @@ def test_cameras_beside_each_other_are_no_distortion_of_one_another(tmp_path, wr
               "p1": 0.001, "p2": 0.0} for k in (0, 1)}  # fmt: skip
     (tmp_path / "two.json").write_text(wrap(two))
     lenses = lenses_of(str(tmp_path / "two.json"))
-    assert [(one.settings["fx"], one.settings["k1"]) for one in lenses] == [(300, -0.1), (301, -0.1)]
+    assert [(lens.settings["fx"], lens.settings["k1"]) for lens in lenses] == [(300, -0.1), (301, -0.1)]

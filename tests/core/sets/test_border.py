@@ -46,29 +46,29 @@ def points_in(cam, corner):
 
 def check_lens(path, size, corner, cam):
     (lens,) = lenses_of(str(path), "", size)
-    own = lens.settings
+    settings = lens.settings
     points, pixels = points_in(cam, corner)
     x, y, z = cam.opencv_from_world[:3, :3] @ points.T + cam.opencv_from_world[:3, 3:]
-    place = np.stack((own["fx"] * x / z + own["cx"], own["fy"] * y / z + own["cy"]), axis=-1)
-    assert np.abs(place - pixels).max() < 1e-4  # rotations that are near to float32 matrices
-    assert (own.get("calibration_width") or size[0], own.get("calibration_height") or size[1]) == size
+    projected = np.stack((settings["fx"] * x / z + settings["cx"], settings["fy"] * y / z + settings["cy"]), axis=-1)
+    assert np.abs(projected - pixels).max() < 1e-4  # rotations that are near to float32 matrices
+    assert (settings.get("calibration_width") or size[0], settings.get("calibration_height") or size[1]) == size
 
 
 @pytest.mark.one_for_each("key")
-@pytest.mark.parametrize("key", [one.key for one in EXPORT_FORMATS])
+@pytest.mark.parametrize("key", [export.key for export in EXPORT_FORMATS])
 def test_cameras_are_those_of_the_picture(cropped_set, key, tmp_path):
     folder, size, corner, cam, _ = cropped_set
-    shots = [one.shot for one in read_set(folder)]
+    shots = [entry.shot for entry in read_set(folder)]
     if key == "nerf":  # square pixels, the center in the middle
         with pytest.raises(InputError, match="camera_angle_x alone does not say"):
             export_files(key, shots)
         return
     if key == "stmap":
-        for name, found in export_files(key, shots)[0]:
-            assert found.shape[1::-1] == size
+        for name, st in export_files(key, shots)[0]:
+            assert st.shape[1::-1] == size
             if "undistort" in name:  # to the perspective of the same lens: the picture's own places, from the bottom
-                assert np.allclose(found[0, :, 0], (np.arange(size[0]) + 0.5) / size[0], atol=1e-6)
-                assert np.allclose(found[:, 0, 1], (np.arange(size[1]) + 0.5) / size[1], atol=1e-6)
+                assert np.allclose(st[0, :, 0], (np.arange(size[0]) + 0.5) / size[0], atol=1e-6)
+                assert np.allclose(st[:, 0, 1], (np.arange(size[1]) + 0.5) / size[1], atol=1e-6)
         return
     paths = write(export_files(key, shots)[0], tmp_path / key)
     if key == "json":
@@ -76,9 +76,9 @@ def test_cameras_are_those_of_the_picture(cropped_set, key, tmp_path):
         seen = facts.get("picture", {"size": facts["raster"], "K": facts["K"]})
         assert seen["size"] == list(size)
         points, pixels = points_in(cam, corner)
-        place = (cam.opencv_from_world[:3, :3] @ points.T).T + cam.opencv_from_world[:3, 3]
-        place = place @ np.array(seen["K"]).T
-        assert np.abs(place[:, :2] / place[:, 2:] - pixels).max() < 1e-9
+        projected = (cam.opencv_from_world[:3, :3] @ points.T).T + cam.opencv_from_world[:3, 3]
+        projected = projected @ np.array(seen["K"]).T
+        assert np.abs(projected[:, :2] / projected[:, 2:] - pixels).max() < 1e-9
     elif key not in NO_LENS:
         check_lens(paths[0], size, corner, cam)
 
@@ -90,21 +90,21 @@ def test_files_of_sets_are_of_one_size(cropped_set, key, tmp_path):
     out = tmp_path / "out"
     write(SET_FORMATS[key].files(read_set(folder)), out)
     pictures = {path: cv2.imread(str(path), cv2.IMREAD_UNCHANGED) for path in out.rglob("*.png") if key != "preview"}
-    assert {one.shape[1::-1] for one in pictures.values()} <= {size}
+    assert {picture.shape[1::-1] for picture in pictures.values()} <= {size}
     _, pixels = points_in(cam, corner)
     columns, rows = pixels.T
     inside = np.zeros(size[::-1], bool)
     inside[rows, columns] = True
     depth = images["depth"].ravel()
     depth = np.where(np.isfinite(depth), depth, 0)
-    for path, found in pictures.items():
+    for path, picture in pictures.items():
         if "depth" in str(path.relative_to(out)):
-            assert (found[~inside] == 0).all()
+            assert (picture[~inside] == 0).all()
             step = {"depth16": 2, "nerfstudio-scene": 1}.get(key)  # millimeters: a unit is half a meter
             step = step or json.loads((out / "test/000000/scene_camera.json").read_text())["1"]["depth_scale"] * 2
-            assert np.abs(found[rows, columns] * step - 1000 * depth).max() <= step
+            assert np.abs(picture[rows, columns] * step - 1000 * depth).max() <= step
         if "mask" in str(path.relative_to(out)):
-            assert (found[~inside] == 0).all()
+            assert (picture[~inside] == 0).all()
     lens = {"nerfstudio-scene": "transforms.json", "colmap-scene": "sparse/0/cameras.txt",
             "bop-scenes": "test/000000/scene_camera.json"}.get(key)  # fmt: skip
     assert (lens is None) == (key in NO_LENS)

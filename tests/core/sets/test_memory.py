@@ -89,14 +89,14 @@ for folder in map(Path, folders):  # the smaller one first
 @pytest.fixture(scope="module")
 def set_of(tmp_path_factory):
     """A function that returns the folder of a set of so many pictures."""
-    place = tmp_path_factory.mktemp("stubs")
+    folder = tmp_path_factory.mktemp("stubs")
 
     @cache
     def stub_set(count):
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(test_sets, "SIZE", (24, 18))
-            stubs(place / str(count), count)
-        return place / str(count)
+            stubs(folder / str(count), count)
+        return folder / str(count)
 
     return stub_set
 

@@ -29,11 +29,11 @@ def view(folder, frame, key="PERSP", **settings):
     """A picture of the shapes, a little to the side in each frame, as the commands write it."""
     matrix = np.eye(4)
     matrix[0, 3] = 0.3 * frame
-    given = {"resolution_x": SIZE[0], "resolution_y": SIZE[1], "lens": 30.0, "matrix_world": matrix}
-    cam = camera(key, given | settings)
+    raw = {"resolution_x": SIZE[0], "resolution_y": SIZE[1], "lens": 30.0, "matrix_world": matrix}
+    cam = camera(key, raw | settings)
     images = cast(cam, SHAPES, passes=PASSES)
     name = f"{key}_{frame:04}"
-    np.savez(folder / f"{name}.npz", **{one: images[one] for one in PASSES})
+    np.savez(folder / f"{name}.npz", **{key: images[key] for key in PASSES})
     (folder / f"{name}.png").write_bytes(png(np.zeros((*cam.raster.picture_size[::-1], 3), np.uint8)))
     doc = document({"file_name": f"{name}.png"}, Sheet.of(cam.raster), cam, SHAPES, lambda name: name.replace(" ", "_"))
     (folder / f"{name}_coco.json").write_text(json.dumps(doc))
@@ -59,14 +59,14 @@ def exported(folder, key, **more):
 
 def test_a_set_has_the_cameras_and_passes_that_were_cast(written_set):
     folder, casts = written_set
-    for one, (cam, images) in zip(read_set(folder), casts, strict=True):
-        assert (one.camera.rays().directions == cam.rays().directions).all()
-        points, hit = one.points()
+    for entry, (cam, images) in zip(read_set(folder), casts, strict=True):
+        assert (entry.camera.rays().directions == cam.rays().directions).all()
+        points, hit = entry.points()
         assert (hit == np.isfinite(images["depth"])).all()
         ends = cam.rays().origins + images["distance"].astype(float)[..., None] * cam.rays().directions
         assert np.allclose(points[hit], ends[hit], atol=1e-6)
     with pytest.raises(InputError, match="has no pass uv: cast the set with --passes uv"):
-        one.pixels("uv")
+        entry.pixels("uv")
     with pytest.raises(InputError, match="has no pictures with reports"):
         read_set(folder / "none")
 
@@ -83,7 +83,7 @@ def test_a_set_may_have_more_views_than_files_can_be_open(written_set):
     try:
         views = read_set(folder)
         assert len(views) == 102
-        assert all(one.has("depth") for one in views)
+        assert all(entry.has("depth") for entry in views)
     finally:
         resource.setrlimit(resource.RLIMIT_NOFILE, before)
 
@@ -106,7 +106,7 @@ def test_trajectories_have_the_set_s_own_time(written_set):
             report = json.loads(path.read_text())
             report["host"] |= {} if rate is None else {"frame_rate": rate}
             path.write_text(json.dumps(report))
-        files, _ = export_files("tum", [one.shot for one in read_set(folder)])
+        files, _ = export_files("tum", [entry.shot for entry in read_set(folder)])
         lines = [line for _, text in files for line in text.splitlines() if not line.startswith("#")]
         assert [float(line.split()[0]) for line in lines] == pytest.approx(seconds, abs=1e-6)
 
@@ -129,14 +129,14 @@ def test_a_bop_scene_has_objects_where_their_pixels_are(written_set):
     assert list(gt) == ["1", "2"]
     depth = cv2.imread(str(scene / "depth" / "000001.png"), cv2.IMREAD_UNCHANGED) * cameras["1"]["depth_scale"]
     K = np.reshape(cameras["1"]["cam_K"], (3, 3))
-    for k, (radius, one, facts) in enumerate(zip((1.0, 0.4), gt["1"], info["1"], strict=False)):
+    for k, (radius, pose, facts) in enumerate(zip((1.0, 0.4), gt["1"], info["1"], strict=False)):
         visible = cv2.imread(str(scene / "mask_visib" / f"000001_{k:06}.png"), cv2.IMREAD_UNCHANGED) > 0
         whole = cv2.imread(str(scene / "mask" / f"000001_{k:06}.png"), cv2.IMREAD_UNCHANGED) > 0
         assert (visible <= whole).all()
         assert (visible.sum(), whole.sum()) == (facts["px_count_visib"], facts["px_count_all"])
         row, column = np.nonzero(visible)
         points = np.linalg.inv(K) @ (column, row, np.ones(len(row))) * depth[visible]
-        away = np.linalg.norm(points.T - one["cam_t_m2c"], axis=1)
+        away = np.linalg.norm(points.T - pose["cam_t_m2c"], axis=1)
         assert np.abs(away - 500 * radius).max() < 0.2  # millimeters: two steps of depth, in meters of half a unit
     models = json.loads((folder / "out" / "models" / "models_info.json").read_text())
     assert models["1"]["size_x"] == pytest.approx(1000)
@@ -148,10 +148,10 @@ def test_a_bop_scene_has_objects_where_their_pixels_are(written_set):
 def test_seed_points_are_seen_where_colmap_projects_them(written_set):
     folder, _ = written_set
     out = exported(folder, "colmap-scene", count=500)
-    found = colmap(errors, str(out / "sparse" / "0"))
-    assert len(found) == 500
-    assert max(worst for worst, _ in found) < 1e-9
-    seen = [length for _, length in found]
+    errors_of = colmap(errors, str(out / "sparse" / "0"))
+    assert len(errors_of) == 500
+    assert max(worst for worst, _ in errors_of) < 1e-9
+    seen = [length for _, length in errors_of]
     assert 1.5 < np.mean(seen) <= 2
     assert min(seen) >= 1
     assert (out / "images" / "PERSP_0001.png").is_file()
@@ -164,7 +164,7 @@ def test_panoptic_and_yolo_are_the_index_pass(written_set):
     blue, green, red = np.moveaxis(cv2.imread(str(out / "panoptic" / "PERSP_0001.png")).astype(int), 2, 0)
     assert (red + 256 * green + 65536 * blue == index + 1).all()
     segments = json.loads((out / "panoptic.json").read_text())["annotations"][0]["segments_info"]
-    assert {one["id"]: one["area"] for one in segments} == {k + 1: (index == k).sum() for k in range(3)}
+    assert {segment["id"]: segment["area"] for segment in segments} == {k + 1: (index == k).sum() for k in range(3)}
     out = exported(folder, "yolo")
     lines = [list(map(float, line.split())) for line in (out / "labels" / "PERSP_0001.txt").read_text().splitlines()]
     row, column = np.nonzero(index == 0)
@@ -179,11 +179,11 @@ def test_splits_are_by_frames_and_told_by_each_format(tmp_path):
         for key in ("PERSP", "OPENCV_PINHOLE"):
             view(tmp_path, frame, key)
     views = with_splits(read_set(tmp_path), 0.4)
-    held = {one.name for one in views if one.split == "val"}
+    held = {entry.name for entry in views if entry.split == "val"}
     assert held == {f"{key}_{frame:04}" for key in ("PERSP", "OPENCV_PINHOLE") for frame in (2, 4)}
-    for key, one in SET_FORMATS.items():
-        if one.splits:
-            write(one.files(views), tmp_path / key)
+    for key, set_format in SET_FORMATS.items():
+        if set_format.splits:
+            write(set_format.files(views), tmp_path / key)
     for split, count in (("train", 6), ("val", 4)):
         names = {path.stem for path in (tmp_path / "yolo" / "images" / split).iterdir()}
         assert names == {path.stem for path in (tmp_path / "yolo" / "labels" / split).iterdir()}
@@ -191,7 +191,7 @@ def test_splits_are_by_frames_and_told_by_each_format(tmp_path):
         assert f"{split}: images/{split}\n" in (tmp_path / "yolo" / "data.yaml").read_text()
         facts = json.loads((tmp_path / "panoptic" / f"panoptic_{split}.json").read_text())
         assert len(facts["annotations"]) == len(facts["images"]) == count
-        assert {one["file_name"][:-4] for one in facts["images"]} == names
+        assert {image["file_name"][:-4] for image in facts["images"]} == names
         transforms = json.loads((tmp_path / "nerfstudio-scene" / "transforms.json").read_text())
         assert {name[7:-4] for name in transforms[f"{split}_filenames"]} == names
         scenes = tmp_path / "bop-scenes" / split
@@ -256,7 +256,7 @@ CASES = [(("depth", "distance"), 1), (("distance", "normal"), 2), (("normal",), 
 @pytest.mark.parametrize(("passes", "count"), CASES)
 def test_a_preview_shows_the_distance_where_there_is_no_depth(tmp_path, passes, count):
     _, images = view(tmp_path, 1)
-    np.savez(tmp_path / "PERSP_0001.npz", **{one: images[one] for one in passes})
+    np.savez(tmp_path / "PERSP_0001.npz", **{key: images[key] for key in passes})
     ((name, content),) = SET_FORMATS["preview"].files(read_set(tmp_path))
     shown = cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_COLOR)
     assert (name, shown.shape[1]) == ("preview.png", count * SIZE[0])
@@ -270,31 +270,31 @@ METRIC = {"bop-scenes", "depth16"}
 @pytest.mark.parametrize("key", SET_FORMATS)
 def test_lengths_of_sets_follow_the_unit_scale(written_set, key):
     folder, casts = written_set
-    found = {}
+    sets = {}
     for meters in (1.0, 0.01, 1000.0):
         for path in folder.glob("PERSP_000?.json"):
             report = json.loads(path.read_text())
             report["host"]["meters"] = meters
             path.write_text(json.dumps(report))
-        found[meters] = {name: one if isinstance(one, str | bytes) else "".join(one)
-                         for name, one in SET_FORMATS[key].files(read_set(folder))}  # fmt: skip
+        sets[meters] = {name: content if isinstance(content, str | bytes) else "".join(content)
+                         for name, content in SET_FORMATS[key].files(read_set(folder))}  # fmt: skip
         depth = np.where(np.isfinite(casts[0][1]["depth"]), casts[0][1]["depth"], 0)[::-1] * 1000 * meters
         if key == "bop-scenes":
             scene = "test/000000/"
-            camera = json.loads(found[meters][scene + "scene_camera.json"])["1"]
-            pixels = cv2.imdecode(np.frombuffer(found[meters][scene + "depth/000001.png"], np.uint8), -1)
+            camera = json.loads(sets[meters][scene + "scene_camera.json"])["1"]
+            pixels = cv2.imdecode(np.frombuffer(sets[meters][scene + "depth/000001.png"], np.uint8), -1)
             assert np.abs(pixels * camera["depth_scale"] - depth).max() <= camera["depth_scale"]
             assert np.allclose(camera["cam_t_w2c"], casts[0][0].opencv_from_world[:3, 3] * 1000 * meters, rtol=1e-6)
-            truth = json.loads(found[meters][scene + "scene_gt.json"])["1"]
-            objects = {one["obj_id"]: one["cam_t_m2c"] for one in truth}
+            truth = json.loads(sets[meters][scene + "scene_gt.json"])["1"]
+            objects = {entry["obj_id"]: entry["cam_t_m2c"] for entry in truth}
             assert np.allclose(objects[1], np.array((-0.3, 0, 5)) * 1000 * meters, atol=1e-6 * meters)
-            assert json.loads(found[meters]["models/models_info.json"])["1"]["size_x"] == pytest.approx(2000 * meters)
+            assert json.loads(sets[meters]["models/models_info.json"])["1"]["size_x"] == pytest.approx(2000 * meters)
         if key == "depth16":
-            step = json.loads(found[meters]["depth16.json"])["millimeters"]
-            pixels = cv2.imdecode(np.frombuffer(found[meters]["PERSP_0001_depth.png"], np.uint8), -1)
+            step = json.loads(sets[meters]["depth16.json"])["millimeters"]
+            pixels = cv2.imdecode(np.frombuffer(sets[meters]["PERSP_0001_depth.png"], np.uint8), -1)
             assert np.abs(pixels * step - depth).max() <= step
 
     def words(files):  # without comments, which tell the unit
-        return {name: [line for line in one.splitlines() if not line.startswith("#")] if isinstance(one, str) else one
-                for name, one in files.items()}  # fmt: skip
-    assert all(words(files) == words(found[1.0]) for files in found.values()) == (key not in METRIC)
+        return {name: [line for line in data.splitlines() if line[:1] != "#"] if isinstance(data, str) else data
+                for name, data in files.items()}  # fmt: skip
+    assert all(words(files) == words(sets[1.0]) for files in sets.values()) == (key not in METRIC)

@@ -38,9 +38,9 @@ def evaluated(record: Record, *inputs):
     """The outputs of a record at inputs (n,), as (outputs, n), by node."""
     names = [f"x{k}" for k in range(len(inputs))]
     writer = JavaScriptWriter(Literals())
-    found = writer.write(record, [Term(name) for name in names])
+    terms = writer.write(record, [Term(name) for name in names])
     places = json.dumps(np.transpose(inputs).tolist())
-    body = "\n".join((*writer.tables, *writer.lines, f"return [{', '.join(one.text for one in found)}];"))
+    body = "\n".join((*writer.tables, *writer.lines, f"return [{', '.join(term.text for term in terms)}];"))
     program = (
         f"{RUNTIME}\nconst run = ({', '.join(names)}) => {{\n{body}\n}};\n"
         f"console.log(JSON.stringify({places}.map((at) => run(...at)), {NUMBERS}));"

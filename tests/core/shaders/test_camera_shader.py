@@ -26,10 +26,10 @@ def test_every_example_has_a_shader_that_knows_itself(key, settings):
 
 
 def test_settings_change_the_values_and_not_the_text():
-    one, other = shader("PERSP", lens=30.0, shift_x=0.0), shader("PERSP", lens=70.0, shift_x=0.3)
-    assert one.source == other.source
-    assert one.values["window_center_x"] == 48 != other.values["window_center_x"]
-    assert one.values["window_pitch_x"] * 30 == pytest.approx(other.values["window_pitch_x"] * 70)
+    narrow, other = shader("PERSP", lens=30.0, shift_x=0.0), shader("PERSP", lens=70.0, shift_x=0.3)
+    assert narrow.source == other.source
+    assert narrow.values["window_center_x"] == 48 != other.values["window_center_x"]
+    assert narrow.values["window_pitch_x"] * 30 == pytest.approx(other.values["window_pitch_x"] * 70)
 
 
 def test_inputs_by_place_can_be_those_of_another_camera():

@@ -12,7 +12,7 @@ from camera_ray_caster.core.shaders.javascript import JavaScriptWriter
 from ..cameras.model_examples import EXAMPLES, camera
 from .javascript import evaluated
 
-CASES = [(key, place) for key, examples in sorted(EXAMPLES.items()) for place in range(len(examples))]
+CASES = [(key, k) for key, examples in sorted(EXAMPLES.items()) for k in range(len(examples))]
 PIXELS = 10000
 TWO = {"add", "subtract", "multiply", "divide", "remainder", "power", "minimum", "maximum", "hypot", "arctan2"}
 
@@ -24,12 +24,12 @@ def test_rays_are_those_of_numpy(key, example):
     generator = np.random.default_rng(example)
     x, y = (generator.uniform(0.0, side, PIXELS) for side in cam.raster.size)
     with np.errstate(all="ignore"):  # pixels without a ray
-        expected = np.array([np.broadcast_to(part, x.shape) for vector in cam.camera_rays(x, y) for part in vector])
+        expected = np.array([np.broadcast_to(values, x.shape) for vector in cam.camera_rays(x, y) for values in vector])
         bounds = world_rays(cam, x, y)
-    values = evaluated(record(lambda x, y: [part for vector in cam.camera_rays(x, y) for part in vector], 2), x, y)
+    values = evaluated(record(lambda x, y: [number for vector in cam.camera_rays(x, y) for number in vector], 2), x, y)
     assert np.array_equal(np.isnan(values[3]), np.isnan(expected[3]))
-    for part, error in ((slice(0, 3), bounds.origin_error), (slice(3, 6), bounds.direction_error)):
-        apart = np.linalg.norm(values[part] - expected[part], axis=0)
+    for rows, error in ((slice(0, 3), bounds.origin_error), (slice(3, 6), bounds.direction_error)):
+        apart = np.linalg.norm(values[rows] - expected[rows], axis=0)
         assert not (apart > 2 * error).any()  # two evaluations, each of which may have the error
 
 
@@ -42,14 +42,14 @@ def test_every_operation_can_be_written():
 def test_an_operation_is_that_of_numpy(name):
     two = name in TWO | COMPARISONS
     values = np.array([-3.5, -2.5, -1.0, -0.75, -1e-9, 0.0, 1e-9, 0.5, 1.0, 1.5, 2.5, 7.0, 123.25])
-    a, b = (part.ravel() for part in np.meshgrid(values, values))
+    a, b = (grid.ravel() for grid in np.meshgrid(values, values))
     function = getattr(np, name)
     arguments = (a, b) if two else (a,)
     with np.errstate(all="ignore"):
         expected = function(*arguments).astype(float)
     defined = DOMAIN.get(name, lambda *_: np.ones(a.shape, bool))(*arguments)
-    (found,) = evaluated(record(lambda a, b: (1.0 * function(*(a, b)[: 1 + two]),), 2), a, b)
-    assert np.allclose(found[defined], expected[defined], rtol=8 * EPS, atol=8 * EPS)
+    (value,) = evaluated(record(lambda a, b: (1.0 * function(*(a, b)[: 1 + two]),), 2), a, b)
+    assert np.allclose(value[defined], expected[defined], rtol=8 * EPS, atol=8 * EPS)
 
 
 @pytest.mark.full

@@ -34,22 +34,22 @@ def test_a_constant_can_be_made_an_input():
 
 
 def test_where_derivatives_stop_nothing_is_written():
-    _, lines, (found,) = written(lambda x, y: (stop_gradient(x + y),))
-    assert (lines, found.text) == (["float v1 = x + y;"], "v1")
+    _, lines, (term,) = written(lambda x, y: (stop_gradient(x + y),))
+    assert (lines, term.text) == (["float v1 = x + y;"], "v1")
 
 
 def test_what_is_no_number_is_carried_beside_the_value():
-    _, lines, (found,) = written(lambda x, y: (np.where(x < 1.0, np.sqrt(y), np.nan),))
+    _, lines, (term,) = written(lambda x, y: (np.where(x < 1.0, np.sqrt(y), np.nan),))
     assert lines == [
         "int is1 = x < 1.0;", "int is2 = y < 0.0;", "float v3 = sqrt(y);",
         "float v4 = is1 ? v3 : 0.0;", "int is5 = is1 ? is2 : 1;",
     ]  # fmt: skip
-    assert found == Term("v4", "is5")
+    assert term == Term("v4", "is5")
 
 
 def test_a_division_by_a_number_that_is_written_is_always_one():
-    _, lines, (found,) = written(lambda x, y: (x / 2.0,))
-    assert (lines, found.none) == (["float v1 = x / 2.0;"], "")
+    _, lines, (term,) = written(lambda x, y: (x / 2.0,))
+    assert (lines, term.none) == (["float v1 = x / 2.0;"], "")
 
 
 @pytest.mark.parametrize(

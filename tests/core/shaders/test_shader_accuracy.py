@@ -19,7 +19,7 @@ FLOAT32 = NUMPY | {
     "constant": lambda value: value if isinstance(value, bool) else np.float32(value),
     "parameter": lambda value, name: np.float32(value),
     "roundoff": lambda: np.float32(EPS32),
-    "take": lambda place, table: NUMPY["take"](place, np.float32(table)).astype(np.float32),
+    "take": lambda index, table: NUMPY["take"](index, np.float32(table)).astype(np.float32),
     "searchsorted": lambda number, table, side: np.searchsorted(table, number, side).astype(np.float32),
 }
 
@@ -43,17 +43,17 @@ def test_float32_stays_within_the_bound(key, settings):
 
 
 def test_a_sum_that_cancels_has_the_error_of_its_parts():
-    (found,) = rounded(record(lambda x: (x - 1000.0,), 1), [Rounded(np.array([1000.25]), 0.0)])
-    assert found.value == 0.25
-    assert 1000 * EPS32 <= found.error[0] <= 1001 * EPS32
+    (result,) = rounded(record(lambda x: (x - 1000.0,), 1), [Rounded(np.array([1000.25]), 0.0)])
+    assert result.value == 0.25
+    assert 1000 * EPS32 <= result.error[0] <= 1001 * EPS32
 
 
 def test_a_root_at_the_end_of_its_range_may_be_none():
-    (found,) = rounded(record(lambda x: (np.sqrt(1.0 - x),), 1), [Rounded(np.array([0.5, 1 - 1e-9, 2.0]), 0.0)])
-    assert np.isnan(found.value[2])
-    assert found.error[0] < 8 * EPS32
-    assert np.isinf(found.error[1])
-    assert found.error[2] == 0  # it is none for sure
+    (result,) = rounded(record(lambda x: (np.sqrt(1.0 - x),), 1), [Rounded(np.array([0.5, 1 - 1e-9, 2.0]), 0.0)])
+    assert np.isnan(result.value[2])
+    assert result.error[0] < 8 * EPS32
+    assert np.isinf(result.error[1])
+    assert result.error[2] == 0  # it is none for sure
 
 
 def test_a_branch_that_is_undecided_counts_with_both():

@@ -33,7 +33,7 @@ def ball(rows: int, columns: int, radius: float = 1.0) -> Mesh:
     vertices = np.concatenate((ring, [[0, 0, 1], [0, 0, -1]])) * radius
     at = np.arange(len(ring)).reshape(rows - 1, columns)
     beside = np.roll(at, -1, axis=1)
-    a, b, c, d = (part.ravel() for part in (at[:-1], at[1:], beside[1:], beside[:-1]))
+    a, b, c, d = (corners.ravel() for corners in (at[:-1], at[1:], beside[1:], beside[:-1]))
     north, south = np.full(columns, len(ring)), np.full(columns, len(ring) + 1)
     triangles = np.concatenate([
         np.stack(three, axis=1)

@@ -34,7 +34,7 @@ def corrupted(whole: MeshArrays, random) -> MeshArrays:
 
 
 def test_a_corrupt_mesh_is_named_and_nothing_is_read_beyond_its_arrays():
-    random, said = np.random.default_rng(0), Counter()
+    random, counts = np.random.default_rng(0), Counter()
     wholes = [
         mesh(*grid([0, 1, 2, 3], [0, 1, 2])),
         mesh(SQUARE, [(0, 1, 2, 3)]),
@@ -43,10 +43,10 @@ def test_a_corrupt_mesh_is_named_and_nothing_is_read_beyond_its_arrays():
     ]
     for k in range(1000):
         recognized = recognize(corrupted(wholes[k % 4], random))
-        said["a shape" if isinstance(recognized, Primitive) else recognized] += 1
-    assert said["a shape"] > 20
-    assert said[CORRUPT] > 200
-    assert said[ROUNDED_AWAY] > 10
+        counts["a shape" if isinstance(recognized, Primitive) else recognized] += 1
+    assert counts["a shape"] > 20
+    assert counts[CORRUPT] > 200
+    assert counts[ROUNDED_AWAY] > 10
 
 
 def test_a_face_of_two_corners_is_corrupt():

@@ -140,11 +140,11 @@ def test_normals_are_of_the_side_that_is_hit_smooth_or_flat_and_right_to_their_b
         if mesh.normals is not None:
             to_world = np.linalg.inv(axes).T * np.sign(np.linalg.det(axes))
             parts = [(mesh.normals[loop[images["face_index"][hit]]].astype(float) @ to_world.T) for loop in mesh.loops]
-            parts = [part / np.linalg.norm(part, axis=1, keepdims=True) for part in parts]
+            parts = [normals / np.linalg.norm(normals, axis=1, keepdims=True) for normals in parts]
             square = (area * area).sum(axis=1)
             p = images["position"][hit]
             weights = [(np.cross(r - q, p - q) * area).sum(axis=1) / square for q, r in ((b, c), (c, a), (a, b))]
-            expected = toward * sum(w[:, None] * part for w, part in zip(weights, parts, strict=True))
+            expected = toward * sum(w[:, None] * normals for w, normals in zip(weights, parts, strict=True))
         expected = expected / np.linalg.norm(expected, axis=1, keepdims=True)
         error = np.linalg.norm(images["normal"][hit] - expected, axis=1)
         assert (error <= images["normal_bound"][hit]).all()
@@ -215,9 +215,9 @@ def test_a_mesh_without_a_map_has_0_beside_one_with_a_map():
     shapes = shapes_of((bare, (0.5, 0, -3), 1.0), (mapped, (-0.5, 0, -3), 1.0))
     images = cast(camera_at(), shapes, passes=("uv", "shape_index"))
     for shape, expected in enumerate(([0, 0, 0], [0.25, 0.25, 0])):
-        found = images["uv"][images["shape_index"] == shape]
-        assert len(found) > 10
-        np.testing.assert_array_equal(found, np.tile(np.float32(expected), (len(found), 1)))
+        uv = images["uv"][images["shape_index"] == shape]
+        assert len(uv) > 10
+        np.testing.assert_array_equal(uv, np.tile(np.float32(expected), (len(uv), 1)))
 
 
 def test_the_grid_is_that_of_the_map_or_of_the_edges_of_faces():
@@ -243,7 +243,7 @@ def test_the_grid_is_that_of_the_map_or_of_the_edges_of_faces():
         else:
             across = [np.abs(cells - np.rint(cells)) for cells in (24 * x / 6, 12 * y / 6)]
             expected = np.minimum(*across) < 0.06
-            sure = np.minimum.reduce([np.abs(part - 0.06) for part in across]) > 1e-6
+            sure = np.minimum.reduce([np.abs(distance - 0.06) for distance in across]) > 1e-6
         headlight = 1 / np.sqrt(1 + x**2 + y**2)
         dark = images["combined"][hit][:, 2] < 0.5 * headlight
         np.testing.assert_array_equal(dark[sure], expected[sure])

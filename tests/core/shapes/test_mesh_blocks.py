@@ -40,9 +40,9 @@ def test_meshes_pay_for_what_is_seen_of_them(key, monkeypatch):
     shapes = shapes_of((front, (0, 0, -2), 1.0), (apart, (0, 50, -5), 1.0), (behind, (0.1, 0, -9), 0.5))
     looked_at, placed = Counter(), set()
 
-    def place_blocks(self, blocks, part):
+    def place_blocks(self, blocks, rows):
         placed.update(blocks.tolist())
-        return original_place(self, blocks, part)
+        return original_place(self, blocks, rows)
 
     def triangles(self, blocks):
         looked_at.update(np.repeat(self.blocks.shape[blocks], self.blocks.count[blocks]).tolist())
@@ -52,7 +52,7 @@ def test_meshes_pay_for_what_is_seen_of_them(key, monkeypatch):
     monkeypatch.setattr(MeshesInView, "triangles", triangles)
     monkeypatch.setattr(MeshesInView, "_place", place_blocks)
     images = cast(cam, shapes, passes=("depth", "shape_index"))
-    ((meshes,),) = ([one.meshes] for one in images.plan.sets)
+    ((meshes,),) = ([blocks.meshes] for blocks in images.plan.sets)
     assert set(meshes.blocks.shape) == {0, 2}
     assert looked_at[0] > len(front) / 2
     assert looked_at[2] == 0

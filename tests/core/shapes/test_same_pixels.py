@@ -39,7 +39,7 @@ def test_a_pixel_is_the_same_in_every_part_of_the_picture(kind):
         border = {"border_min_x": x0, "border_max_x": x1, "border_min_y": y0, "border_max_y": y1}
         border = {name: value / (240 if name.endswith("x") else 160) for name, value in border.items()}
         cam = camera_at(**size, use_border=True, **border)
-        part = cast(cam, shapes, passes=passes, dtype=np.float64)
+        alone = cast(cam, shapes, passes=passes, dtype=np.float64)
         rows, columns = (np.s_[a:b] for a, b in ((cam.raster.y0, cam.raster.y1), (cam.raster.x0, cam.raster.x1)))
         for name in passes:
-            np.testing.assert_array_equal(part[name], whole[name][rows, columns], name)
+            np.testing.assert_array_equal(alone[name], whole[name][rows, columns], name)

@@ -34,8 +34,8 @@ def test_volumes_are_right_to_their_bound(spread, away):
     bound = VOLUME_ROUNDING * np.linalg.norm(d, axis=0) * length**2
     rays = np.concatenate((d, cross(origin, d)))
     by_moments = (edge_vectors(corners, from_eye=False) * rays).sum(axis=1)
-    for found in (volumes(corners - origin, d), by_moments):
-        for (i, j), volume in zip(((1, 2), (2, 0), (0, 1)), found, strict=True):
+    for triple in (volumes(corners - origin, d), by_moments):
+        for (i, j), volume in zip(((1, 2), (2, 0), (0, 1)), triple, strict=True):
             for k in range(COUNT):
                 true = exact_volume(corners[i, :, k], corners[j, :, k], origin[:, k], d[:, k])
                 assert abs(Fraction(float(volume[k])) - true) <= Fraction(float(bound[k]))

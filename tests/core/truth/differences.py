@@ -33,7 +33,7 @@ def derivatives(function, x, y):
 def unit_ray(raw, x, y):
     """The world origin and the unit direction through pixel coordinates, six numbers; None where there is no ray."""
     ray = truth.recorded_ray(raw, x, y)
-    return ray and [*ray.origin, *(part / ray.length for part in ray.direction)]
+    return ray and [*ray.origin, *(number / ray.length for number in ray.direction)]
 
 
 def moved(second, rounding):

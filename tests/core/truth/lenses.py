@@ -23,14 +23,14 @@ def camera_obscura(raw, x, y):
 
 
 def orthographic_fisheye(raw, x, y):
-    place = round_place(raw, x, y)
-    r = radius(place)
-    return None if r > 1 else fisheye(place, asin(r * sin(setting(raw, "fov") / 2)))
+    point = round_place(raw, x, y)
+    r = radius(point)
+    return None if r > 1 else fisheye(point, asin(r * sin(setting(raw, "fov") / 2)))
 
 
 def stereographic(raw, x, y):
-    place = round_place(raw, x, y)
-    return fisheye(place, 2 * atan(radius(place) * tan(setting(raw, "fov") / 4)))
+    point = round_place(raw, x, y)
+    return fisheye(point, 2 * atan(radius(point) * tan(setting(raw, "fov") / 4)))
 
 
 def stereographic_fisheye(raw, x, y):
@@ -42,9 +42,9 @@ def stereographic_panorama(raw, x, y):
 
 
 def dome_master(raw, x, y):
-    place = round_place(raw, x, y)
-    r = radius(place)
-    return None if r > 1 else pitched(fisheye(place, r * setting(raw, "fov") / 2), pi / 2 - setting(raw, "tilt"))
+    point = round_place(raw, x, y)
+    r = radius(point)
+    return None if r > 1 else pitched(fisheye(point, r * setting(raw, "fov") / 2), pi / 2 - setting(raw, "tilt"))
 
 
 def omnimax(raw, x, y):

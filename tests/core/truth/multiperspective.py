@@ -22,12 +22,12 @@ def unit(v):
 
 def points(raw, name):
     """The points of a setting, in the camera's frame."""
-    given, matrix = raw.settings[name][:2]
+    own_points, matrix = raw.settings[name][:2]
     rows, pose = exact(matrix)[:3], exact(raw.matrix_world)[:3]
     eye = [row[3] for row in pose]
     axes = columns([unit(axis) for axis in columns([row[:3] for row in pose])])
-    place = [along(times([row[:3] for row in rows], p), [row[3] for row in rows], 1) for p in exact(given)]
-    return [times(inverse(axes), minus(p, eye)) for p in place]
+    in_world = [along(times([row[:3] for row in rows], p), [row[3] for row in rows], 1) for p in exact(own_points)]
+    return [times(inverse(axes), minus(p, eye)) for p in in_world]
 
 
 def pixel(raw, x, y):
@@ -45,28 +45,28 @@ def slit(raw, name):
 
 def general_linear(raw, x, y):
     frame = frame_of(raw)
-    one, two, three = (exact(raw.settings[f"ray_{k}"]) for k in (1, 2, 3))
-    s, t, u, v = along(along(one, minus(two, one), x / frame.width), minus(three, one), y / frame.height)
+    first, two, three = (exact(raw.settings[f"ray_{k}"]) for k in (1, 2, 3))
+    s, t, u, v = along(along(first, minus(two, first), x / frame.width), minus(three, first), y / frame.height)
     return [s, t, mpf(0)], [u - s, v - t, mpf(-1)]
 
 
 def cross_slit(raw, x, y):
     """Through the pixel and where the plane of it and the first slit meets the second."""
-    place = pixel(raw, x, y)
+    point_in_plane = pixel(raw, x, y)
     first, direction, _, _ = slit(raw, "slit_1")
     second, other, _, _ = slit(raw, "slit_2")
-    normal = cross(direction, minus(place, first))
-    meeting = along(second, other, dot(normal, minus(place, second)) / dot(normal, other))
-    through = minus(meeting, place)
+    normal = cross(direction, minus(point_in_plane, first))
+    meeting = along(second, other, dot(normal, minus(point_in_plane, second)) / dot(normal, other))
+    through = minus(meeting, point_in_plane)
     through = scaled(through, -1 / through[2])
-    return along(place, through, -1), through
+    return along(point_in_plane, through, -1), through
 
 
 def pushbroom(raw, x, y):
     """In the plane across the slit that the orthographic camera has for the pixel, at the perspective one's slope."""
     point, direction, along_it, across = slit(raw, "slit_1")
-    place = [*planar(raw, x, y, mpf(raw.ortho_scale)), mpf(0)]
-    way = (dot(along_it, place) - dot(along_it, point)) / dot(along_it, direction)
+    start = [*planar(raw, x, y, mpf(raw.ortho_scale)), mpf(0)]
+    way = (dot(along_it, start) - dot(along_it, point)) / dot(along_it, direction)
     return along(point, direction, way), minus(scaled(across, dot(across, pixel(raw, x, y))), Z)
 
 
@@ -79,9 +79,9 @@ def pencil(raw, x, y):
 
 def twisted_orthographic(raw, x, y):
     point, _, along_it, across = slit(raw, "slit_1")
-    place = [*planar(raw, x, y, mpf(raw.ortho_scale)), mpf(0)]
-    slope = mpf(raw.settings["twist"]) * dot(along_it, minus(place, point))
-    return place, minus(scaled(across, slope), Z)
+    start = [*planar(raw, x, y, mpf(raw.ortho_scale)), mpf(0)]
+    slope = mpf(raw.settings["twist"]) * dot(along_it, minus(start, point))
+    return start, minus(scaled(across, slope), Z)
 
 
 def strip(raw, x, y):
@@ -93,15 +93,15 @@ def strip(raw, x, y):
     while k < len(steps) - 1 and left > norm(steps[k]):
         left -= norm(steps[k])
         k += 1
-    part = left / norm(steps[k])
+    along_step = left / norm(steps[k])
     right = [mpf(1), mpf(0), mpf(0)]
     if raw.settings["follow_path"]:
         heads = [unit(step) for step in steps]
         heads = [along(a, b, 1) for a, b in zip([heads[0], *heads], [*heads, heads[-1]], strict=True)]
         heads = [unit([head[0], mpf(0), head[2]]) for head in heads]
-        right = unit(along(heads[k], minus(heads[k + 1], heads[k]), part))
+        right = unit(along(heads[k], minus(heads[k + 1], heads[k]), along_step))
     ahead = [right[2], mpf(0), -right[0]]
-    return along(path[k], steps[k], part), along(ahead, [mpf(0), mpf(1), mpf(0)], pixel(raw, x, y)[1])
+    return along(path[k], steps[k], along_step), along(ahead, [mpf(0), mpf(1), mpf(0)], pixel(raw, x, y)[1])
 
 
 def omnidirectional_stereo(raw, x, y):

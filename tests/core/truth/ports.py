@@ -13,7 +13,7 @@ def behind(raw, ray):
     if port == "NONE" or ray is None:
         return ray
     point, ahead = ray
-    ahead = [part / norm(ahead) for part in ahead]
+    ahead = [number / norm(ahead) for number in ahead]
     number = {name: mpf(value) for name, value in raw.settings.items() if isinstance(value, float)}
     thickness, inside, glass, medium = (number[f"port_{name}"] for name in ("thickness", "inside", "glass", "medium"))
     if port == "FLAT":
@@ -22,7 +22,7 @@ def behind(raw, ray):
         inner = number["port_distance"] * MM
         faces = [Plane(normal, inner), Plane(normal, inner + thickness * MM)]
     else:
-        center = [part * MM for part in exact(raw.settings["port_decenter"])]
+        center = [number * MM for number in exact(raw.settings["port_decenter"])]
         outer = number["port_radius"] * MM
         faces = [Sphere(center, outer - thickness * MM), Sphere(center, outer)]
     for face, before, after in zip(faces, (inside, glass), (glass, medium), strict=True):
@@ -59,7 +59,7 @@ class Sphere:
         return -half + sqrt(half * half - dot(start, start) + self.radius**2)
 
     def normal(self, point):
-        return [part / self.radius for part in minus(point, self.center)]
+        return [number / self.radius for number in minus(point, self.center)]
 
 
 def refracted(ahead, normal, ratio):

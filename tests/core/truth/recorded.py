@@ -41,7 +41,7 @@ MPMATH = {
     "roundoff": lambda: +mp.eps,
     "stop_gradient": lambda a: a,
     "searchsorted": lambda a, table, side: mpf({"left": bisect_left, "right": bisect_right}[side](table, a)),
-    "take": lambda place, table: NAN if mp.isnan(place) else mpf(table[int(place)]),
+    "take": lambda index, table: NAN if mp.isnan(index) else mpf(table[int(index)]),
     "all": bool,
 }  # fmt: skip
 """The arithmetic of records, with the digits that mpmath is set to."""

@@ -73,10 +73,10 @@ def test_a_record_gives_the_ray_of_the_formula_that_is_written_anew(key):
             bounds = world_rays(cam, x, y)
         allowed = [np.broadcast_to(error, x.shape) for error in (bounds.origin_error, bounds.direction_error)]
         for k in range(len(x)):
-            found, expected = truth.recorded_ray(raw, x[k], y[k]), truth.ray(raw, x[k], y[k])
-            assert (found is None) == (expected is None)
-            if found is not None:
-                away = off((found.origin, found.direction), (expected.origin, expected.direction))
+            recorded, expected = truth.recorded_ray(raw, x[k], y[k]), truth.ray(raw, x[k], y[k])
+            assert (recorded is None) == (expected is None)
+            if recorded is not None:
+                away = off((recorded.origin, recorded.direction), (expected.origin, expected.direction))
                 assert away[0] <= allowed[0][k]
                 assert away[1] <= allowed[1][k]
 
@@ -85,10 +85,10 @@ def test_a_record_gives_the_ray_of_the_formula_that_is_written_anew(key):
 def test_where_no_constant_is_rounded_the_two_are_one(key):
     raw, cam = raw_of(key, BINARY), camera(key, BINARY)
     for x, y in zip(*places(cam), strict=True):
-        found, expected = truth.recorded_ray(raw, x, y), truth.ray(raw, x, y)
-        assert (found is None) == (expected is None)
-        if found is not None:
-            assert max(off((found.origin, found.direction), (expected.origin, expected.direction))) <= DIGITS
+        recorded, expected = truth.recorded_ray(raw, x, y), truth.ray(raw, x, y)
+        assert (recorded is None) == (expected is None)
+        if recorded is not None:
+            assert max(off((recorded.origin, recorded.direction), (expected.origin, expected.direction))) <= DIGITS
 
 
 def test_every_formula_that_is_written_anew_is_a_model_s():
@@ -125,12 +125,12 @@ def test_iterated_angles_are_distorted_to_their_radii_with_all_digits(settings):
 def test_an_inverse_has_all_digits_and_an_end_where_its_function_is_flat(target):
     """Of 1 - (1 - x)^2, whose slope is 0 at x = 1, where half of the digits are to be had."""
     inverse = Inverse(lambda x: x * (2 - x), lambda x: 2 - 2 * x, 0.0, 1.0)
-    (found,) = record(lambda y: [inverse(y)], 1).evaluate(MPMATH, (mpf(target),))
-    assert mp.isnan(found) == np.isnan(inverse(np.array([target]))[0])
-    if not mp.isnan(found):
+    (value,) = record(lambda y: [inverse(y)], 1).evaluate(MPMATH, (mpf(target),))
+    assert mp.isnan(value) == np.isnan(inverse(np.array([target]))[0])
+    if not mp.isnan(value):
         goal = min(max(mpf(target), 0), 1)
         exact = goal / (1 + sqrt(1 - goal))
-        assert abs(found - exact) <= (DIGITS if target < 1 else mpf(10) ** -25) * exact
+        assert abs(value - exact) <= (DIGITS if target < 1 else mpf(10) ** -25) * exact
 
 
 @pytest.mark.parametrize("name", sorted(NUMERIC))
@@ -139,12 +139,12 @@ def test_an_operation_gives_what_numpy_gives_and_no_number_where_numpy_has_none(
     numbers = [-2.5, -1.0, -0.5, 0.0, 0.3, 0.5, 1.0, 1.5, 2.0, float("nan")]
     rule = DOMAIN.get(name, lambda *_: True)
     for operands in np.array(np.meshgrid(*[numbers] * ufunc.nin)).reshape(ufunc.nin, -1).T.tolist():
-        (found,) = record(lambda *x: [ufunc(*x)], ufunc.nin).evaluate(MPMATH, [mpf(x) for x in operands])
+        (value,) = record(lambda *x: [ufunc(*x)], ufunc.nin).evaluate(MPMATH, [mpf(x) for x in operands])
         with np.errstate(all="ignore"):
             expected = float(ufunc(*operands))
         spread = any(map(np.isnan, operands))  # though numpy has nan ** 0 = 1
-        assert mp.isnan(found) == (spread or not np.isfinite(expected)) == (spread or not rule(*operands))
-        assert mp.isnan(found) or float(found) == pytest.approx(expected, rel=1e-15, abs=1e-300)
+        assert mp.isnan(value) == (spread or not np.isfinite(expected)) == (spread or not rule(*operands))
+        assert mp.isnan(value) or float(value) == pytest.approx(expected, rel=1e-15, abs=1e-300)
 
 
 def test_what_is_no_number_spreads_compares_as_false_and_does_no_harm_where_it_is_not_taken():

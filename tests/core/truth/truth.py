@@ -141,8 +141,8 @@ def radius(point):
 
 
 def mirror_ball(raw, x, y):
-    place = disc_place(raw, x, y)
-    return None if radius(place) > 1 else fisheye(place, 2 * asin(radius(place)))
+    point = disc_place(raw, x, y)
+    return None if radius(point) > 1 else fisheye(point, 2 * asin(radius(point)))
 
 
 MODELS = {
@@ -180,8 +180,8 @@ def ray(raw, x, y):
 
     models, depths = formulas()
     if key in models:
-        found = behind(raw, models[key](raw, mpf(x), mpf(y)))
-        return in_world(raw, found, key in depths and "port" not in raw.settings)
+        in_camera = behind(raw, models[key](raw, mpf(x), mpf(y)))
+        return in_world(raw, in_camera, key in depths and "port" not in raw.settings)
     return recorded_ray(raw, x, y)
 
 
@@ -236,18 +236,18 @@ def crossings(shapes, k, ray):
 
 def nearest(shapes, ray, start, end):
     """The nearest hit within the clip range, None where there is none."""
-    found = [
+    hits = [
         (t, k)
         for k in range(len(shapes.kind))
         for t in crossings(shapes, k, ray)[0]
         if start <= t <= end
     ]
-    if not found:
+    if not hits:
         return None
-    t, k = min(found)
-    place = along(ray.origin, ray.direction, t)
+    t, k = min(hits)
+    point = along(ray.origin, ray.direction, t)
     inner = to_shape(shapes, k)
-    q = times(inner, minus(place, exact(shapes.center[k])))
+    q = times(inner, minus(point, exact(shapes.center[k])))
     normal = times(columns(inner), q if shapes.kind[k] == SPHERE else [mpf(0), mpf(0), mpf(1)])
     size = -norm(normal) if dot(normal, ray.direction) > 0 else norm(normal)
-    return Hit(k, t, t * ray.length, place, [x / size for x in normal])
+    return Hit(k, t, t * ray.length, point, [x / size for x in normal])

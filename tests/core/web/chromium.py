@@ -49,8 +49,8 @@ def browser(width=1400, height=1000, *more, downloads=None):
         size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
         driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
         if downloads is not None:
-            given = {"behavior": "allow", "downloadPath": str(downloads)}
-            driver.execute_cdp_cmd("Browser.setDownloadBehavior", given)
+            behavior = {"behavior": "allow", "downloadPath": str(downloads)}
+            driver.execute_cdp_cmd("Browser.setDownloadBehavior", behavior)
         yield driver
         assert [line["message"] for line in driver.get_log("browser") if line["level"] == "SEVERE"] == []
     finally:

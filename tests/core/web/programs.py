@@ -24,14 +24,14 @@ def program(key):
 
 def settings(key):
     """Yield cameras with their settings, all choices and several places of all knobs; not those that are refused."""
-    one, raw = program(key), example(crc.models()[key]).record
+    camera_program, raw = program(key), example(crc.models()[key]).record
     generator = np.random.default_rng(7)
-    words = {name: {variant.choices[name] for variant in one.variants} for name in one.choices}
+    words = {name: {variant.choices[name] for variant in camera_program.variants} for name in camera_program.choices}
     for chosen in product(*map(sorted, words.values())):
         for _ in range(ROUNDS):
-            values = {knob.name: float(generator.uniform(knob.low, knob.high)) for knob in one.knobs}
+            values = {knob.name: float(generator.uniform(knob.low, knob.high)) for knob in camera_program.knobs}
             values = values | dict(zip(words, chosen, strict=True))
             try:
-                yield values, camera_from(with_settings(raw, type(one.lens), values))
+                yield values, camera_from(with_settings(raw, type(camera_program.lens), values))
             except InputError:
                 continue

@@ -39,11 +39,11 @@ def variant_of(key, values):
 def check(camera, x, y, rays):
     """Compare rays, (6, n), with a camera's: both may have the error that its bound allows."""
     with np.errstate(all="ignore"):  # pixels without a ray
-        expected = np.array([np.broadcast_to(part, x.shape) for vector in camera.model.rays(x, y) for part in vector])
+        expected = np.array([np.broadcast_to(value, x.shape) for vector in camera.model.rays(x, y) for value in vector])
         bounds = world_rays(camera, x, y)
     assert np.array_equal(np.isnan(rays[3]), np.isnan(expected[3]))
-    for part, error in ((slice(0, 3), bounds.origin_error), (slice(3, 6), bounds.direction_error)):
-        assert not (np.linalg.norm(rays[part] - expected[part], axis=0) > 2 * error).any()
+    for rows, error in ((slice(0, 3), bounds.origin_error), (slice(3, 6), bounds.direction_error)):
+        assert not (np.linalg.norm(rays[rows] - expected[rows], axis=0) > 2 * error).any()
 
 
 @pytest.mark.cases(1)
@@ -56,7 +56,7 @@ def test_rays_of_any_settings_are_the_cameras(key):
         with np.errstate(all="ignore"):
             kept = parts.first.evaluate(arithmetic, ())[parts.conditions :]
             rays = parts.second.evaluate(arithmetic, (x, y, *kept))
-        check(camera, x, y, np.array([np.broadcast_to(part, x.shape) for part in rays[:RAY]], float))
+        check(camera, x, y, np.array([np.broadcast_to(values, x.shape) for values in rays[:RAY]], float))
         count += 1
     assert count
 
@@ -110,12 +110,12 @@ def test_what_a_table_or_an_iteration_gives_to_a_formula_is_that_of_the_camera(k
     values, camera = next(iter(settings(key)))
     variant, x, y = variant_of(key, values), 0.3 * camera.raster.width, 0.4 * camera.raster.height
     assert names <= {name for name, _ in variant.names}
-    given, parts = NUMPY | {"parameter": lambda value, name: values[name]}, variant.parts
-    kept = parts.first.evaluate(given, ())[parts.conditions :]
-    found, at = parts.second.evaluate(given, (x, y, *kept))[RAY:], 0
+    inputs, parts = NUMPY | {"parameter": lambda value, name: values[name]}, variant.parts
+    kept = parts.first.evaluate(inputs, ())[parts.conditions :]
+    numbers, at = parts.second.evaluate(inputs, (x, y, *kept))[RAY:], 0
     expected = values_of(camera.model, camera.record, camera.raster, x, y)
     for name, count in variant.names:
-        np.testing.assert_allclose(found[at : at + count], expected[name], rtol=1e-12, atol=1e-14, err_msg=name)
+        np.testing.assert_allclose(numbers[at : at + count], expected[name], rtol=1e-12, atol=1e-14, err_msg=name)
         at += count
 
 

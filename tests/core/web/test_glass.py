@@ -24,18 +24,20 @@ def test_the_section_has_the_ray_of_the_pixel_and_its_stop_and_film_are_dragged(
     fresh(opened, page)
     assert not by_id(opened, "glass-card").is_displayed()
     fresh(opened, page, LINK)
-    settled(opened, lambda one: state(one)["model"] == "REAL_LENS" and by_id(one, "glass-card").is_displayed())
+    settled(opened, lambda tab: state(tab)["model"] == "REAL_LENS" and by_id(tab, "glass-card").is_displayed())
     model, first = example(RealLens).model, seen(opened)
     path = chief_path(model, 500, 300)
     height = np.hypot(*path.points[:, :2].T) / model.unit
-    place = path.points[:, 2] / model.unit + model.pupil
+    depth = path.points[:, 2] / model.unit + model.pupil
     points = np.array(first["chief"]["points"])
-    np.testing.assert_allclose(points[:, 0], place, rtol=0, atol=1e-10)
+    np.testing.assert_allclose(points[:, 0], depth, rtol=0, atol=1e-10)
     np.testing.assert_allclose(np.abs(points[:, 1]), height, rtol=0, atol=1e-10)
-    sines = [(np.sin(one.in_front), np.sin(one.at_back)) for one in path.refractions]
-    np.testing.assert_allclose([one[1:] for one in first["chief"]["sines"]], sines, rtol=0, atol=1e-12)
+    sines = [(np.sin(refraction.in_front), np.sin(refraction.at_back)) for refraction in path.refractions]
+    np.testing.assert_allclose([sine[1:] for sine in first["chief"]["sines"]], sines, rtol=0, atol=1e-12)
     stop = len(model.optics.surfaces) - model.optics.stop
-    reached = [one["points"][stop][1] / first["radius"] for one in first["fan"] if len(one["points"]) > stop]
+    reached = [
+        path_of["points"][stop][1] / first["radius"] for path_of in first["fan"] if len(path_of["points"]) > stop
+    ]
     assert len(reached) >= 6
     assert np.abs(np.subtract.outer(reached, [-0.95, -0.7, -0.45, -0.2, 0.2, 0.45, 0.7, 0.95])).min(axis=1).max() < 1e-9
     assert first["fNumber"] == pytest.approx(model.facts()["f_number"], rel=1e-12)
@@ -44,11 +46,11 @@ def test_the_section_has_the_ray_of_the_pixel_and_its_stop_and_film_are_dragged(
     canvas = by_id(opened, "glass")
     opened.execute_script("arguments[0].scrollIntoView({block: 'center'})", canvas)
     canvas.send_keys(Keys.SHIFT, Keys.ARROW_DOWN)
-    settled(opened, lambda one: seen(one)["radius"] == pytest.approx(0.8 * first["radius"]))
+    settled(opened, lambda tab: seen(tab)["radius"] == pytest.approx(0.8 * first["radius"]))
     assert seen(opened)["fNumber"] == pytest.approx(first["fNumber"] / 0.8)
     film = mouse(opened).move_to_element_with_offset(canvas, int(0.4 * canvas.size["width"]), 0).click_and_hold()
     film.move_by_offset(-8, 0).release().perform()
-    settled(opened, lambda one: seen(one)["film"] < first["film"])
+    settled(opened, lambda tab: seen(tab)["film"] < first["film"])
     nearer = seen(opened)
     assert nearer["focus"] < 0 or nearer["focus"] > first["focus"]  # the film nearer to the lens: farther things
     assert nearer["fNumber"] == pytest.approx(first["fNumber"] / 0.8)
@@ -61,13 +63,13 @@ def test_the_picture_follows_the_stop_and_the_film(opened, page):
     from selenium.webdriver.common.keys import Keys
 
     fresh(opened, page, LINK)
-    settled(opened, lambda one: by_id(one, "glass-card").is_displayed())
+    settled(opened, lambda tab: by_id(tab, "glass-card").is_displayed())
     opened.execute_script("window.lesson.fixLensQuality(12, 1)")  # by itself a busy machine draws fewer pixels
     canvas = by_id(opened, "glass")
     opened.execute_script("arguments[0].scrollIntoView({block: 'center'})", canvas)
     sharp = light_of(opened)
     canvas.send_keys(Keys.SHIFT, *18 * [Keys.ARROW_DOWN])
-    settled(opened, lambda one: seen(one)["fNumber"] > 90)
+    settled(opened, lambda tab: seen(tab)["fNumber"] > 90)
     closed = light_of(opened)
     model, (height, width) = example(RealLens).model, closed.shape[:2]
     x, y = (np.arange(width) + 0.5) * model.size[0] / width, (np.arange(height) + 0.5) * model.size[1] / height
@@ -81,16 +83,16 @@ def test_the_picture_follows_the_stop_and_the_film(opened, page):
 
     opened.execute_script("window.lesson.fixLensQuality(48, 0.5)")  # no steps between the samples of a pixel
     canvas.send_keys(Keys.SHIFT, *24 * [Keys.ARROW_UP])
-    settled(opened, lambda one: seen(one)["fNumber"] == pytest.approx(model.optics.widest_f_number))
+    settled(opened, lambda tab: seen(tab)["fNumber"] == pytest.approx(model.optics.widest_f_number))
     wide = light_of(opened)
     canvas.send_keys(Keys.SHIFT, *4 * [Keys.ARROW_LEFT])
-    settled(opened, lambda one: seen(one)["film"] < model.film - 1.9)
+    settled(opened, lambda tab: seen(tab)["film"] < model.film - 1.9)
     soft = light_of(opened)
     edges = [np.abs(np.diff(light.mean(axis=2)[len(light) // 2])).max() * light.shape[1] for light in (wide, soft)]
 
     assert edges[0] > 1.2 * edges[1]  # measured 3.5
     by_id(opened, "reset").click()
-    settled(opened, lambda one: seen(one)["film"] == model.film)
+    settled(opened, lambda tab: seen(tab)["film"] == model.film)
     np.testing.assert_array_equal(light_of(opened), sharp)
 
 

@@ -63,7 +63,7 @@ def test_a_camera_is_cast_mapped_and_written_for_python(page, tmp_path, text):
         open_drawn(driver, page)
         written(driver, text)
         by_id(driver, "own-use").click()
-        settled(driver, lambda one: by_id(one, "label").text == "My camera")
+        settled(driver, lambda tab: by_id(tab, "label").text == "My camera")
         assert by_id(driver, "own-error").text == ""
         at, cast = state(driver), ray(driver)
         assert numbers(shown(driver, "back to the pixel"))[2] < 1e-6
@@ -91,25 +91,25 @@ def test_a_camera_is_cast_mapped_and_written_for_python(page, tmp_path, text):
 
 def test_an_own_camera_is_in_the_link_and_survives_a_reload(opened, page):
     fresh(opened, page, "#v=1&model=FISHEYE_EQUIDISTANT")
-    settled(opened, lambda one: state(one)["model"] == "FISHEYE_EQUIDISTANT" and shown(one, "pixel"))
+    settled(opened, lambda tab: state(tab)["model"] == "FISHEYE_EQUIDISTANT" and shown(tab, "pixel"))
     written(opened, MOVED)
     by_id(opened, "own-use").click()
-    settled(opened, lambda one: "own=" in one.execute_script("return location.hash"))
+    settled(opened, lambda tab: "own=" in tab.execute_script("return location.hash"))
     before, link = ray(opened), opened.execute_script("return location.hash")
     opened.refresh()
-    settled(opened, lambda one: by_id(one, "label").text == "My camera")
+    settled(opened, lambda tab: by_id(tab, "label").text == "My camera")
     assert ray(opened) == before
     assert by_id(opened, "own").get_attribute("value") == MOVED
     fresh(opened, page, link)
-    settled(opened, lambda one: by_id(one, "label").text == "My camera" and shown(one, "pixel"))
+    settled(opened, lambda tab: by_id(tab, "label").text == "My camera" and shown(tab, "pixel"))
     assert ray(opened) == before
     by_id(opened, "reset").click()
-    settled(opened, lambda one: by_id(one, "label").text != "My camera")
-    settled(opened, lambda one: "own=" not in one.execute_script("return location.hash"))
+    settled(opened, lambda tab: by_id(tab, "label").text != "My camera")
+    settled(opened, lambda tab: "own=" not in tab.execute_script("return location.hash"))
 
 
 def test_a_link_with_a_bad_formula_gets_one_line(opened, page):
     fresh(opened, page)
     opened.execute_script("location.hash = 'v=1&model=PERSP&own=d%20%3D%20(alert(1)%2C%20y%2C%201)'")
-    settled(opened, lambda one: "alert is not known" in by_id(one, "message").text)
+    settled(opened, lambda tab: "alert is not known" in by_id(tab, "message").text)
     assert by_id(opened, "label").text == "Perspective"

@@ -44,7 +44,7 @@ def shown(driver, name):
 
 def numbers(text):
     """The numbers in a text."""
-    return [float(one) for one in re.findall(r"-?\d+\.?\d*(?:e[-+]?\d+)?", text)]
+    return [float(number) for number in re.findall(r"-?\d+\.?\d*(?:e[-+]?\d+)?", text)]
 
 
 def ray(driver):
@@ -86,7 +86,7 @@ def test_a_drag_in_the_picture_moves_the_ray(opened, page):
     fresh(opened, page)
     canvas = by_id(opened, "picture")
     mouse(opened).move_to_element(canvas).click_and_hold().move_by_offset(80, -40).release().perform()
-    settled(opened, lambda one: shown(one, "pixel") != "x = 448, y = 198")
+    settled(opened, lambda tab: shown(tab, "pixel") != "x = 448, y = 198")
     at = state(opened)
     assert (at["x"], at["y"]) != (448, 198)
     expected = crc.camera("PERSP", SIZE).model.rays(at["x"], at["y"])[1]
@@ -99,11 +99,11 @@ def test_a_drag_in_the_picture_moves_the_ray(opened, page):
 def test_three_cameras_answer_the_exercise(opened, page, key):
     """Given (x, y) on the screen, what is the ray?"""
     fresh(opened, page, f"#v=1&model={key}&x=300.5&y=120.25")
-    settled(opened, lambda one: state(one)["model"] == key and shown(one, "direction r"))
+    settled(opened, lambda tab: state(tab)["model"] == key and shown(tab, "direction r"))
     lines = {"slit_1": [(-1, 0, 0), (1, 0, 0)]} if key == "PUSHBROOM" else {}
     frame = (360, 360) if key == "FISHEYE_EQUIDISTANT" else SIZE  # a circle
     origin, direction = crc.camera(key, frame, **lines).model.rays(300.5, 120.25)
-    assert ray(opened) == pytest.approx([float(one) for one in (*origin, *direction)], abs=1e-13)
+    assert ray(opened) == pytest.approx([float(number) for number in (*origin, *direction)], abs=1e-13)
     values = opened.execute_script("return document.querySelectorAll('#steps .numbers').length")
     assert values >= 2
 
@@ -114,7 +114,7 @@ def test_a_knob_changes_the_numbers_and_the_picture(opened, page):
     knob = by_id(opened, "lens-range")
     opened.execute_script("arguments[0].scrollIntoView({block: 'center'})", knob)
     mouse(opened).move_to_element(knob).click_and_hold().move_by_offset(60, 0).release().perform()
-    settled(opened, lambda one: by_id(one, "steps").text != before)
+    settled(opened, lambda tab: by_id(tab, "steps").text != before)
     lens = state(opened)["values"]["lens"]
     assert lens != 50
     x, y = state(opened)["x"], state(opened)["y"]
@@ -124,7 +124,7 @@ def test_a_knob_changes_the_numbers_and_the_picture(opened, page):
 
 def test_a_link_holds_the_state(opened, page):
     fresh(opened, page, "#v=1&model=FISHEYE_EQUIDISTANT&fisheye_fov=2.5&x=300&y=100&times=rows&turn=0.5")
-    settled(opened, lambda one: state(one)["model"] == "FISHEYE_EQUIDISTANT")
+    settled(opened, lambda tab: state(tab)["model"] == "FISHEYE_EQUIDISTANT")
     from selenium.webdriver.common.keys import Keys
 
     by_id(opened, "picture").send_keys(Keys.ARROW_RIGHT, Keys.SHIFT, Keys.ARROW_UP)
@@ -132,7 +132,7 @@ def test_a_link_holds_the_state(opened, page):
     first, link = state(opened), opened.execute_script("return location.hash")
     assert (first["x"], first["y"]) == (301, 110)
     fresh(opened, page, link)
-    settled(opened, lambda one: state(one)["model"] == "FISHEYE_EQUIDISTANT")
+    settled(opened, lambda tab: state(tab)["model"] == "FISHEYE_EQUIDISTANT")
     assert state(opened) == first
 
 
@@ -140,7 +140,7 @@ def test_a_link_holds_the_state(opened, page):
 def test_a_bad_link_gets_one_line(opened, page, link):
     fresh(opened, page)
     opened.execute_script("location.hash = arguments[0]", link)
-    settled(opened, lambda one: by_id(one, "message").text)
+    settled(opened, lambda tab: by_id(tab, "message").text)
     text = by_id(opened, "message").text
     assert BAD[link] in text
     assert len(text) < 200
@@ -154,22 +154,22 @@ def test_a_link_is_read_though_the_page_writes_its_own_before_it(opened, page):
     fresh(opened, page)
     script = "location.hash = arguments[0]; history.replaceState(null, '', '#v=1&model=PERSP&lens=40')"
     opened.execute_script(script, "v=1&model=FISHEYE_EQUIDISTANT&x=300")
-    settled(opened, lambda one: state(one)["model"] == "FISHEYE_EQUIDISTANT")
+    settled(opened, lambda tab: state(tab)["model"] == "FISHEYE_EQUIDISTANT")
     assert state(opened)["x"] == 300
 
 
 def test_figures_are_states_of_the_page(opened, page):
     fresh(opened, page)
-    for place, figure in enumerate(FIGURES):
-        button = opened.find_elements("css selector", "#figures button")[place]
+    for number, figure in enumerate(FIGURES):
+        button = opened.find_elements("css selector", "#figures button")[number]
         opened.execute_script("arguments[0].scrollIntoView()", button)
         button.click()
-        settled(opened, lambda one, figure=figure: state(one)["model"] == figure["model"] and shown(one, "pixel"))
+        settled(opened, lambda tab, figure=figure: state(tab)["model"] == figure["model"] and shown(tab, "pixel"))
         assert by_id(opened, "caption").text == figure["text"]
         assert by_id(opened, "message").text == ""
         labels = opened.execute_script("return window.lesson.labels()")
-        for one, other in combinations(labels, 2):
-            assert abs(one["x"] - other["x"]) >= one["half"] + other["half"] or abs(one["y"] - other["y"]) >= 13
+        for label, other in combinations(labels, 2):
+            assert abs(label["x"] - other["x"]) >= label["half"] + other["half"] or abs(label["y"] - other["y"]) >= 13
         assert len(labels) >= 4
 
 
@@ -178,7 +178,7 @@ def test_every_model_can_be_chosen_and_its_steps_have_numbers(opened, page):
     without, worked_out = [], set()
     for key in opened.execute_script("return window.lesson.models"):
         opened.execute_script("location.hash = arguments[0]", f"v=1&model={key}")
-        settled(opened, lambda one, key=key: state(one)["model"] == key and shown(one, "pixel"))
+        settled(opened, lambda tab, key=key: state(tab)["model"] == key and shown(tab, "pixel"))
         assert by_id(opened, "message").text == ""
         shown_numbers = [line.text for line in opened.find_elements("css selector", "#steps .numbers")]
         if not shown_numbers:
@@ -212,7 +212,7 @@ def test_it_fits_screens(page, screen):
         assert max(driver.execute_script(f"return {figures}")) <= width
         canvas = by_id(driver, "picture")
         mouse(driver).move_to_element(canvas).click().perform()
-        settled(driver, lambda one: abs(state(one)["x"] - SIZE[0] / 2) < 3)
+        settled(driver, lambda tab: abs(state(tab)["x"] - SIZE[0] / 2) < 3)
 
 
 def test_inputs_have_names_and_contrast_is_high(opened, page):
@@ -221,7 +221,7 @@ def test_inputs_have_names_and_contrast_is_high(opened, page):
         "return [...document.querySelectorAll('input, select, textarea, canvas, button')].filter((one) =>"
         " !(one.labels?.length || one.getAttribute('aria-label') || one.textContent.trim())).map((one) => one.id)"
     )
-    assert [one for one in unnamed if one != "map"] == []
+    assert [name for name in unnamed if name != "map"] == []
     for theme in ("light", "dark"):
         opened.execute_script("document.documentElement.dataset.theme = arguments[0]", theme)
         colors = opened.execute_script(
@@ -246,7 +246,7 @@ def test_without_webgl_the_numbers_are_there(page):
         open_drawn(driver, page)
         assert "no WebGL" in by_id(driver, "blank").text
         mouse(driver).move_to_element(by_id(driver, "picture")).click().perform()
-        settled(driver, lambda one: abs(state(one)["x"] - SIZE[0] / 2) < 3)
+        settled(driver, lambda tab: abs(state(tab)["x"] - SIZE[0] / 2) < 3)
         assert numbers(shown(driver, "direction r"))[2] == -1
         by_id(driver, "own-use").click()
         assert by_id(driver, "own-error").text == ""
@@ -259,8 +259,8 @@ def test_nothing_is_asked_of_a_network(page):
             driver.execute_script("document.getElementById(arguments[0]).click()", button)
         events = [json.loads(line["message"])["message"] for line in driver.get_log("performance")]
         asked = {
-            one["params"]["request"]["url"].partition(":")[0]
-            for one in events if one["method"] == "Network.requestWillBeSent"
+            event["params"]["request"]["url"].partition(":")[0]
+            for event in events if event["method"] == "Network.requestWillBeSent"
         }  # fmt: skip
         assert asked <= {"file", "data", "blob"}
 
@@ -272,6 +272,6 @@ def test_a_camera_of_blender_has_a_page_of_its_own(tmp_path):
     path.write_text(lesson_page(camera, (70, 12)), encoding="utf-8")
     with browser() as driver:
         open_drawn(driver, path.as_uri())
-        settled(driver, lambda one: shown(one, "pixel") == "x = 70.5, y = 12.5")
+        settled(driver, lambda tab: shown(tab, "pixel") == "x = 70.5, y = 12.5")
         origin, direction = camera.model.rays(70.5, 12.5)
-        assert ray(driver) == pytest.approx([float(one) for one in (*origin, *direction)], abs=1e-13)
+        assert ray(driver) == pytest.approx([float(number) for number in (*origin, *direction)], abs=1e-13)

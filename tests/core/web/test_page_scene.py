@@ -36,7 +36,7 @@ def test_the_page_of_a_scene_casts_what_our_cast_sees(tmp_path):
     names = np.array([*(shapes().names[k] for k in shapes().name_index), None])
     with browser() as driver:
         open_drawn(driver, path.as_uri())
-        settled(driver, lambda one: shown(one, "pixel") == "x = 40.5, y = 30.5")
+        settled(driver, lambda tab: shown(tab, "pixel") == "x = 40.5, y = 30.5")
         seen = set()
         for y in range(1, 64, 6):
             for x in range(1, 96, 7):
@@ -64,8 +64,8 @@ def test_the_page_of_a_scene_casts_what_our_cast_sees(tmp_path):
 
 def test_the_camera_and_exact_shapes_have_the_pages_axes():
     data = scene_data(crc.camera("PERSP", (64, 48), POSE), shapes())
-    assert [one["name"] for one in data["spheres"]] == ["Ball"]
-    assert [one["name"] for one in data["rectangles"]] == ["Floor", "Wall"]
+    assert [shape["name"] for shape in data["spheres"]] == ["Ball"]
+    assert [shape["name"] for shape in data["rectangles"]] == ["Floor", "Wall"]
     assert data["names"] == ["Egg", "Tetrahedron"]
     assert data["spheres"][0]["center"] == [0.3, 0.7, 0.0]
     assert data["camera"]["eye"] == [3.0, 1.5, 4.0]

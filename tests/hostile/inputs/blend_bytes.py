@@ -15,25 +15,25 @@ def make(chance, number, folder):
     data = bytearray(path.read_bytes())
     ways = (_flipped, _flipped, _flipped, _numbers, _numbers, _numbers, _numbers, _cut, _header)
     way = ways[number % len(ways)]
-    said = way(chance, data)
+    change = way(chance, data)
     path.write_bytes(data)
-    return Hostile(f"{way.__name__[1:]} {said}", file=path)
+    return Hostile(f"{way.__name__[1:]} {change}", file=path)
 
 
 def _flipped(chance, data):
     places = [chance.randrange(len(data)) for _ in range(chance.choice((1, 3, 10)))]
-    for place in places:
-        data[place] ^= 1 << chance.randrange(8)
+    for offset in places:
+        data[offset] ^= 1 << chance.randrange(8)
     return f"bits at {places}"
 
 
 def _numbers(chance, data):
     """Blender's data are mostly float32 and int32 at places that 4 divides."""
     hostile = (b"\0\0\xc0\x7f", b"\0\0\x80\x7f", b"\xff\xff\xff\x7f", b"\xff\xff\xff\xff", b"\0\0\0\x80", b"\0\0\0\0")
-    known = [place for place in range(0, len(data) - 4, 4) if data[place : place + 4] == b"\0\0\x80\x3f"]  # 1.0
+    known = [offset for offset in range(0, len(data) - 4, 4) if data[offset : offset + 4] == b"\0\0\x80\x3f"]  # 1.0
     places = [chance.choice(known) for _ in range(chance.choice((1, 5, 20)))] if known else []
-    for place in places:
-        data[place : place + 4] = chance.choice(hostile)
+    for offset in places:
+        data[offset : offset + 4] = chance.choice(hostile)
     return f"at {places}"
 
 
@@ -43,6 +43,6 @@ def _cut(chance, data):
 
 
 def _header(chance, data):
-    place, value = chance.randrange(min(64, len(data))), chance.randrange(256)
-    data[place] = value
-    return f"{value} at {place}"
+    offset, value = chance.randrange(min(64, len(data))), chance.randrange(256)
+    data[offset] = value
+    return f"{value} at {offset}"

@@ -146,14 +146,14 @@ def make(chance, number, folder):
 
     way = WAYS[number % len(WAYS)]
     name, text, models = chance.choice(FILES)
-    said, content = way(chance, text, name.endswith((".yml", ".yaml")))
+    change, content = way(chance, text, name.endswith((".yml", ".yaml")))
     path = folder / name
     path.write_bytes(content)
-    own = bpy.context.scene.camera.data.camera_ray_caster
-    own.model = chance.choice(models)
+    group = bpy.context.scene.camera.data.camera_ray_caster
+    group.model = chance.choice(models)
     bpy.context.scene.render.resolution_x, bpy.context.scene.render.resolution_y = 64, 48
-    own.calibration_file = str(path)
-    return Hostile(f"{own.model}, {path.name}: {way.__name__[1:]} {said}")
+    group.calibration_file = str(path)
+    return Hostile(f"{group.model}, {path.name}: {way.__name__[1:]} {change}")
 
 
 def _number(chance, text, is_yaml):

@@ -12,33 +12,33 @@ def make(chance, number, folder):
     import bpy
 
     scene = bpy.context.scene
-    own = scene.camera.data.camera_ray_caster
-    own.time_mode = ("IMAGE", "IMAGE", "ROWS", "COLUMNS", "ROLLING_SHUTTER")[number % 5]
-    said = [own.time_mode]
+    group = scene.camera.data.camera_ray_caster
+    group.time_mode = ("IMAGE", "IMAGE", "ROWS", "COLUMNS", "ROLLING_SHUTTER")[number % 5]
+    changes = [group.time_mode]
     if chance.random() < 0.5:
         for name in ("time_start", "time_end", "time_tolerance"):
             if chance.random() < 0.5:
-                setattr(own, name, value := chance.choice((*FLOATS, 1048574.0, -1048574.0, 3.5)))
-                said.append(f"{name} {value}")
-    own.time_evaluations = chance.choice((2, 3, 16))
+                setattr(group, name, value := chance.choice((*FLOATS, 1048574.0, -1048574.0, 3.5)))
+                changes.append(f"{name} {value}")
+    group.time_evaluations = chance.choice((2, 3, 16))
     scene.render.motion_blur_shutter = shutter = chance.choice((*FLOATS, 0.5, 1e6, 3e6))
     scene.frame_set(frame := chance.choice((1, 0, -5, 1048574, -1048574)))
-    said.append(f"shutter {shutter}, frame {frame}")
-    if own.time_mode == "IMAGE":
-        own.time_image = _image(chance, folder, said)
+    changes.append(f"shutter {shutter}, frame {frame}")
+    if group.time_mode == "IMAGE":
+        group.time_image = _image(chance, folder, changes)
     if chance.random() < 0.5:
-        for frame, place in ((1, 0.0), (10, chance.choice(FLOATS))):
-            scene.camera.location.x = place
+        for frame, x in ((1, 0.0), (10, chance.choice(FLOATS))):
+            scene.camera.location.x = x
             scene.camera.keyframe_insert("location", frame=frame)
-        said.append(f"moves to {place}")
-    return Hostile(", ".join(said))
+        changes.append(f"moves to {x}")
+    return Hostile(", ".join(changes))
 
 
-def _image(chance, folder, said):
+def _image(chance, folder, changes):
     import bpy
 
     how = chance.choice(("floats", "floats", "none", "missing", "bytes", "movie", "small", "text", "half", "generated"))
-    said.append(f"image: {how}")
+    changes.append(f"image: {how}")
     if how == "none":
         return None
     if how == "missing":
@@ -60,5 +60,5 @@ def _image(chance, folder, said):
     value = chance.choice(FLOATS)
     image.pixels[:] = [value if chance.random() < 0.2 else chance.random() for _ in range(4 * width * height)]
     image.pack()
-    said.append(f"values {value}")
+    changes.append(f"values {value}")
     return image

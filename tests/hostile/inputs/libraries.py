@@ -13,17 +13,17 @@ def make(chance, number, folder):
 
     scene = bpy.context.scene
     camera, ball = scene.camera, scene.objects[0]
-    said, linked = [], []
+    changes, linked = [], []
     for file in chance.sample(FILES, chance.choice((1, 2))):
-        place, camera.location.z, ball.location.x = folder / file, 1.0, chance.choice((-2.0, 2.0))
-        bpy.data.libraries.write(str(place), {camera, ball})
+        path, camera.location.z, ball.location.x = folder / file, 1.0, chance.choice((-2.0, 2.0))
+        bpy.data.libraries.write(str(path), {camera, ball})
         camera.location.z = ball.location.x = 0.0
-        with bpy.data.libraries.load(str(place), link=True) as (_, own):
-            own.objects = [camera.name, ball.name]
-        for item in own.objects:
+        with bpy.data.libraries.load(str(path), link=True) as (_, linked_data):
+            linked_data.objects = [camera.name, ball.name]
+        for item in linked_data.objects:
             scene.collection.objects.link(item)
-        linked.append(own.objects)
-        said.append(f"library {file!r}")
+        linked.append(linked_data.objects)
+        changes.append(f"library {file!r}")
     other, other_ball = chance.choice(linked)
     use = chance.choice(("camera", "slit", "pass index", "camera option", "nothing"))
     if use == "camera":
@@ -34,4 +34,4 @@ def make(chance, number, folder):
     elif use == "pass index":
         ball.pass_index = 7
     words = (f"--camera={camera.name}",) if use == "camera option" else ()
-    return Hostile(", ".join((*said, use)), words)
+    return Hostile(", ".join((*changes, use)), words)

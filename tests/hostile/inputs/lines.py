@@ -10,12 +10,12 @@ def make(chance, number, folder):
     """Give a model that looks through lines some that are none."""
     import bpy
 
-    own = bpy.context.scene.camera.data.camera_ray_caster
-    own.model = MODELS[number % len(MODELS)]
-    own.follow_path = chance.random() < 0.5
-    said = [own.model, f"follow {own.follow_path}"]
+    group = bpy.context.scene.camera.data.camera_ray_caster
+    group.model = MODELS[number % len(MODELS)]
+    group.follow_path = chance.random() < 0.5
+    changes = [group.model, f"follow {group.follow_path}"]
     for name in ("slit_1", "slit_2", "path"):
-        item = new_object(name, _curve(chance, said) if chance.random() < 0.7 or name == "path" else None)
+        item = new_object(name, _curve(chance, changes) if chance.random() < 0.7 or name == "path" else None)
         item.location = [chance.choice((0.0, 0.0, 1.0, -1.0)) for _ in range(3)]
         if chance.random() < 0.4:
             field, axis, value = (
@@ -24,8 +24,8 @@ def make(chance, number, folder):
                 chance.choice(FLOATS),
             )
             getattr(item, field)[axis] = value
-            said.append(f"{name}.{field}[{axis}] = {value}")
-        setattr(own, name, item)
+            changes.append(f"{name}.{field}[{axis}] = {value}")
+        setattr(group, name, item)
         fate = chance.choice(("stays", "stays", "stays", "stays", "removed", "hidden", "unlinked"))
         if fate == "removed":
             bpy.data.objects.remove(item)
@@ -33,11 +33,11 @@ def make(chance, number, folder):
             item.hide_viewport = True
         elif fate == "unlinked":
             bpy.context.scene.collection.objects.unlink(item)
-        said.append(f"{name} {fate}")
-    return Hostile(", ".join(said))
+        changes.append(f"{name} {fate}")
+    return Hostile(", ".join(changes))
 
 
-def _curve(chance, said):
+def _curve(chance, changes):
     """Return a curve of no, one or several splines."""
     import bpy
 
@@ -54,14 +54,14 @@ def _curve(chance, said):
         ]
         if chance.random() < 0.2:
             places = [places[0]] * len(places)
-        for point, place in zip(points, places, strict=True):
-            point.co = place if kind == "BEZIER" else (*place, chance.choice((1.0, 1.0, 1.0, 0.0, odd)))
+        for point, location in zip(points, places, strict=True):
+            point.co = location if kind == "BEZIER" else (*location, chance.choice((1.0, 1.0, 1.0, 0.0, odd)))
         spline.use_cyclic_u = chance.random() < 0.3
-        said.append(f"{kind} of {count}, odd {odd}")
+        changes.append(f"{kind} of {count}, odd {odd}")
     for name in ("bevel_depth", "extrude", "offset"):
         if chance.random() < 0.1:
             setattr(curve, name, value := chance.choice(FLOATS))
-            said.append(f"{name} {value}")
+            changes.append(f"{name} {value}")
     if chance.random() < 0.1:
         curve.resolution_u = 1
     return curve

@@ -10,11 +10,11 @@ def make(chance, number, folder):
     import bpy
 
     scene = bpy.context.scene
-    item = chance.choice([one for one in scene.objects if one.type == "MESH"])
+    item = chance.choice([candidate for candidate in scene.objects if candidate.type == "MESH"])
     way = WAYS[number % len(WAYS)]
     item.camera_ray_caster.primitive = chance.choice(("AUTOMATIC", "AUTOMATIC", "SPHERE", "PLANE", "INFINITE_PLANE"))
-    said = f"{item.name} as {item.camera_ray_caster.primitive}: {way.__name__[1:]} {way(chance, item, bpy)}"
-    return Hostile(said)
+    change = f"{item.name} as {item.camera_ray_caster.primitive}: {way.__name__[1:]} {way(chance, item, bpy)}"
+    return Hostile(change)
 
 
 def _place(chance, item, bpy):
@@ -96,8 +96,8 @@ def _points(chance, item, bpy):
     value, radius = chance.choice(FLOATS), chance.choice(FLOATS)
     for point in cloud.points:
         point.co = (value, 0, -5)
-    found = cloud.attributes.get("radius") or cloud.attributes.new("radius", "FLOAT", "POINT")
-    for entry in found.data if found else ():
+    radii = cloud.attributes.get("radius") or cloud.attributes.new("radius", "FLOAT", "POINT")
+    for entry in radii.data if radii else ():
         entry.value = radius
     new_object("Cloud", cloud)
     return f"{len(cloud.points)} points at {value} of radius {radius}"

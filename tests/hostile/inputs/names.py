@@ -20,23 +20,23 @@ def make(chance, number, folder):
 
     scene = bpy.context.scene
     camera, ball = scene.camera, scene.objects[0]
-    said = []
+    changes = []
     for _ in range(chance.choice((1, 2, 3))):
-        name, place = chance.choice(NAMES), chance.choice(PLACES)
-        said.append(f"{place} {name!r}")
-        if place in ("view", "suffix"):
+        name, kind = chance.choice(NAMES), chance.choice(PLACES)
+        changes.append(f"{kind} {name!r}")
+        if kind in ("view", "suffix"):
             scene.render.use_multiview = True
             scene.render.views_format = chance.choice(("STEREO_3D", "MULTIVIEW"))
             view = chance.choice(scene.render.views)
-            setattr(view, "name" if place == "view" else chance.choice(("file_suffix", "camera_suffix")), name)
-        elif place == "material":
+            setattr(view, "name" if kind == "view" else chance.choice(("file_suffix", "camera_suffix")), name)
+        elif kind == "material":
             ball.data.materials.append(bpy.data.materials.new(name))
-        elif place == "world":
+        elif kind == "world":
             scene.world = bpy.data.worlds.new(name)
-        elif place == "time image":
+        elif kind == "time image":
             camera.data.camera_ray_caster.time_mode = "IMAGE"
             camera.data.camera_ray_caster.time_image = bpy.data.images.new(name, 2, 2)
-        elif place == "slit":
+        elif kind == "slit":
             camera.data.camera_ray_caster.model = "CROSS_SLIT"
             camera.data.camera_ray_caster.slit_1 = ball
             ball.name = name
@@ -48,11 +48,11 @@ def make(chance, number, folder):
                 "layer": scene.view_layers[0],
                 "mesh": ball.data,
             }
-            things[place].name = name
+            things[kind].name = name
     words = ()
     if number % 2:
         fault = chance.choice(("camera option", "flat", "clip", "no layer", "mesh camera", "suzanne"))
-        said.append(fault)
+        changes.append(fault)
         if fault == "camera option":
             words = (f"--camera={chance.choice(NAMES)}",)
         elif fault == "flat":
@@ -69,10 +69,10 @@ def make(chance, number, folder):
         file = folder / (
             chance.choice([name for name in NAMES if "/" not in name and name not in ("..", ".")])[:50] + ".blend"
         )
-        said.append(f"file {file.name!r}")
+        changes.append(f"file {file.name!r}")
         try:
             bpy.ops.wm.save_as_mainfile(filepath=str(file), copy=True)
         except RuntimeError:
-            return Hostile(", ".join(said), words)
-        return Hostile(", ".join(said), words, file)
-    return Hostile(", ".join(said), words)
+            return Hostile(", ".join(changes), words)
+        return Hostile(", ".join(changes), words, file)
+    return Hostile(", ".join(changes), words)

@@ -51,14 +51,14 @@ def make(chance, number, folder):
         scene.render.views_format = chance.choice(("STEREO_3D", "MULTIVIEW"))
         camera.data.stereo.convergence_mode = chance.choice(("OFFAXIS", "PARALLEL", "TOE"))
     camera.data.type = chance.choice(("PERSP", "PERSP", "ORTHO"))
-    said = []
+    changes = []
     for _ in range(chance.choice((1, 1, 2, 3))):
         where = chance.choice(list(FIELDS))
         name = chance.choice(FIELDS[where])
         if name not in owners[where].bl_rna.properties:
             continue
         if name in MATRICES:
-            said.append(_put_one(owners[where], name, chance))
+            changes.append(_put_one(owners[where], name, chance))
             continue
         kind = owners[where].bl_rna.properties[name].type
         value = chance.choice(WHOLES if kind == "INT" else FLOATS)
@@ -68,8 +68,8 @@ def make(chance, number, folder):
             value = min(value, 2048)
         if name.startswith("frame_"):  # Blender itself ends at frame 2147483647, before the file is saved
             value = max(-1048575, min(1048575, value))
-        said.append(put(owners[where], name, value))
-    return Hostile(", ".join(said))
+        changes.append(put(owners[where], name, value))
+    return Hostile(", ".join(changes))
 
 
 def _put_one(owner, name, chance):

@@ -42,10 +42,10 @@ def small_scene():
     scene.render.resolution_x, scene.render.resolution_y = 12, 8
     layer = scene.view_layers[0]
     layer.use_pass_z = layer.use_pass_normal = layer.use_pass_position = layer.use_pass_object_index = True
-    own = getattr(scene, GROUP)
-    for setting in own.bl_rna.properties:
+    group = getattr(scene, GROUP)
+    for setting in group.bl_rna.properties:
         if setting.identifier.startswith("use_pass_"):
-            setattr(own, setting.identifier, True)
+            setattr(group, setting.identifier, True)
     return scene
 
 

@@ -14,11 +14,11 @@ def make(chance, number, folder):
     import bpy
 
     scene = bpy.context.scene
-    code, said = f"open({str(folder / 'ran')!r}, 'w')", []
+    code, kinds = f"open({str(folder / 'ran')!r}, 'w')", []
     for kind in chance.sample((driver, variable, text, style), chance.choice((1, 2, 3))):
         kind(scene, code, chance)
-        said.append(kind.__name__)
-    return Hostile(", ".join(said), scripts=folder / "ran")
+        kinds.append(kind.__name__)
+    return Hostile(", ".join(kinds), scripts=folder / "ran")
 
 
 def driver(scene, code, chance):

@@ -59,18 +59,18 @@ def make(chance, number, folder):
     model, mode, setting, value = CASES[number]
     scene = bpy.context.scene
     data = scene.camera.data
-    own = data.camera_ray_caster
+    group = data.camera_ray_caster
     what = f"{model.key}, {mode}, {setting.name} = {value!r}"
     if model.number is None:
         data.type = model.key if model.key in ("PERSP", "ORTHO") else "PANO"
         if data.type == "PANO":
             data.panorama_type = model.key
     else:
-        own.model = model.key
-    own.time_mode = mode
+        group.model = model.key
+    group.time_mode = mode
     for name in ("slit_1", "slit_2", "path"):
-        setattr(own, name, _line(name))
-    image = own.time_image = bpy.data.images.new("Time", 4, 4, float_buffer=True)
+        setattr(group, name, _line(name))
+    image = group.time_image = bpy.data.images.new("Time", 4, 4, float_buffer=True)
     image.pixels[:] = [chance.random() for _ in range(64)]
     image.pack()
     if setting.owner == OWN:
@@ -94,6 +94,6 @@ def _line(name):
     curve.dimensions = "3D"
     spline = curve.splines.new("POLY")
     spline.points.add(2)
-    for point, place in zip(spline.points, ((-1, 0, 0, 1), (0, 0, 1, 1), (1, 0, 0, 1)), strict=True):
-        point.co = place
+    for point, location in zip(spline.points, ((-1, 0, 0, 1), (0, 0, 1, 1), (1, 0, 0, 1)), strict=True):
+        point.co = location
     return new_object(name, curve)

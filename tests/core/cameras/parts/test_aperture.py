@@ -40,7 +40,7 @@ def edges_of_opening(camera, x, y):
     edge = camera.aperture.radius * np.cos(turn), camera.aperture.radius * np.sin(turn)
     origin, direction = camera.model.rays(np.full(64, x), np.full(64, y))
     rays = camera.aperture.through(origin, direction, camera.model.planar, *edge)
-    return (np.stack(np.broadcast_arrays(*part), axis=-1) for part in rays)
+    return (np.stack(np.broadcast_arrays(*vectors), axis=-1) for vectors in rays)
 
 
 @pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
@@ -157,9 +157,9 @@ def test_the_blur_shrinks_with_the_hole_to_the_pinhole_picture():
 
 def test_samples_of_a_sharp_camera_only_smooth_its_edges():
     scene = glowing((0, 0, -6), 1.0)
-    one, many = (cast(camera(lens=50.0), scene, passes=("combined", "depth"), samples=n) for n in (1, 16))
-    assert np.array_equal(one["depth"], many["depth"])
-    inside = np.isfinite(one["depth"])
+    single, many = (cast(camera(lens=50.0), scene, passes=("combined", "depth"), samples=n) for n in (1, 16))
+    assert np.array_equal(single["depth"], many["depth"])
+    inside = np.isfinite(single["depth"])
     grown = inside | np.roll(inside, 1, 0) | np.roll(inside, -1, 0) | np.roll(inside, 1, 1) | np.roll(inside, -1, 1)
     assert np.array_equal(many["combined"][~grown][:, 0], np.zeros(np.count_nonzero(~grown), np.float32))
     assert ((many["combined"][..., 0] > 0) & (many["combined"][..., 0] < 0.2)).any()

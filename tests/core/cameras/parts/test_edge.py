@@ -17,9 +17,9 @@ LENSES = [
 def test_nothing_that_is_seen_lies_beyond_the_edge(values):
     lens, rng = RadialTangential(**values), np.random.default_rng(2)
     assert lens.limit < 10
-    angle, part = rng.uniform(-np.pi, np.pi, 100_000), np.sqrt(rng.uniform(0, 1, 100_000))
-    part[::2] = 1
-    u, v = lens.distort(lens.limit * part * np.cos(angle), lens.limit * part * np.sin(angle))
+    angle, radius = rng.uniform(-np.pi, np.pi, 100_000), np.sqrt(rng.uniform(0, 1, 100_000))
+    radius[::2] = 1
+    u, v = lens.distort(lens.limit * radius * np.cos(angle), lens.limit * radius * np.sin(angle))
     assert lens.edge.may_hold(u, v, np.hypot(u, v)).all()
 
 
@@ -27,8 +27,8 @@ def test_nothing_that_is_seen_lies_beyond_the_edge(values):
 def test_all_but_little_of_what_lies_beyond_is_known_at_once(values):
     lens, rng = RadialTangential(**values), np.random.default_rng(3)
     u, v = rng.uniform(-2, 2, (2, 3000)) * lens.farthest(lens.limit)
-    found, sure = ~np.isnan(lens.undistort(u, v)[0]), ~lens.edge.may_hold(u, v, np.hypot(u, v))
-    assert 100 < found.sum() < 2900
-    assert (~found & ~sure).sum() <= 3
+    has_ray, sure = ~np.isnan(lens.undistort(u, v)[0]), ~lens.edge.may_hold(u, v, np.hypot(u, v))
+    assert 100 < has_ray.sum() < 2900
+    assert (~has_ray & ~sure).sum() <= 3
     x, _ = lens._careful(u, v)  # which asks everywhere
-    np.testing.assert_array_equal(np.isnan(x), ~found)
+    np.testing.assert_array_equal(np.isnan(x), ~has_ray)

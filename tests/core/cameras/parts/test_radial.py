@@ -14,7 +14,7 @@ def test_sine_and_cosine_of_angles_are_those_of_50_digits_within_their_bound(aro
     theta = np.maximum(np.abs(around + np.linspace(-width, width, 301)), 1e-300)
     factors = factors_of(theta, theta)
     with mp.workdps(50):
-        for own, over_theta, along in zip(*(values.tolist() for values in (theta, *factors)), strict=True):
-            sine = mp.sin(own) / own
+        for angle, over_theta, along in zip(*(values.tolist() for values in (theta, *factors)), strict=True):
+            sine = mp.sin(angle) / angle
             assert abs(over_theta - sine) <= gamma(10) * abs(sine)
-            assert abs(along - mp.cos(own)) <= gamma(8)
+            assert abs(along - mp.cos(angle)) <= gamma(8)
