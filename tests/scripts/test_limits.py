@@ -34,8 +34,11 @@ ERRORS = {
 }
 
 
+PLACES = "engine.job.cast", "output.reports.camera_at", "terminal.picture_jobs.frame_files.render"
+
+
 @pytest.mark.parametrize("what", ERRORS)
-@pytest.mark.parametrize("place", ["engine.engine.run", "terminal.picture_jobs.frame_files.render"])
+@pytest.mark.parametrize("place", PLACES)
 def test_what_a_cast_has_run_out_of_is_said_in_one_line(command, scene, tmp_path, monkeypatch, what, place):
     def fail(*words, **more):
         raise ERRORS[what]

@@ -12,7 +12,6 @@ from mpmath import mpf
 from camera_ray_caster.core import cast as caster
 from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cameras import MODELS
-from camera_ray_caster.core.casting import aimed
 from camera_ray_caster.core.casting.pixels import passes_at
 from camera_ray_caster.core.motion.evaluations import resolve
 from camera_ray_caster.core.records import PLANE, SPHERE, InputError
@@ -150,27 +149,6 @@ def test_a_mesh_hides_its_own_back_and_never_the_point_that_is_seen():
     assert hidden[hit & (facing > 0.5)].all()
     assert not hidden[hit & (facing < -0.5)].any()
     assert 50 < hidden.sum() < hit.sum() / 2
-
-
-@pytest.mark.parametrize("key", ["PERSP", "FISHEYE_EQUIDISTANT", "CROSS_SLIT"])
-def test_what_is_hidden_is_the_same_in_any_order_of_rays(key, monkeypatch):
-    """By rows and columns of the own picture, or of the other one, also of a camera that has rolled."""
-    rng = np.random.default_rng(7)
-    size = {"resolution_x": 160, "resolution_y": 120}
-    balls = [(meshes.ball(20, 30), place, 0.8) for place in rng.uniform((-3, -2, -8), (3, 2, -3), (12, 3))]
-    shapes = meshes.shapes_of(*balls, (meshes.ball(4, 5), (0, 0, -30), 20.0))
-    after = moved_shapes(shapes, rng)
-    for roll in 0.0, 2.0:
-        matrix = moved_matrix(np.eye(4))
-        matrix[:3, :3] = matrix[:3, :3] @ turn(roll, 2)
-        later = camera_from(raw_of(key, size | {"matrix_world": matrix}))
-        scene = with_others(camera_from(raw_of(key, size)), shapes, later, after)
-        hidden = []
-        for width in np.inf, -np.inf:
-            monkeypatch.setattr(aimed, "NARROW", width)
-            hidden.append(cast(*scene, passes="flow_hidden")["flow_hidden"])
-        assert hidden[0].any()
-        assert (hidden[0] == hidden[1]).all()
 
 
 def test_a_picture_warped_by_its_flow_is_the_next_one():

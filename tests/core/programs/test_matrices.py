@@ -74,6 +74,7 @@ def test_the_files_of_easymocap_belong_together(tmp_path):
         ("depthai.json", ('"cameraType": 0', '"cameraType": 3'), "cameraType of CAM_A is '3': it must be one of 0, 1"),
         ("depthai.json", ('"toCameraSocket": 2', '"toCameraSocket": 1'), "CAM_B lead to socket 1, which leads nowhere"),
         ("anipose.toml", ("[cam_1]", "[cam_0]"), "is not TOML: Cannot declare"),
+        ("easymocap.yml", ("Rot_01", "Rot_1"), "it has no R_01$"),
         ("ost.txt", ("0.0 0.0 0.0625", "0.0 0.0"), "of a pinhole or of a fisheye"),
     ],
 )

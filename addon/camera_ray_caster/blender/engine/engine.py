@@ -106,8 +106,8 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     def render_or_report(self, depsgraph):
         """Render one view layer, or report why not."""
         try:
-            source = reports.Source.read(depsgraph.scene, depsgraph)
             with limits_as_input(), signals.heard(self.has_ended):
+                source = reports.Source.read(depsgraph.scene, depsgraph)
                 report = self.render_layer(depsgraph)
         except InputError as error:
             self.report({"ERROR"}, str(error) if bpy.app.background else in_labels(str(error)))

@@ -31,8 +31,9 @@ class ItemVisibility:
             return False
         if owner.instance_type == "COLLECTION":
             collection = owner.instance_collection
-            shown, every = (set(_of_collection(collection, is_all)) for is_all in (False, True))
-            return source in shown or source not in every
+            if source in set(_of_collection(collection)):
+                return True
+            return source not in set(_of_collection(collection, every=True))  # rarely asked
         return owner.instance_type == "NONE" or source in self.rendered
 
     def objection(self, instance) -> str:

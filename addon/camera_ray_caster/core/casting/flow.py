@@ -121,7 +121,8 @@ class Flow:
             self._last, self._known = (shapes, rows_in(self._values.target.shapes, shapes)), None
         if self._picture.camera.pixel_time is None and indices is not self._every:  # all are asked for first
             moved = self._moved(shapes, self._every)
-            return moved if len(indices) == len(self._every) else Moved(*(values.take(indices, -1) for values in moved))
+            in_order = np.array_equal(indices, self._every)
+            return moved if in_order else Moved(*(values.take(indices, -1) for values in moved))
         if self._known is None or self._known[0] is not indices:  # ``at`` and ``error`` are called in turn
             self._known = indices, self._move(shapes, self._last[1], indices)
         return self._known[1]

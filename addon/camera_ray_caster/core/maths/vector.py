@@ -110,7 +110,7 @@ def components(array):
 
 
 def stacked(components, shape) -> np.ndarray:
-    """Return components that broadcast to a shape as an array (*shape, 3), float64."""
+    """Return components (c of them) that broadcast to a shape as an array (*shape, c), float64."""
     return np.stack([np.broadcast_to(component, shape) for component in components], axis=-1, dtype=np.float64)
 
 

@@ -44,9 +44,9 @@ def _lens(camera: Fields) -> Lens:
 
 
 def _pose(camera: Fields) -> np.ndarray:
-    by_rows, vector = f"Rot_{camera.label}", f"R_{camera.label}"
-    turn = camera.matrix(by_rows, 9) if camera.has(by_rows) else camera.matrix(vector, 3)
-    return inverted(of_rotation(camera.document, turn, camera.matrix(f"T_{camera.label}", 3), by_rows))
+    entries, by_rows, vector = camera.labeled(""), f"Rot_{camera.label}", f"R_{camera.label}"
+    turn = entries.matrix(by_rows, 9) if entries.has(by_rows) else entries.matrix(vector, 3)
+    return inverted(of_rotation(camera.document, turn, entries.matrix(f"T_{camera.label}", 3), by_rows))
 
 
 PROGRAM = ProgramFiles(

@@ -26,7 +26,11 @@ from .parts.program import PictureFolders, ProgramFiles
 PREFIX, DESCRIPTION = "xcr:", "rdf:Description"
 SPLIT = {"Rotation", "Position", "DistortionCoeficients"}
 """Entries of an .xmp that are lists of numbers."""
-MODELS = "perspective", "division", "brown3", "brown3t2", "brown4", "brown4t2"
+MODELS = {
+    "perspective": "", "division": "", "brown3": "k1 k2 k3", "brown3t2": "k1 k2 k3 t1 t2", "brown4": "k1 k2 k3 k4",
+    "brown4t2": "k1 k2 k3 k4 t1 t2",
+}  # fmt: skip
+"""The coefficients of each distortion model of an .xmp."""
 FILM = 36.0
 """Millimeters of a picture's longer side."""
 HEAD = ("x", "y", "alt", "heading", "pitch", "roll")
@@ -100,6 +104,12 @@ def _lens(document: Document, picture: Fields) -> Lens:
             raise document.refusal("its DistortionModel is division, which is not read: choose Brown3 or Brown4")
         if kind == "perspective":
             coefficients = [0.0] * 6
+        others = [name for name, value in zip(COEFFICIENTS, coefficients, strict=True)
+                  if value and name not in MODELS[kind].split()]  # fmt: skip
+        if others:
+            raise document.refusal(
+                f"its DistortionModel is {kind}, but its {others[0]} is not 0: set it to 0, or name a model that has it"
+            )
         if picture.number("Skew", 0.0) or picture.number("AspectRatio", 1.0) != 1:
             raise document.refusal("its Skew is not 0, or its AspectRatio not 1: undistort the pictures first")
     *radial, k4, t1, t2 = coefficients

@@ -132,7 +132,11 @@ class View:
             pixels = self._passes[key]
         except DAMAGED as error:
             raise InputError(f"{str(self.file)!r} is damaged: delete it, and run the same command again") from error
-        return top_down({key: pixels})[key] if self.report["made"].get("rows") == TOP else pixels
+        return top_down({key: pixels})[key] if self._is_top_down else pixels
+
+    @property
+    def _is_top_down(self) -> bool:
+        return self.report["made"].get("rows") == TOP
 
     @property
     def _passes(self) -> Mapping[str, np.ndarray]:

@@ -24,6 +24,7 @@ class MeshView(View):
     """A view whose distances and annotations are those of the shapes of its frame."""
 
     shapes_at: ShapesAt | None = None
+    _is_top_down = False
 
     @property
     def annotations(self) -> dict[str, Any]:

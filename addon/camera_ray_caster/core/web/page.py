@@ -190,8 +190,8 @@ def glass_of(model: RealLens) -> dict[str, Any]:
 
 
 def packed(text: str) -> str:
-    """Return JavaScript or GLSL without the spaces and line ends that it does not need, such as in "a - -b": a seventh
-    of the page.
+    """Return JavaScript or GLSL without the spaces and line ends that it does not need, unlike those of "a - -b": a
+    seventh of the page.
     """
     text = re.sub(r" ?([=*/<>?:,;{}()\[\]+]|&&|\|\|) ?", r"\1", re.sub(r"\s*\n\s*", "", text))
     return re.sub(r" - (?!-)", "-", text)

@@ -74,4 +74,4 @@ def _medium(gap: dict[str, Any], number: int) -> tuple[float, float]:
     if "n" in numbers:
         return float(numbers["n"]), float(numbers.get("v") or inf)
     glass = str(numbers.get("gname", "")).upper()
-    return glass_of(glass, f"surface {number} has the medium {glass or kind}", "n and v")
+    return glass_of(glass, f"surface {number} has the medium {glass or kind}", "n and v in its place")

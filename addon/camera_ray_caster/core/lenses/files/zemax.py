@@ -99,7 +99,7 @@ def glass_of(name: str, problem: str, entries: str) -> tuple[float, float]:
     them, for one that is not known.
     """
     if name.upper() not in GLASSES:
-        raise InputError(f"{problem} without its index: give {entries} in its place")
+        raise InputError(f"{problem} without its index: give {entries}")
     return GLASSES[name.upper()]
 
 
@@ -109,7 +109,7 @@ def _glass(words: list[str], number: int) -> tuple[float, float]:
     constants = (numbers[2], numbers[3]) if len(numbers) == 4 else PLACEHOLDER
     if flag == 1 or (constants != PLACEHOLDER and constants[0] > 1):
         return constants[0], constants[1] if constants[1] > 0 else inf
-    return glass_of(words[0], f"surface {number} has the glass {words[0]!r}", "n_d and V_d")
+    return glass_of(words[0], f"surface {number} has the glass {words[0]!r}", "n_d and V_d in its place")
 
 
 def _number(word: str, number: int, quantity: str) -> float:

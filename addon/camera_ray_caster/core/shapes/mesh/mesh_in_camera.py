@@ -24,8 +24,8 @@ from ..windows import counted
 from .blocks import BlockRows, Blocks, camera_axes, vertex_count
 from .triangles import side
 
-VERTEX_BYTES, TRIANGLE_BYTES = 40, 48
-"""Upper bounds of the memory of each vertex and each triangle in view."""
+VERTEX_BYTES, TRIANGLE_BYTES, KEPT_BYTES = 40, 32, 24
+"""Upper bounds of the memory of each vertex and each triangle in view, and of its bounds that are kept."""
 
 FEWER = "show fewer instances, or reduce the subdivision"
 
@@ -68,9 +68,10 @@ class MeshesInView:
         self._mesh = shapes.shapes.mesh[visible.at]
         sizes = np.array([(vertex_count(mesh), len(mesh)) for mesh in shapes.shapes.meshes])[self._mesh]
         total, count = sizes.sum(axis=0).tolist()
-        require(VERTEX_BYTES * total + TRIANGLE_BYTES * count, f"{count:,} triangles in view", FEWER)
-        self._start = np.cumsum(sizes[:, 0]) - sizes[:, 0]
         self._has_straight_lines = visible.pixels.has_straight_lines
+        each = TRIANGLE_BYTES if self._has_straight_lines else TRIANGLE_BYTES + KEPT_BYTES
+        require(VERTEX_BYTES * total + each * count, f"{count:,} triangles in view", FEWER)
+        self._start = np.cumsum(sizes[:, 0]) - sizes[:, 0]
         self.chunk = tuning.CHUNK if self._has_straight_lines else tuning.BALLS
         """Number of triangles or blocks to be bounded at once."""
         self._vertices = HullPoints(visible.pixels, total)
@@ -125,8 +126,8 @@ class MeshesInView:
     def _balls(
         self, indices: np.ndarray, run: np.ndarray, number: np.ndarray, corners: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return ``HullPoints.hulls`` of the triangles of some blocks, which are computed once for all threads and
-        samples: balls take a tenth of each sample.
+        """Return ``HullPoints.hulls`` of the triangles of some blocks, which are kept for all samples: balls take a
+        tenth of each sample. Threads that meet in a block write the same values.
         """
         is_bounded, all_bounds, all_near = self._bounded
         new = np.flatnonzero(taken(~is_bounded[indices], run))
