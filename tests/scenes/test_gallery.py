@@ -62,11 +62,11 @@ def masks(bpy, name, *things):
 
 
 def test_a_rug_has_the_colors_of_its_image(blender):
-    from camera_ray_caster.blender.engine.job import run
+    from camera_ray_caster.blender.engine.job import Job
 
     scene = opened(blender, "living_room")
     scene.camera_ray_caster.samples = 1
-    images, report = run(blender.context.evaluated_depsgraph_get(), scene.camera, ("albedo", "position"))
+    images, report = Job.read(blender.context.evaluated_depsgraph_get(), scene.camera, ("albedo", "position")).cast()
     assert not {note.name for note in report.notes} & set(blender.data.materials.keys())
     x, y, height = np.moveaxis(images["position"].astype(float), -1, 0)
     away = np.hypot(x + 0.3, y)
@@ -114,7 +114,7 @@ def test_every_model_on_the_page_and_every_time_has_a_scene_of_its_own(blender):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_scene_renders_and_verifies(blender, name, tmp_path):
-    from camera_ray_caster.blender.engine.job import run
+    from camera_ray_caster.blender.engine.job import Job
 
     scene = opened(blender, name)
     with (FOLDER / "pictures" / f"{name}.png").open("rb") as file:
@@ -124,7 +124,7 @@ def test_scene_renders_and_verifies(blender, name, tmp_path):
     assert (scene.render.engine, scene.camera_ray_caster.shading) == ("CAMERA_RAY_CASTER", shading)
     small(scene)
     passes = ("combined", "object_index", "valid", "ray_direction")
-    images, report = run(blender.context.evaluated_depsgraph_get(), scene.camera, passes)
+    images, report = Job.read(blender.context.evaluated_depsgraph_get(), scene.camera, passes).cast()
     assert report.passed
     assert report.left_out == ()
     assert bool(report.motion) == (name in TIMES)
@@ -199,9 +199,9 @@ def test_slit_scan_stretches_what_flies_with_it(blender):
 
 def masks_at_their_times(bpy, *indices):
     """Return where pass indices are seen in the slit scan of the columns."""
-    from camera_ray_caster.blender.engine.job import run
+    from camera_ray_caster.blender.engine.job import Job
 
     scene = opened(bpy, "slit_scan_columns")
     scene.camera_ray_caster.samples = 1
-    images, _ = run(bpy.context.evaluated_depsgraph_get(), scene.camera, ("object_index",))
+    images, _ = Job.read(bpy.context.evaluated_depsgraph_get(), scene.camera, ("object_index",)).cast()
     return [images["object_index"] == index for index in indices]

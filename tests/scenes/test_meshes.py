@@ -119,12 +119,12 @@ def height(corners, place):
 @pytest.mark.cases(1)
 @pytest.mark.parametrize("name", ["propeller", "twisted_monkey"])
 def test_each_row_is_a_still_picture_of_its_time(blender, name):
-    from camera_ray_caster.blender.engine.job import run
+    from camera_ray_caster.blender.engine.job import Job
 
     scene = opened(blender, name)
     scene.render.resolution_percentage = 25
     scene.camera_ray_caster.samples = 1
-    images, _ = run(blender.context.evaluated_depsgraph_get(), scene.camera, ("object_index",))
+    images, _ = Job.read(blender.context.evaluated_depsgraph_get(), scene.camera, ("object_index",)).cast()
     rows = range(8, len(images["object_index"]) - 8, 9)
     times = read_camera(scene).rays().time[:, 0]
     scene.camera.data.camera_ray_caster.time_mode = "NONE"

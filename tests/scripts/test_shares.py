@@ -22,7 +22,7 @@ def content(path):
         data = path.read_bytes()
         return data[data.index(b"IDAT") :]
     written = json.loads(path.read_text()) if path.suffix == ".json" else path.read_text()
-    if "made" in written:
+    if isinstance(written, dict) and "made" in written:
         written = {name: value for name, value in written.items() if name not in ("seconds", "rays_per_second")}
         del written["made"]["files"]  # sizes of reports and pictures, which have times in words
     return written

@@ -4,32 +4,15 @@ A set is a folder that ``cast.py`` or ``dataset.py`` made, with passes as NPZ or
 that takes the views of a set and yields names and contents of files, which may lie in folders; it needs numpy only.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
-from typing import NamedTuple
 
 from . import frame_list, labels, maps, object_scenes, sparse
 from .finished_set import Files, View, chosen, read_set, views_of, with_splits
-
-
-class SetFormat(NamedTuple):
-    """A format of data sets."""
-
-    description: str
-    files: Callable[..., Files]
-    """Yields the files of a list of views."""
-    splits: bool = False
-    """Whether files tell the splits of views."""
-    option: str = ""
-    """The option of ``export.py`` that only this format has, "points" or "models"; "" without one."""
-
+from .set_formats import SetFormat
 
 SET_FORMATS = {
-    "bop-scenes": SetFormat(
-        "BOP: a scene per camera: rgb, depth, masks, poses of objects, boxes", object_scenes.files, True, "models"),
-    "colmap-scene": SetFormat(
-        "COLMAP: images, sparse/0, seed points with tracks from the hits", sparse.files, True, "points"),
-    "nerfstudio-scene": SetFormat("nerfstudio: transforms.json, images, depths and masks", frame_list.files, True),
+    **object_scenes.FORMAT, **sparse.FORMAT, **frame_list.FORMAT,
     "panoptic": SetFormat("COCO panoptic: ids of segments as PNG, and panoptic.json", labels.panoptic, True),
     "yolo": SetFormat("YOLO: images, and boxes in labels, by category", labels.yolo, True),
     "masks": SetFormat("a PNG of each object's visible and whole mask", labels.masks),

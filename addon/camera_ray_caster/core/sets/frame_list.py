@@ -16,6 +16,7 @@ from ..programs.nerfstudio import camera_model, frame_of
 from ..records import InputError
 from .finished_set import TRAIN, VALIDATION, Files, View
 from .png import MOST_16_BITS, png
+from .set_formats import SetFormat
 from .streams import Waiting, records_of
 
 
@@ -46,3 +47,8 @@ def files(views: list[View]) -> Files:
         transforms |= {f"{split}_filenames": paths for split, paths in parts.items()}
     before, after = json.dumps(transforms, indent=1).split('""', 1)
     yield "transforms.json", chain([before], frames, [after])
+
+
+FORMAT = {
+    "nerfstudio-scene": SetFormat("nerfstudio: transforms.json, images, depths and masks", files, splits=True),
+}  # fmt: skip

@@ -22,6 +22,7 @@ from ..units import MILLIMETERS, factor
 from .finished_set import Files, View
 from .object_models import diameter, model_of, ply
 from .png import MOST_16_BITS, png
+from .set_formats import SetFormat
 from .streams import Waiting
 
 DEPTH_STEP = 0.1
@@ -106,3 +107,8 @@ def _facts(entry: dict[str, Any]) -> dict[str, Any]:
         "px_count_visib": entry.get("area", 0),
         "visib_fract": entry.get("visible_fraction", 0.0),
     }  # fmt: skip
+
+
+FORMAT = {"bop-scenes": SetFormat(
+    "BOP: a scene per camera: rgb, depth, masks, poses of objects, boxes", files, splits=True, option="models"
+)}  # fmt: skip

@@ -16,6 +16,7 @@ from ..programs.colmap import IMAGES, POINTS, texts
 from ..records import InputError
 from .finished_set import VALIDATION, Files, View
 from .png import srgb
+from .set_formats import SetFormat
 from .streams import Tracks, Waiting, records_of
 
 POINT_COUNT = 10_000
@@ -100,3 +101,8 @@ def _around(distances: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         slack += np.nan_to_num(np.fmin(before, after))
     slack = BESIDE * slack + 1e-6 * np.nan_to_num(distances)
     return distances - slack, distances + slack
+
+
+FORMAT = {"colmap-scene": SetFormat(
+    "COLMAP: images, sparse/0, seed points with tracks from the hits", files, splits=True, option="points"
+)}  # fmt: skip
