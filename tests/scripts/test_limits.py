@@ -49,6 +49,16 @@ def test_what_a_cast_has_run_out_of_is_said_in_one_line(command, scene, tmp_path
     assert not (tmp_path / "out").exists()
 
 
+def test_a_data_set_of_which_no_picture_could_be_made_is_not_begun(command, scene, tmp_path, monkeypatch):
+    def fail(*words, **more):
+        raise MemoryError
+
+    monkeypatch.setattr("camera_ray_caster.blender.engine.job.cast", fail)
+    words = "--cameras", "Side", "--frames", "1:1", "--output", tmp_path / "out"
+    assert "not enough memory" in refused(command("dataset", scene, *words))
+    assert not (tmp_path / "out").exists()
+
+
 def test_an_error_of_another_kind_is_none_of_these(command, scene, tmp_path, monkeypatch):
     def fail(*words, **more):
         raise RuntimeError("another")

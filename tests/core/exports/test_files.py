@@ -171,3 +171,10 @@ def test_the_nearest_rotation_is_nearer_than_the_matrix():
     assert np.abs(gram - np.eye(3)).max() < 4e-15
     assert 0 < np.abs(near.pose.basis - shot.camera.pose.basis).max() < 1e-7
     assert 0 < moved < 1e-4
+
+
+@pytest.mark.parametrize("meters", [np.nan, np.inf, 0.0])
+def test_a_unit_scale_that_is_no_length_is_refused(meters):
+    view = Shot("Camera", 1, camera("PERSP"), meters=meters)
+    with pytest.raises(InputError, match=f"^the scene's Unit Scale is {meters:g}: set it to a number above 0$"):
+        export_files("colmap", [view])

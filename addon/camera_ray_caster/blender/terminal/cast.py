@@ -61,6 +61,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
             if outcome.report is not None and (options.json or not several):
                 show(outcome.report, options.json, f"Wrote {', '.join(map(str, outcome.paths))}")
     if failed:
+        if options.dataset and failed == len(jobs):
+            dataset.give_up(options.output)
         if failed > 1:
             print(f"{prog}: {failed} of {len(jobs)} pictures failed: run the same command again", file=sys.stderr)
         return 2

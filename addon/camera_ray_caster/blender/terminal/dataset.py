@@ -115,6 +115,13 @@ def end(options: Namespace, jobs: Iterable[PictureJob], suffixes: Sequence[str],
         shares.forget(options.output)
 
 
+def give_up(folder: Path) -> None:
+    """Remove what ``begun`` has written if the folder has nothing else: no picture could be made."""
+    if [path.name for path in folder.iterdir()] == [DATASET]:
+        (folder / DATASET).unlink()
+        folder.rmdir()
+
+
 def completed(options: Namespace) -> tuple[str, bool]:
     """Make the pictures of shares a data set, as one run would have made it; return a line about it, and whether no
     reference disagrees.

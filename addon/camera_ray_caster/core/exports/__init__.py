@@ -3,6 +3,7 @@
 Files that are written from plain records are those of ``core.programs``; formats that need whole cameras are here.
 """
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
@@ -81,6 +82,8 @@ def _prepared(key: str, shots: Sequence[Shot], fit: Any):
     remarks = [*dict.fromkeys(line for shot in shots for line in chosen.omissions(shot)), *fits]
     if not chosen.rigid:
         return chosen, shots, fits, remarks
+    if not 0 < shots[0].meters < math.inf:
+        raise InputError(f"the scene's Unit Scale is {shots[0].meters:g}: set it to a number above 0")
     if chosen.unit is None and shots[0].meters != 1:
         fits.append(f"lengths are in {unit_name(None)} of {shots[0].meters:.6g} m")
         remarks.append(fits[-1])
