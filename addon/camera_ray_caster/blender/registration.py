@@ -38,6 +38,7 @@ from .ui import (
     lesson_panels,
     menus,
     model_panels,
+    object_panels,
     open_lesson,
     operators,
     other_engine,
@@ -62,7 +63,7 @@ PARTS = (
     gallery_panels, menus, presets, model_panels, see_through, see_through_here, select_seen, camera_panels, in_process,
     cast_all, cameras_list, show_result, cast_panels, verify_panels, left_out_panels, lens_operators, lesson_operators,
     lecture_operators, point_operators, gallery_operators, open_lesson, lesson_panels, facts_panels, overlay_panels,
-    cloud_operators, through_model, commands, hide_overlays,
+    cloud_operators, object_panels, through_model, commands, hide_overlays,
 )  # fmt: skip
 """Modules with types of Blender or something else to register, in this order: a panel comes after its parent panel."""
 

@@ -75,7 +75,7 @@ def test_the_panels_say_what_the_camera_is_and_why_it_is_none(blender, scene):
 
 
 def test_cast_as_stands_in_the_objects_properties_and_beside_what_was_left_out(blender, scene):
-    from camera_ray_caster.blender.ui import left_out_panels
+    from camera_ray_caster.blender.ui import left_out_panels, object_panels
 
     blender.ops.camera_ray_caster.cast()
     assert drawn(blender, left_out_panels.LeftOut).split()[-6:] == [
@@ -83,10 +83,10 @@ def test_cast_as_stands_in_the_objects_properties_and_beside_what_was_left_out(b
     ]  # fmt: skip
     blender.data.objects["Suzanne"].name = "Renamed"
     assert "primitive" not in drawn(blender, left_out_panels.LeftOut)
-    assert not left_out_panels.ObjectPanel.poll(blender.context)  # the camera is active
+    assert not object_panels.ObjectPanel.poll(blender.context)  # the camera is active
     blender.context.view_layer.objects.active = blender.data.objects["Renamed"]
-    assert left_out_panels.ObjectPanel.poll(blender.context)
-    assert drawn(blender, left_out_panels.ObjectPanel) == "primitive"
+    assert object_panels.ObjectPanel.poll(blender.context)
+    assert drawn(blender, object_panels.ObjectPanel) == "primitive"
     items = blender.data.objects["Renamed"].camera_ray_caster.bl_rna.properties["primitive"].enum_items
     numbers = {item.identifier: item.value for item in items}
     assert numbers.items() >= {

@@ -1,40 +1,14 @@
-"""The Cast As setting of an object, in the object's tab and in the popover of what the latest cast left out."""
+"""The popover of the objects that the latest cast left out."""
 
 import bpy
 
 from ..output import reports
-from ..properties.declared import GROUP, PRIMITIVE
 from .drawing import draw_message
 from .notes import Popover, widen
+from .object_panels import draw_cast_as
 
-CASTABLE = {"MESH", "CURVE", "SURFACE", "FONT", "META", "POINTCLOUD"}
-"""Object types that have a Cast As setting."""
 LISTED = 6
 """Maximum number of objects that the panel names for each reason; the report has all of them."""
-
-
-def draw_cast_as(layout, item, **options) -> None:
-    """Draw an object's Cast As setting, or nothing for types that are never cast."""
-    if item is not None and item.type in CASTABLE:
-        layout.prop(getattr(item, GROUP), PRIMITIVE.name, **options)
-
-
-class ObjectPanel(bpy.types.Panel):
-    """Object properties: Cast As."""
-
-    bl_idname = "CAMERA_RAY_CASTER_PT_object"
-    bl_label = "Ray Caster"
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
-    bl_context = "object"
-
-    @classmethod
-    def poll(cls, context):
-        return context.object is not None and context.object.type in CASTABLE
-
-    def draw(self, context):
-        self.layout.use_property_split = True
-        draw_cast_as(self.layout, context.object)
 
 
 class LeftOut(Popover, bpy.types.Panel):
@@ -66,4 +40,4 @@ class LeftOut(Popover, bpy.types.Panel):
                 draw_message(column, context, f"and {len(names) - LISTED} more", "BLANK1")
 
 
-CLASSES = (LeftOut, ObjectPanel)
+CLASSES = (LeftOut,)
