@@ -11,7 +11,7 @@ from lesson_scenarios import place_of
 from parts import BUTTON, addon, load
 from stranger_scenarios import default_scene
 
-REDRAWS = 8
+REDRAWS = 12
 SHARE = 3.0
 """Most times the processor time of Blender's own redraw, on busy cores: 2.5 is aimed at, 2.4 was measured."""
 EDGE = 2
@@ -211,12 +211,13 @@ def live_redraws(user, scenes):
         def moved(scene=scene, area=area, drawn=drawn):
             yield from user.wait(1)
             drawn.clear()
-            began = time.process_time()
+            times = [time.process_time()]
             for count in range(1, REDRAWS + 1):
                 scene.camera.location.y += 0.02
                 area.tag_redraw()
                 yield from user.until(lambda count=count: len(drawn) >= count, "it is drawn")
-            return 1e3 * (time.process_time() - began) / REDRAWS
+                times.append(time.process_time())
+            return 1e3 * np.diff(times).min()  # other programs share the caches: they add to most redraws
 
         plain = yield from moved()
         scene.camera.data.camera_ray_caster.model = "DOME_MASTER"
