@@ -276,8 +276,10 @@ class Camera(Description):
             derivatives = of_settings(self._varied, count, *seen) if by_settings else of_projection(self.model, *seen)
             return pixels, derivatives.reshape(*points.shape[:-1], 2, count)
         if self.pixel_time is not None and self.motion is not None:
-            time, cuts = self.pixel_time, self.motion.cuts
-            sought = meeting(time, lambda frame, indices: self.at(frame).project(each[indices]), len(each), cuts)
+            sought = meeting(
+                self.pixel_time, lambda frame, indices: self.at(frame).project(each[indices]), len(each),
+                self.motion.cuts, is_still=self.motion.camera_is_still,
+            )  # fmt: skip
             return sought.reshape(*points.shape[:-1], 2)
         return pixels_of(self, each).reshape(*points.shape[:-1], 2)
 

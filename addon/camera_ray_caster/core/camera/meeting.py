@@ -39,11 +39,17 @@ Project = Callable[[float, np.ndarray], np.ndarray]
 
 
 def meeting(
-    pixel_time: PixelTime, project: Project, count: int, cuts: Iterable[float] = (), around: float | None = None
+    pixel_time: PixelTime,
+    project: Project,
+    count: int,
+    cuts: Iterable[float] = (),
+    around: float | None = None,
+    is_still: bool = False,
 ) -> np.ndarray:
     """Return the pixels (count, 2) that see points at the pixels' own times: of several pixels the earliest, NaN if no
     pixel does. ``cuts``: frames at which motion may change abruptly. ``around``: a frame; the interval between the cuts
-    around it is searched first, so that a pixel with a time in that interval is preferred.
+    around it is searched first, so that a pixel with a time in that interval is preferred. ``is_still``: whether
+    ``project`` gives the same at all frames, so that nothing is searched.
 
     The error is at most RESOLVED, except near abrupt changes that are not in ``cuts``, where it is that of SHORTEST. A
     point whose image agrees with the pixels' times twice within 1/64 of a piece may be missed. For an ImageTime the
@@ -60,6 +66,10 @@ def meeting(
                 result[left[seen]] = pixels[seen]
             return result
         first, last = pixel_time.span
+        if is_still:
+            pixels = project(first, everyone)
+            time = pixel_time.frame_at(*pixels.T)
+            return np.where(((first <= time) & (time <= last))[:, None], pixels, np.nan)
         search = _Search(pixel_time, project, last - first)
         pieces = list(pairwise([first, *sorted({cut for cut in cuts if first < cut < last}), last]))
         if around is not None:

@@ -118,6 +118,10 @@ class MovingCamera(Protocol[OneTime]):
         """Whether neither the camera nor the shapes move."""
 
     @property
+    def camera_is_still(self) -> bool:
+        """Whether the camera has the same model and pose at all frames."""
+
+    @property
     def cuts(self) -> tuple[float, ...]:
         """The frames at which motion may change abruptly."""
 

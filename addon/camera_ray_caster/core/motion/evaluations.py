@@ -26,6 +26,7 @@ from ..records import Shapes
 from .appearance import difference, same_indices
 from .interpolation import State, TimeInterval, matched
 from .landmarks import apart, lit
+from .matching import same_rows
 from .means import same
 
 PROBES = (0.381966, 0.618034)
@@ -72,6 +73,12 @@ class Motion:
     def is_still(self) -> bool:
         """Whether camera and shapes are the same in all evaluations."""
         looks = [(c.model, c.pose, c.aperture, c.clip_start, c.clip_end, shapes) for c, shapes in self.states.values()]
+        return all(same(looks[0], other) for other in looks[1:])
+
+    @cached_property
+    def camera_is_still(self) -> bool:
+        """Whether the camera has the same model and pose in all evaluations."""
+        looks = [(camera.model, camera.pose) for camera, _ in self.states.values()]
         return all(same(looks[0], other) for other in looks[1:])
 
     def parts(self, frames: np.ndarray) -> Iterator[tuple[TimeInterval, np.ndarray]]:
@@ -141,11 +148,6 @@ class Motion:
                 "the scene changes too fast for the evaluations allowed"
             )
         return lines
-
-
-def same_rows(before: Shapes, after: Shapes) -> bool:
-    """Whether the rows of two evaluations are of the same objects, if perhaps in other forms."""
-    return before.names == after.names and np.array_equal(before.name_index, after.name_index)
 
 
 def resolve(

@@ -7,6 +7,11 @@ from .deformation import same_faces
 from .interpolation import matched
 
 
+def same_rows(before: Shapes, after: Shapes) -> bool:
+    """Whether the rows of two evaluations are of the same objects, if perhaps in other forms."""
+    return before.names == after.names and np.array_equal(before.name_index, after.name_index)
+
+
 def rows_in(before: Shapes, after: Shapes) -> np.ndarray:
     """Return the rows (n,) of the shapes of ``before`` in ``after``; -1 for shapes that are not in ``after``.
 

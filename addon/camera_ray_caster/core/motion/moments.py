@@ -5,7 +5,8 @@ can say of them.
 from collections.abc import Collection
 
 from ..records import InputError, Shapes
-from .evaluations import Motion, same_rows
+from .evaluations import Motion
+from .matching import same_rows
 
 
 def check_rows(shapes: Shapes) -> None:
