@@ -1,10 +1,12 @@
 """How the tests run a script, and what they run it on."""
 
+import io
 import os
 import re
 import signal
 import subprocess
 import sys
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -15,6 +17,16 @@ def script(name, *arguments, folder=None):
     words = [sys.executable, str(ROOT / "scripts" / f"{name}.py"), *map(str, arguments)]
     clean = {key: value for key, value in os.environ.items() if key != "OCIO"}  # bpy sets it, and then speaks of it
     return subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=300, env=clean)
+
+
+def in_this_process(name, *arguments):
+    """Run a command of the registered add-on to its end, without the start of another Blender; it must succeed."""
+    from camera_ray_caster.blender.terminal import commands
+
+    errors = io.StringIO()
+    with redirect_stderr(errors), redirect_stdout(io.StringIO()):
+        status = commands.main(name, list(map(str, arguments)), name)
+    assert (status, complaints(errors.getvalue())) == (0, [])
 
 
 def start(*words, action=signal.SIG_DFL, **options):

@@ -1,6 +1,5 @@
 """Every declared setting of every model and of every mode of pixel times, with every value that nobody means."""
 
-from itertools import chain
 from math import inf, nan
 
 from camera_ray_caster.core.camera import pixel_time
@@ -38,17 +37,37 @@ def values(setting):
     return [item.key for item in setting.items]
 
 
-CASES = [
-    (model, mode, setting, value)
-    for model, mode, setting in chain(
-        ((model, pixel_time.NONE, setting) for model in MODELS for setting in model.SETTINGS
-         if setting.owner != FROM_A_FILE),
-        ((MODELS[0], mode, setting) for mode, settings in pixel_time.SETTINGS.items() for setting in settings),
-        ((MODELS[0], pixel_time.NONE, setting) for setting in (pixel_time.MODE,)),
-    )
-    for value in values(setting)
-    if setting.owner == OWN or not isinstance(value, str) or setting.kind == "ENUM"
-]
+SHARED = 2
+"""Values that every model but the first is given of a setting that several models declare."""
+
+DECLARED = [
+    *((model, pixel_time.NONE, setting) for model in MODELS for setting in model.SETTINGS
+      if setting.owner != FROM_A_FILE),
+    *((MODELS[0], mode, setting) for mode, settings in pixel_time.SETTINGS.items() for setting in settings),
+    (MODELS[0], pixel_time.NONE, pixel_time.MODE),
+]  # fmt: skip
+"""Every setting of every model and mode."""
+
+
+def cases():
+    """Yield the inputs: a setting has all its values in the first model or mode that declares it. The others have some
+    of them, by turns, so that a model with many such settings has each value of a kind.
+    """
+    known, turn = set(), 0
+    for model, mode, setting in DECLARED:
+        every = [
+            value
+            for value in values(setting)
+            if setting.owner == OWN or not isinstance(value, str) or setting.kind == "ENUM"
+        ]
+        if id(setting) in known:
+            every = [every[(turn + k) % len(every)] for k in range(min(SHARED, len(every)))]
+            turn += SHARED
+        known.add(id(setting))
+        yield from ((model, mode, setting, value) for value in every)
+
+
+CASES = list(cases())
 COUNT = len(CASES)
 
 
@@ -68,6 +87,7 @@ def make(chance, number, folder):
     else:
         group.model = model.key
     group.time_mode = mode
+    group.time_end = 3.0  # three frames of motion, not 24
     for name in ("slit_1", "slit_2", "path"):
         setattr(group, name, _line(name))
     image = group.time_image = bpy.data.images.new("Time", 4, 4, float_buffer=True)
