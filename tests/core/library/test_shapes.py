@@ -198,6 +198,12 @@ def test_what_no_shape_can_be_is_one_line(make, message):
     assert "\n" not in str(caught.value)
 
 
+def test_an_empty_list_is_no_shape(camera):
+    for shapes in crc.spheres([]), crc.spheres([], []), crc.planes([]), crc.planes([], infinite=True):
+        assert len(shapes) == 0
+        assert np.isinf(cast(camera, shapes, "depth")["depth"]).all()
+
+
 def test_a_mesh_without_faces_is_no_shape():
     assert len(crc.mesh(np.zeros((0, 3)), np.zeros((0, 3), int))) == 0
 

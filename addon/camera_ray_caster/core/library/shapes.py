@@ -25,7 +25,7 @@ def spheres(
 ) -> Shapes:
     """Return spheres, or ellipsoids, one per row of ``centers``.
 
-    centers: (n, 3), or (3,) for one; world, in Blender units.
+    centers: (n, 3), or (3,) for one, or [] for none; world, in Blender units.
     radii: a number or (n,), above 0.
     axes: (3, 3) or (n, 3, 3), by default the identity: the columns are the images of the axes, so that the surface is
         center + radius axes q with |q| = 1.
@@ -56,7 +56,7 @@ def planes(
 ) -> Shapes:
     """Return planes: parallelograms, or with ``infinite`` unbounded, one per row of ``centers``.
 
-    centers: (n, 3), or (3,) for one; world, in Blender units.
+    centers: (n, 3), or (3,) for one, or [] for none; world, in Blender units.
     axes: (3, 3) or (n, 3, 3), by default the identity: the first two columns lead from the center to the middle of a
         side, the third is any vector off the plane. Or (3, 2) or (n, 3, 2), without the third.
 
@@ -168,6 +168,8 @@ def _placed(primitive: Primitive, matrices: np.ndarray, object_index, material_i
 
 def _rows(values, name: str) -> np.ndarray:
     rows = np.atleast_2d(numbers(values, name))
+    if np.shape(values) == (0,):
+        rows = rows.reshape(0, 3)
     if rows.ndim != 2 or rows.shape[1] != 3 or not np.isfinite(rows).all():
         raise InputError(f"{name} are {shape_of(rows)}: they must be (n, 3) finite numbers")
     return rows
