@@ -145,6 +145,9 @@ class RaysJacobian:
     directions: np.ndarray
     """(rows, columns, 3, 2) float64: derivatives of the unit directions; NaN where there is no ray."""
 
+    def __repr__(self) -> str:
+        return f"<RaysJacobian {self.directions.shape[:-2]}>"
+
 
 @dataclass(frozen=True)
 class Finding:

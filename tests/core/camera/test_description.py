@@ -94,6 +94,7 @@ def test_shapes_scenes_images_and_fits_are_one_line():
     assert repr(crc.cast(scene, passes="depth", rows="top")) == "<TopDown: depth (6, 8)>"
     assert repr(crc.cast_rays((0, 0, 0), [(0, 0, -1)] * 9, shapes, passes="distance")) == "<RayImages: distance (9,)>"
     assert repr(scene.camera.rays()) == "<Rays (6, 8): 48 valid>"
+    assert repr(scene.camera.rays_jacobian()) == "<RaysJacobian (6, 8)>"
     assert repr(crc.scan(scene)) == f"<PointCloud 'Camera': {len(crc.scan(scene))} points>"
     assert "\n" not in repr(scene.camera.pose)
     line = repr(crc.fit(fisheye(), "OPENCV_FISHEYE"))
