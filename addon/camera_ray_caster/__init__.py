@@ -152,8 +152,15 @@ def register_model(model: type[Model]) -> None:
 
 
 def register() -> None:
-    """Add the engine, operators, panels and properties to Blender; do nothing if they are registered already."""
-    from .blender import registration
+    """Add the engine, operators, panels and properties to Blender; do nothing if they are registered already. Raises
+    ModuleNotFoundError, in one line, without Blender.
+    """
+    try:
+        from .blender import registration
+    except ModuleNotFoundError as error:
+        if error.name != "bpy":
+            raise
+        raise ModuleNotFoundError("register needs Blender: call it there, or pip install bpy", name="bpy") from None
 
     registration.register()
 
