@@ -34,9 +34,7 @@ def test_the_active_camera_at_the_files_frame_is_the_default(command, scene, tmp
     assert (done.returncode, done.stderr) == (0, "")
     assert left(tmp_path / "out") == ["cameras.txt", "images.txt", "points3D.txt"]
     assert "Top_0001.png" in (tmp_path / "out" / "images.txt").read_text()
-    moved, wrote = done.stdout.splitlines()
-    assert moved.startswith("poses are the nearest rotations to Blender's matrices, which moves pixels by up to ")
-    assert wrote.startswith("Wrote ")
+    assert done.stdout.startswith("Wrote ")
 
 
 @pytest.mark.full

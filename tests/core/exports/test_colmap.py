@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.exports import export_files
+from camera_ray_caster.core.exports.format import Shot
 from camera_ray_caster.core.records import InputError
 
 from ..cameras.model_examples import camera
@@ -33,6 +34,11 @@ def test_colmap_sees_points_where_we_do(tmp_path, name):
         assert np.count_nonzero(ahead) > 150
         theirs = np.array(colmap(seen, str(tmp_path), number, points[ahead]))
         assert np.abs(theirs - pixels[ahead]).max() < 1e-9
+
+
+def test_a_pose_that_is_a_rotation_already_is_no_remark():
+    _, remarks = export_files("colmap", [Shot("still", 1, camera("PERSP", {"matrix_world": np.eye(4)}))])
+    assert remarks == []
 
 
 @pytest.mark.parametrize("name", REFUSED)

@@ -140,7 +140,7 @@ def test_what_is_left_out_is_said():
     assert export_files("ros", shot)[1] == [blur, border]
     assert export_files("npz", shot)[1] == [blur]
     assert export_files("json", shot)[1] == []
-    assert export_files("bop", shot)[1][1:] == [blur, border]
+    assert export_files("bop", shot)[1] == [blur, border]
 
 
 def test_pixels_without_a_ray_to_which_a_format_gives_one_are_said():

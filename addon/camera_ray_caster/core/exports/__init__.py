@@ -89,8 +89,10 @@ def _prepared(key: str, shots: Sequence[Shot], fit: Any):
         remarks.append(fits[-1])
     shots = Each(shots, chosen.at_ends)
     farthest = max(rigid.with_rotation(shot.camera)[1] for shot in shots)
-    moved = f"poses are the nearest rotations to Blender's matrices, which moves pixels by up to {farthest:.1e}"
-    return chosen, Each(shots, partial(_rotated, chosen)), fits, [moved, *remarks]
+    if farthest:
+        moved = f"poses are the nearest rotations to Blender's matrices, which moves pixels by up to {farthest:.1e}"
+        remarks = [moved, *remarks]
+    return chosen, Each(shots, partial(_rotated, chosen)), fits, remarks
 
 
 def _rotated(chosen: Format, shot: Shot) -> Shot:
