@@ -7,7 +7,7 @@ from camera_ray_caster.core import tuning
 from camera_ray_caster.core.casting.rays import rays_of
 from camera_ray_caster.core.maths.speed import Scratch
 from camera_ray_caster.core.shapes.mesh.spans import RayLattice
-from camera_ray_caster.core.shapes.mesh.triangles import EDGES, edge_vectors
+from camera_ray_caster.core.shapes.mesh.triangles import EDGES, Planes, edge_vectors
 from camera_ray_caster.core.shapes.ray_cells import RayCells
 from camera_ray_caster.core.shapes.search_rays import SearchRays
 
@@ -49,9 +49,16 @@ def test_the_spans_of_cells_are_hits_and_leave_few_pixels_open(spread, monkeypat
     bounds = np.concatenate(ends).T
     edges, doubt = edge_vectors(corners, from_eye=not spread), np.full(300, 1e-14)
     turns = np.arange(300 if spread else 0)
-    runs = RayCells(direction, moment, x.shape, 8).spans(edges, doubt, bounds, turns)
+    cells = RayCells(direction, moment, x.shape, 8, origin if spread else None)
+    planes = Planes(corners, not spread, 1.0)
+    runs = cells.spans(edges, doubt, bounds, turns, planes, np.full((17, 24), np.inf))
     met, opened = (np.concatenate([*each.pieces(limit=1000)], axis=-1) for each in runs)
     at, windows = RayCells(direction, moment, x.shape, 32).windows(edges, doubt, bounds, turns)
+    farthest = random.choice((0.01, 0.3, 1.0), (17, 24))
+    shown = [piece for run in cells.spans(edges, doubt, bounds, turns, planes, farthest) for piece in run.pieces(1000)]
+    triangle_shown, pixel_shown = np.concatenate(shown, axis=-1)
+    assert len(pixel_shown) < 0.8 * (len(met[0]) + len(opened[0]))
+    farthest = np.repeat(np.repeat(farthest, 8, axis=0), 8, axis=1)[: len(x), : x.shape[1]]
     asked, undecided, looked_at, bounded = 0, 0, 0, 0
     for k, (x0, x1, y0, y1) in enumerate(bounds.tolist()):
         places = corners[..., k, None, None] - origin
@@ -66,6 +73,10 @@ def test_the_spans_of_cells_are_hits_and_leave_few_pixels_open(spread, monkeypat
         assert not (certain + left)[~within].any()
         assert meets[(certain > 0) & ~np.isnan(direction[0])].all()
         assert (certain + left)[within & meets].all()
+        normal = np.cross(places[1] - places[0], places[2] - places[0], axis=0)
+        t = (normal * places[0]).sum(axis=0) / (normal * direction).sum(axis=0)
+        is_shown = np.bincount(pixel_shown[triangle_shown == k], minlength=x.size).reshape(x.shape) > 0
+        assert is_shown[within & meets & (np.abs(t) <= farthest)].all()
         covered = np.zeros(x.shape, int)
         for first, last, low, high in windows[at == k].tolist():
             covered[low:high, first:last] += 1
@@ -88,6 +99,30 @@ def test_cells_of_a_pinholes_rays_leave_no_pixel_open():
     corners[1:, :, turned] = corners[:0:-1, :, turned]
     bounds, doubt = np.tile((0, 120, 0, 80), (40, 1)), np.full(40, 1e-14)
     cells = RayCells(direction, None, x.shape, tuning.RAY_CELL)
-    met, opened = cells.spans(edge_vectors(corners, from_eye=True), doubt, bounds, np.arange(0))
+    planes, farthest = Planes(corners, True, 1.0), np.full((4, 5), np.inf)
+    met, opened = cells.spans(edge_vectors(corners, from_eye=True), doubt, bounds, np.arange(0), planes, farthest)
     assert len(met.at) > 1000
     assert not len(opened.at)
+
+
+def test_bounds_of_functions_hold_each_pixel_in_front():
+    """The first of three linear functions of the direction is at least 0 and at least the others' magnitudes there."""
+    random = np.random.default_rng(1)
+    y, x = np.mgrid[-1:1:130j, -1:1:190j]
+    r = np.maximum(np.hypot(x, y), 1e-9)
+    direction = np.where(r < 1.2, [x / r * np.sin(2 * r), y / r * np.sin(2 * r), -np.cos(2 * r)], np.nan)
+    functions = random.normal(size=(3, 3, 200)) * np.array((1.0, 3.0, 3.0))[:, None, None]
+    bounds = np.concatenate([np.sort(random.integers(0, size + 1, (2, 200)), axis=0) for size in x.shape[::-1]]).T
+    here, narrowed = RayCells(direction, None, x.shape, 8).in_front(functions, bounds)
+    pixels = 0
+    for k, (x0, x1, y0, y1) in enumerate(bounds.tolist()):
+        first, *others = np.einsum("nc,cyx->nyx", functions[..., k], direction)
+        meets = (first >= 0) & (np.abs(others) <= first).all(axis=0)
+        inside = np.zeros((2, *x.shape), bool)
+        inside[0, y0:y1, x0:x1] = True
+        for left, right, low, high in narrowed[here == k].tolist():
+            inside[1, low:high, left:right] = True
+        assert not (inside[1] & ~inside[0]).any()
+        assert inside[1][meets & inside[0]].all()
+        pixels += inside.sum(axis=(1, 2))
+    assert pixels[1] < 0.6 * pixels[0], pixels

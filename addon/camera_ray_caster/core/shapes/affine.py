@@ -56,6 +56,12 @@ class AffineKind(Kind):
         """
         return None
 
+    def in_front(self, constants: Any) -> np.ndarray | None:
+        """Return linear functions, (n, 3, k), of the direction of a ray from the eye: on a hit the first is at least 0
+        and at least the magnitude of each other one; None, the default, if the kind has none.
+        """
+        return None
+
     @abstractmethod
     def surface_coordinates(self, q: Any) -> tuple[np.ndarray, np.ndarray]:
         """Return the two coordinates of points of the surface, given as components in the frame of q."""
@@ -73,7 +79,8 @@ class AffineKind(Kind):
         for alike, is_simple, is_small, is_cut in divide(visible, None if cutouts is None else cutouts.may):
             constants = self.constants(shapes, alike.at, alike.parallel)
             cut_by = cutouts if is_cut else None
-            groups.append(SearchGroup(self.intersect, self.lattice, alike, is_simple, is_small, constants, cut_by))
+            tests = self.intersect, self.lattice, self.in_front
+            groups.append(SearchGroup(*tests, alike, is_simple, is_small, constants, cut_by))
         faces_eye = self.faces_eye or all(group.is_simple for group in groups)
         return AffineSet(tuple(groups), faces_eye, cutouts is not None)
 

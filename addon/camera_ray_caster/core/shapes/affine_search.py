@@ -1,5 +1,6 @@
 """The search among shapes that are rows of constants: large shapes one by one, small shapes in batches."""
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
@@ -22,8 +23,9 @@ class SearchGroup:
     """Shapes of one kind that are tested in the same way."""
 
     intersect: Callable
-    """``AffineKind.intersect`` of the kind; ``lattice`` likewise."""
+    """``AffineKind.intersect`` of the kind; ``lattice`` and ``in_front`` likewise."""
     lattice: Callable
+    in_front: Callable
     visible: Visible
     is_simple: bool
     """Whether the eye is outside and nothing lies before the clip start, so that the near root alone decides."""
@@ -50,6 +52,11 @@ class SearchGroup:
 
     def large(self, rays: SearchRays) -> Iterator[Large]:
         here, bounds = self.within(rays.corner, rays.shape)
+        if rays.origin is None and pixels_in(bounds).sum() > tuning.NARROWED_TILES * math.prod(rays.shape):
+            functions = self.in_front(self._constants(here))
+            if functions is not None:
+                shown, bounds = rays.cells.in_front(functions, bounds)
+                here = here[shown]
         count = max(1, tuning.PREPARED_PIXELS // sum(rays.shape))
         for end in range(len(here), 0, -count):
             chunk = slice(max(0, end - count), end)

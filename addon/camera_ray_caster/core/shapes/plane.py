@@ -93,6 +93,10 @@ class Plane(AffineKind):
                 hit &= np.abs(across, out=across) <= d_z
         return t, hit
 
+    def in_front(self, constants: PlaneConstants) -> np.ndarray:
+        ahead = constants.matrix[2:]
+        return np.concatenate((ahead, constants.cross)) if self.has_edges else ahead
+
     def lattice(self, constants: PlaneConstants, direction) -> PlaneLattice:
         return PlaneLattice(constants, self.has_edges, direction)
 

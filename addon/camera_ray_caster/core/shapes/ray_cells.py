@@ -11,20 +11,17 @@ Reference: M. Olano and T. Greer, Triangle Scan Conversion using 2D Homogeneous 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from .. import tuning
+from ..conventions import EPS
 from ..maths.speed import taken
+from ..maths.vector import norm
+from .cell_parts import LEAST_DOUBT, CellParts, PartRows, largest_of, rows_of
+from .mesh.triangles import Planes
 from .windows import counted
-
-LEVEL = 1 / 64
-"""An edge whose volume changes by less than this fraction of its doubt from column to column is taken as changing by
-that, and its doubt is raised by what this adds in a cell.
-"""
 
 LEAST_DEPTH = 1 / 4
 """Rays are taken over their depth if all of a tile advance by more than this: those of a pinhole, or of two slits that
@@ -32,13 +29,14 @@ meet, are linear then, and few pixels are left to be tested. Of two slits half a
 553,000 are, in a street: 0.9 of the processor time of a cast.
 """
 
-LEAST_DOUBT = 1e-280
-"""Least doubt of a volume: divisions by it do not overflow."""
+FUNCTION_ROUNDING = 64 * EPS
+"""Error bound of a linear function of a direction, and of the cell's function that is close to it, over the sum of the
+magnitudes of its terms; and of the distance of a place from a plane, over that from a corner.
+"""
 
-ALONG, ROW_MARGIN = 2.0**-20, 2.0**-10
-"""Where the lines of two edges meet counts if the sine of their angle is above ALONG, and if it is at most 1 / (ALONG
-ROW_MARGIN) pixels away, over that sine: rounding moves it by at most 1e-6 pixels then, and ROW_MARGIN, in pixels, holds
-that.
+BEYOND = 1 + 2.0**-20
+"""A triangle is hidden if its t are above those of the hits so far by this factor: it holds the rounding of t, also
+where t is clamped (see ``crossing``).
 """
 
 
@@ -74,8 +72,10 @@ class Runs(NamedTuple):
 class RayCells:
     """Squares of pixels of a tile, in rows of cells, and the linear functions to which the rays in each are close."""
 
-    def __init__(self, direction: Any, moment: Any, shape: tuple[int, int], side: int):
-        """Take components that broadcast to ``shape``, NaN where there is no ray; ``moment`` is None for the eye."""
+    def __init__(self, direction: Any, moment: Any, shape: tuple[int, int], side: int, origin: Any = None):
+        """Take components that broadcast to ``shape``, NaN where there is no ray; for the eye ``moment`` and ``origin``
+        are None.
+        """
         rows, self._wide = (-(-size // side) for size in shape)
         self._width, self._side = shape[1], side
         depth = np.negative(direction[2])
@@ -87,9 +87,30 @@ class RayCells:
         whole = [[np.broadcast_to(term, (rows, self._wide)).reshape(-1) for term in terms] for terms in parts]
         self._terms = np.array(whole).swapaxes(0, 1).copy()
         """(4, c, cells): the value at the first pixel, its changes by column and row, and the largest deviation."""
+        self._scale = self._each(np.ones(()) if scale is None else scale, np.fmin)
+        """(cells,): the least factor from t of rays as they are measured here to their t."""
+        self._origins = None if origin is None else self._balls(origin)
 
-    def spans(self, edges: np.ndarray, doubt: np.ndarray, bounds: np.ndarray, turns: np.ndarray) -> tuple[Runs, Runs]:
-        """Return the triangles and pixels of hits, and those that have to be tested, within bounds (k, 4).
+    def _each(self, component: Any, extreme: np.ufunc) -> np.ndarray:
+        """Return the least or largest value of a component in each cell, (cells,)."""
+        for axis in range(np.ndim(component)):
+            component = extreme.reduceat(component, np.arange(0, component.shape[axis], self._side), axis=axis)
+        return np.broadcast_to(component, (self._terms.shape[2] // self._wide, self._wide)).reshape(-1)
+
+    def _balls(self, origin: Any) -> np.ndarray:
+        """Return the middle of the origins of each cell and a radius around it within which they lie, (4, cells)."""
+        low, high = (
+            np.nan_to_num([self._each(np.asarray(c, float), extreme) for c in origin]) for extreme in (np.fmin, np.fmax)
+        )
+        middle, radius = low / 2 + high / 2, norm(high - low) / 2
+        return np.append(middle, [BEYOND * radius + FUNCTION_ROUNDING * norm(middle)], axis=0)
+
+    def spans(
+        self, edges: np.ndarray, doubt: np.ndarray, bounds: np.ndarray, turns: np.ndarray, planes: Planes,
+        farthest: np.ndarray,
+    ) -> tuple[Runs, Runs]:  # fmt: skip
+        """Return the triangles and pixels of hits, and those that have to be tested, within bounds (k, 4), unless they
+        lie beyond ``farthest``, t in each cell.
 
         edges: (3, c, k), the vectors whose products with a ray's direction and moment are the three ``volumes`` of a
         triangle, to ``doubt``, (k,). All of them are positive at a hit; of triangles ``turns``, by index, they may all
@@ -97,9 +118,11 @@ class RayCells:
         """
         whole, turning = self._parts(edges, doubt, bounds, turns)
         each = [cells.only(np.flatnonzero(cells.meets())) for cells in (whole, whole.only(turning).turned())]
-        parts = _Parts(*(np.concatenate(values, -1) for values in zip(*each, strict=True))) if turning.size else each[0]
-        parts = parts.narrowed()
-        rows = _rows(parts)
+        parts = each[0]
+        if turning.size:
+            parts = CellParts(*(np.concatenate(values, -1) for values in zip(*each, strict=True)))
+        parts = parts.only(np.flatnonzero(self._may_show(parts, planes, farthest.reshape(-1)))).narrowed()
+        rows = rows_of(parts)
         return self._runs(parts, rows.at, rows.row, rows.first, rows.last), self._open(parts, rows)
 
     def windows(
@@ -112,6 +135,37 @@ class RayCells:
         cells = whole.only(np.flatnonzero(meets))
         y, x = np.divmod(cells.pixel, self._width)
         return cells.at, np.stack((x + cells.x0, x + cells.x1 + 1, y + cells.y0, y + cells.y1 + 1), axis=1)
+
+    def in_front(self, functions: np.ndarray, bounds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return which bounds (k, 4) have cells in which, of linear functions of the direction, (n, 3, k), the first
+        may be at least 0 and at least the magnitude of each other one, by index, and these bounds around such cells.
+        """
+        side, sizes = self._side - 1, np.abs(self._terms)
+        sizes = sizes[0] + side * (sizes[1] + sizes[2])
+        value, across, up = (np.einsum("nck,cp->nkp", functions, terms) for terms in self._terms[:3])
+        doubt = np.einsum("nck,cp->nkp", np.abs(functions), self._terms[3] + FUNCTION_ROUNDING * sizes)
+        least = value + side * (np.minimum(across, 0) + np.minimum(up, 0)) - doubt
+        largest = value + side * (np.maximum(across, 0) + np.maximum(up, 0)) + doubt
+        ahead = largest[0]
+        meets = (ahead >= 0) & (least[1:] <= ahead).all(axis=0) & (largest[1:] >= -ahead).all(axis=0)
+        meets, bounds = meets.reshape(len(bounds), -1, self._wide), bounds.copy()
+        for axis in (1, 2):
+            lines, ends = meets.any(axis=axis), bounds[:, 2 * axis - 2 : 2 * axis]
+            first, last = lines.argmax(axis=1), lines.shape[1] - lines[:, ::-1].argmax(axis=1)
+            np.clip(ends, (self._side * first)[:, None], (self._side * last)[:, None], out=ends)
+        here = np.flatnonzero(meets.any(axis=(1, 2)) & (bounds[:, 0] < bounds[:, 1]) & (bounds[:, 2] < bounds[:, 3]))
+        return here, bounds[here]
+
+    def _may_show(self, parts: CellParts, planes: Planes, farthest: np.ndarray) -> np.ndarray:
+        """Return which parts are not certainly behind the farthest t of their cells: the sum of the three volumes is
+        the product of a triangle's normal and the direction.
+        """
+        y, x = np.divmod(parts.pixel, self._width)
+        cell = y // self._side * self._wide + x // self._side
+        origins = None if self._origins is None else taken(self._origins, cell)
+        height = planes.heights(parts.at, origins, FUNCTION_ROUNDING)
+        slope = largest_of(parts, parts.volumes.sum(axis=0)) + LEAST_DOUBT
+        return ~(height * taken(self._scale, cell) > BEYOND * slope * taken(farthest, cell))
 
     def _parts(self, edges: np.ndarray, doubt: np.ndarray, bounds: np.ndarray, turns: np.ndarray):
         """Return the triangles in all cells of their bounds, and the indices of those that may turn: see ``spans``."""
@@ -135,9 +189,9 @@ class RayCells:
         pixel = y * self._width + x
         may_turn = np.zeros(len(bounds), bool)
         may_turn[turns] = True
-        return _Parts(at, pixel, volumes, x0, x1, y0, y1), np.flatnonzero(taken(may_turn, at))
+        return CellParts(at, pixel, volumes, x0, x1, y0, y1), np.flatnonzero(taken(may_turn, at))
 
-    def _open(self, parts: _Parts, rows: _Rows) -> Runs:
+    def _open(self, parts: CellParts, rows: PartRows) -> Runs:
         """Return the pixels of rows that may be hit and are not certainly."""
         none = rows.last < rows.first
         left = np.where(none, rows.largest, rows.first - 1)
@@ -145,100 +199,11 @@ class RayCells:
         runs = (self._runs(parts, rows.at, rows.row, first, last) for first, last in ends)
         return Runs(*map(np.concatenate, zip(*runs, strict=True)))
 
-    def _runs(self, parts: _Parts, at: np.ndarray, row: np.ndarray, first: np.ndarray, last: np.ndarray) -> Runs:
+    def _runs(self, parts: CellParts, at: np.ndarray, row: np.ndarray, first: np.ndarray, last: np.ndarray) -> Runs:
         """Return the pixels from the first to the last column of rows of parts."""
         filled = np.flatnonzero(first <= last)
         at, row, first, last = (taken(each, filled) for each in (at, row, first, last))
         return Runs(taken(parts.at, at), first + taken(parts.pixel, at) + row * self._width, last - first + 1)
-
-
-class _Parts(NamedTuple):
-    """Triangles in cells, (p,) each."""
-
-    at: np.ndarray
-    pixel: np.ndarray
-    """The first pixel of the cell in the tile."""
-    volumes: np.ndarray
-    """(3, 4, p): of each edge the volume at the first pixel of the cell, its changes by column and row, its doubt."""
-    x0: np.ndarray
-    """First column within the cell; then the last one, and the first and the last row."""
-    x1: np.ndarray
-    y0: np.ndarray
-    y1: np.ndarray
-
-    def only(self, indices: np.ndarray) -> _Parts:
-        return _Parts(*(taken(each, indices) for each in self))
-
-    def turned(self) -> _Parts:
-        """Return the triangles with their other sides: hits have volumes of the other sign."""
-        return self._replace(volumes=self.volumes * np.array((-1, -1, -1, 1))[:, None])
-
-    def meets(self) -> np.ndarray:
-        """Return in which parts no edge is certainly missed."""
-        volume, across, up, doubt = self.volumes.swapaxes(0, 1)
-        largest = volume + doubt
-        largest += np.maximum(across * self.x0, across * self.x1)
-        largest += np.maximum(up * self.y0, up * self.y1)
-        return (largest >= 0).all(axis=0)
-
-    def narrowed(self) -> _Parts:
-        """Return the parts in fewer rows: the edges, moved outwards by their doubt, meet at the corners of a triangle,
-        unless two are nearly parallel; no ray above or below these corners hits.
-        """
-        volume, across, up, doubt = self.volumes.swapaxes(0, 1)
-        largest = volume + doubt
-        next_across, next_up, next_largest = (each[[1, 2, 0]] for each in (across, up, largest))
-        right, left = across * next_up, next_across * up
-        turn, limit = right - left, ALONG * (np.abs(right) + np.abs(left))
-        right, left = next_across * largest, across * next_largest
-        limit = np.maximum(limit, ALONG * ROW_MARGIN * (np.abs(right) + np.abs(left)) + LEAST_DOUBT)
-        is_triangle = (turn > limit).all(axis=0) | (turn < -limit).all(axis=0)
-        corner = (right - left) / np.where(is_triangle, turn, 1.0)
-        low = np.where(is_triangle, np.ceil(corner.min(axis=0) - ROW_MARGIN), -np.inf)
-        high = np.where(is_triangle, np.floor(corner.max(axis=0) + ROW_MARGIN), np.inf)
-        y0 = np.clip(low, self.y0, self.y1 + 1).astype(np.intp)
-        return self._replace(y0=y0, y1=np.clip(high, y0 - 1, self.y1).astype(np.intp))
-
-
-@dataclass(frozen=True, eq=False)
-class _Rows:
-    """Rows of parts, (n,) each: columns in which they may be hit, and in which they are certainly hit."""
-
-    at: np.ndarray
-    row: np.ndarray
-    least: np.ndarray
-    largest: np.ndarray
-    first: np.ndarray
-    last: np.ndarray
-
-
-def _rows(parts: _Parts) -> _Rows:
-    """Return the rows in which parts may be hit."""
-    volume, across, up, doubt = parts.volumes.swapaxes(0, 1)
-    doubt = np.maximum(doubt, LEAST_DOUBT)
-    is_level = np.abs(across) < LEVEL * doubt
-    across = np.where(is_level, LEVEL * doubt, across)
-    doubt = np.where(is_level, (1 + 2 * LEVEL * tuning.RAY_CELL) * doubt, doubt)
-    inverse = 1 / across
-    at, row = counted(parts.y1 - parts.y0 + 1, parts.y0)
-    moved = taken(-up * inverse, at) * row
-    start, wide, begins = -volume * inverse, doubt * np.abs(inverse), inverse > 0
-
-    def latest(sign: int) -> np.ndarray:
-        return (taken(np.where(begins, start + sign * wide, -np.inf), at) + moved).max(axis=0)
-
-    def earliest(sign: int) -> np.ndarray:
-        return (taken(np.where(begins, np.inf, start + sign * wide), at) + moved).min(axis=0)
-
-    least = np.maximum(np.ceil(latest(-1)), taken(parts.x0, at))
-    largest = np.minimum(np.floor(earliest(1)), taken(parts.x1, at))
-    met = np.flatnonzero(least <= largest)
-    at, row, moved, least, largest = (taken(each, met) for each in (at, row, moved, least, largest))
-    first, last = np.maximum(np.ceil(latest(1)), least), np.minimum(np.floor(earliest(-1)), largest)
-    none = last < first
-    first[none], last[none] = 0, -1
-    ends = (each.astype(np.intp) for each in (least, largest, first, last))
-    return _Rows(at, row, *ends)
 
 
 def _linear(component: Any, side: int) -> tuple[Any, Any, Any, Any]:

@@ -79,7 +79,7 @@ class SearchRays:
     @lazy
     def cells(self) -> RayCells:
         """The directions, and the moments of rays with many origins, in cells of the tile."""
-        return RayCells(self.direction, self.moment, self.shape, tuning.RAY_CELL)
+        return RayCells(self.direction, self.moment, self.shape, tuning.RAY_CELL, self.origin)
 
     @lazy
     def wide_cells(self) -> RayCells:

@@ -195,8 +195,8 @@ class MeshSet(ShapeSet):
         if len(meets) < len(triangles):
             triangles = triangles.only(meets)
         edges, doubt = edge_vectors(corners, rays.origin is None), _doubt(corners, reach)
-        met, open_ = rays.cells.spans(edges, CELLS_ROUNDING * doubt, triangles.bounds, turns)
-        planes = Planes(corners, rays.origin is None, reach[0])
+        planes, farthest = Planes(corners, rays.origin is None, reach[0]), nearest.farthest
+        met, open_ = rays.cells.spans(edges, CELLS_ROUNDING * doubt, triangles.bounds, turns, planes, farthest)
 
         def keep(hits: Pixels) -> None:
             t = planes.crossings(hits.at, *rays.at(hits.pixel))

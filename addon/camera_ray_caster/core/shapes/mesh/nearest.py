@@ -42,6 +42,8 @@ class Nearest:
     """The indices of the triangles that have numbers."""
     met: list[tuple[np.ndarray, np.ndarray, np.ndarray]] | None = None
     """Pixels, t and numbers of all hits; None if they are not asked for."""
+    farthest: np.ndarray = field(init=False)
+    """The farthest t in squares of RAY_CELL pixels, (rows, columns), when ``may_show`` was last asked."""
     _farthest: list[np.ndarray] = field(default_factory=list)
     """The largest t in the square of 1, 2, 4 ... cells a side that begins at each cell, to the right and upwards, as
     far as it was asked for since the last hit.
@@ -114,7 +116,8 @@ class Nearest:
         column, row = x0 // tuning.CELL, y0 // tuning.CELL
         cells = np.maximum((x1 - 1) // tuning.CELL - column, (y1 - 1) // tuning.CELL - row) + 1
         largest = int(cells.max(initial=1))
-        farthest = self._cells(largest)
+        farthest, side = self._cells(largest), tuning.RAY_CELL // tuning.CELL
+        self.farthest = _largest(_largest(farthest[0], side).T, side).T
         _, high, wide = farthest.shape
         level = np.frexp(np.arange(largest) + 0.5)[1].astype(np.intp)  # exactly: of 1, 2, 3 and 4, 5 to 8 cells ...
         entry = taken(level * (high * wide), cells - 1)

@@ -129,7 +129,19 @@ class Planes:
         """``longest`` is an upper bound of the lengths of the rays' directions."""
         area, product = plane(corners)
         places = (dot(area, corners[0]),) if from_eye else corners[0]
+        self._product = product
         self._corners, self._terms = corners, np.array((*area, STEEP * longest * product, *places))
+
+    def heights(self, at: np.ndarray, origins: np.ndarray | None, rounding: float) -> np.ndarray:
+        """Return lower bounds of the magnitudes of normal . (corner - o), (p,), of the triangles of these indices, for
+        origins o in balls, (4, p), None for the eye; ``rounding``: their error over the product of the lengths.
+        """
+        corner, product = taken(self._corners[0], at), taken(self._product, at)
+        limit = rounding * norm(corner)
+        if origins is None:
+            return np.abs(taken(self._terms[4], at)) - product * limit
+        normal = taken(self._terms[:3], at)
+        return np.abs(dot(normal, difference(corner, origins[:3]))) - product * (limit + origins[3])
 
     def crossings(self, at: np.ndarray, origin: Any, d: np.ndarray) -> np.ndarray:
         """Return ``crossing`` of rays, (m,), with the triangles of these indices."""
