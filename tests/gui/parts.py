@@ -15,13 +15,14 @@ def addon(name):
 
 
 def load(user, scenes, name):
-    """Open an example scene in the window as it is, with the sidebar on our tab."""
+    """Open an example scene in the window as it is, with the sidebar on our tab and at its top."""
     bpy.ops.wm.open_mainfile(filepath=str(scenes / f"{name}.blend"), load_ui=False)
     view = user.area().spaces.active
     view.shading.type, view.overlay.show_overlays = "SOLID", True
     view.region_3d.view_perspective = "PERSP"
     yield from user.wait(0.5)
     yield from user.open_tab("Ray Caster")
+    yield from user.scroll(60, down=False)
 
 
 def cast_through(user):

@@ -11,8 +11,9 @@ def overlays(space):
 
 def autosaved(user, scenes):
     """A file that Blender saved by itself while See Through hid outlines and grid shows them when it is opened."""
-    yield from load(user, scenes, "living_room_omnimax")
+    yield from load(user, scenes, "toys")
     paths = bpy.context.preferences.filepaths
+    bpy.context.scene.camera.data.camera_ray_caster.model = "OMNIMAX"
     before = overlays(user.area().spaces.active)
     cast_through(user)
     yield from user.press(f"{BUTTON}see_through(")

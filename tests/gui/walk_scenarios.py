@@ -9,7 +9,7 @@ from stranger_scenarios import choose_model, default_scene
 from user import pixels_of
 from window_scenarios import middle
 
-MOVIE = 4
+MOVIE = 2
 """Frames of the movie: enough to be one."""
 
 

@@ -7,6 +7,9 @@ import numpy as np
 from lesson_scenarios import place_of
 from parts import BUTTON, addon, cast_through, load
 
+MOVES = 12
+"""Places of the mouse on its way when a mark is dragged."""
+
 
 def shown_camera(user, scenes):
     """The sidebar's buttons change the camera that it shows while another one is selected, and say so of a light."""
@@ -221,7 +224,7 @@ def drag_a_ray(user, scenes):
     yield from user.press(f"{BUTTON}step_through(")
     yield from user.wait(1)
     marks = lesson.draw_in_picture
-    lesson.draw_in_picture = lambda *args: (drawn.append((time.monotonic(), *lesson.clicked.pixels)), marks(*args))
+    lesson.draw_in_picture = lambda *args: (drawn.extend(lesson.clicked.pixels), marks(*args))
     start = place_of(user, 300, 270)
     yield from user.click(*start)
     yield from user.until(lambda: lesson.clicked.pixels, "a pixel is clicked")
@@ -231,13 +234,14 @@ def drag_a_ray(user, scenes):
     yield from user.wait(0.2)
     drawn.clear()
     began = time.process_time()
-    yield from user.drag(start, np.add(start, (120, 30)), 60, 0.05)
-    yield from user.until(lambda: lesson.clicked.pixels[0][0] > first[0] + 60, "the mark has followed")
-    moved = len({pixel for _, pixel in drawn})
-    spent = 1e3 * (time.process_time() - began) / moved
-    rate = moved / (drawn[-1][0] - drawn[0][0])
-    print(f"dragged: {moved} updates, {rate:.1f} a second, {spent:.0f} ms of processor time each")
-    assert moved > 3, drawn
+    for step in range(1, MOVES + 1):
+        before = lesson.clicked.pixels[0]
+        x, y = np.add(start, np.multiply((120, 30), step / MOVES))
+        user.send("mousemove", round(x), user.window.height - 1 - round(y))
+        yield from user.until(lambda before=before: drawn and drawn[-1] != before, "the mark follows")
+    spent = 1e3 * (time.process_time() - began) / MOVES
+    print(f"dragged: {MOVES} updates, {spent:.0f} ms of processor time each")
+    assert lesson.clicked.pixels[0][0] > first[0] + 60
     yield from user.wait(0.5)
     assert lesson.clicked.held, "the view is not drawn while its mark moves"
     places = [place_of(user, *pixel) for pixel in (lesson.clicked.pixels[0], first)]
@@ -256,7 +260,7 @@ def drag_a_ray(user, scenes):
     yield from user.key("Escape")
     chosen = bpy.context.window_manager.camera_ray_caster_place
     chosen.x = 0.5
-    yield from user.until(lambda: drawn[-1][1][0] == round((0.5 + 1) / 2 * 960), "the view shows the slider's pixel")
+    yield from user.until(lambda: drawn[-1][0] == round((0.5 + 1) / 2 * 960), "the view shows the slider's pixel")
     user.screenshot("slid")
     lesson.draw_in_picture = marks
     bpy.ops.camera_ray_caster.clear_steps()
