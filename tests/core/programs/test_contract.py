@@ -29,7 +29,7 @@ MODULES = {module.PROGRAM.name: name for name, module in vars(programs).items() 
 FRAME = (640, 480)
 ODD = None, True, "x", "", -1.5, 1e300, [], [1], [[1, 2], [3]], {}, {"a": 1}, [{"a": 1}], [None]
 """What an entry may be in place of what it should be."""
-MOST = 40
+MOST = 20
 """Entries of a sample that are damaged, at even distances."""
 
 

@@ -1,4 +1,4 @@
-"""What a set takes does not grow with its pictures: 50 and 450 pictures, stubs of 24 x 18 pixels, have one peak; all
+"""What a set takes does not grow with its pictures: 50 and 250 pictures, stubs of 24 x 18 pixels, have one peak; all
 hostile inputs have 6,400.
 """
 
@@ -17,7 +17,7 @@ from camera_ray_caster.core.sets import SET_FORMATS
 from ...scripts.running import ROOT
 from . import test_sets
 
-FEW, MANY, MOST = 50, 450, 6400
+FEW, MANY, MOST = 50, 250, 6400
 ALLOWED = 12_000
 """Bytes a further picture, by which the peaks may differ: 0.5 to 2.5 kB were measured, 7.6 where one document has all
 frames, and 23 where the arrays of the stubs are held. A real picture has 270.

@@ -13,7 +13,7 @@ from ..cameras.model_examples import EXAMPLES, camera
 from .javascript import evaluated
 
 CASES = [(key, k) for key, examples in sorted(EXAMPLES.items()) for k in range(len(examples))]
-PIXELS = 10000
+PIXELS = 2000
 TWO = {"add", "subtract", "multiply", "divide", "remainder", "power", "minimum", "maximum", "hypot", "arctan2"}
 
 
