@@ -31,10 +31,10 @@ WORKERS ?= $(shell $(PYTHON) -c "import os; print(os.cpu_count() + 1)")
 BY_FILE = --dist loadfile --no-loadscope-reorder
 PYTEST = $(VENV)/bin/python -m pytest --numprocesses $(WORKERS) --max-worker-restart 0 --timeout 600
 
-test: $(VENV)/ready  ## run the tests with this Python, on all cores: each thing once, in two to three minutes
+test: $(VENV)/ready  ## run the tests with this Python, on all cores: each thing once, two to five minutes
 	$(PYTEST) $(BY_FILE)
 
-test-full: $(VENV)/ready  ## the same with all further examples, some ten minutes
+test-full: $(VENV)/ready  ## the same with all further examples, ten to twenty-five minutes
 	$(PYTEST) $(BY_FILE) -m "not hostile"
 
 test-hostile: $(VENV)/ready  ## try all hostile inputs, kills and full disks, some minutes; PART=1/4: a fourth of them
