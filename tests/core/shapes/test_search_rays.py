@@ -4,14 +4,17 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core import tuning
+from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.rays import rays_of
 from camera_ray_caster.core.maths.speed import Scratch
+from camera_ray_caster.core.records import INFINITE_PLANE, PLANE
 from camera_ray_caster.core.shapes.mesh.spans import RayLattice
 from camera_ray_caster.core.shapes.mesh.triangles import EDGES, Planes, edge_vectors
 from camera_ray_caster.core.shapes.ray_cells import RayCells
 from camera_ray_caster.core.shapes.search_rays import SearchRays
 
-from ..casting.test_cast import camera_at
+from ..cameras.model_examples import camera as camera_of
+from ..casting.test_cast import camera_at, shapes_of
 
 
 @pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
@@ -126,3 +129,12 @@ def test_bounds_of_functions_hold_each_pixel_in_front():
         assert inside[1][meets & inside[0]].all()
         pixels += inside.sum(axis=(1, 2))
     assert pixels[1] < 0.6 * pixels[0], pixels
+
+
+@pytest.mark.parametrize("kind", [PLANE, INFINITE_PLANE])
+def test_a_plane_through_the_eye_is_hit_on_both_sides_whatever_is_behind_it(kind):
+    """At t = 0, as one that is cast alone is."""
+    floor = [[1, 0, 0], [0, 0, 1], [0, 1, 0]]
+    rows = (kind, (0.3, 0, 0.2), floor), *((kind, (0, 0, -5 - k), 50.0) for k in range(12))
+    cam = camera_of("EQUIRECTANGULAR", {"resolution_x": 160, "resolution_y": 90, "clip_start": 0.0})
+    assert not cast(cam, shapes_of(*rows), passes="shape_index")["shape_index"].any()

@@ -94,8 +94,10 @@ class Plane(AffineKind):
         return t, hit
 
     def in_front(self, constants: PlaneConstants) -> np.ndarray:
+        """See ``AffineKind``; all are 0 for planes through the eye, which rays of both sides hit at t = 0."""
         ahead = constants.matrix[2:]
-        return np.concatenate((ahead, constants.cross)) if self.has_edges else ahead
+        functions = np.concatenate((ahead, constants.cross)) if self.has_edges else ahead
+        return np.where(constants.offset > 0, functions, 0.0)
 
     def lattice(self, constants: PlaneConstants, direction) -> PlaneLattice:
         return PlaneLattice(constants, self.has_edges, direction)
