@@ -1,5 +1,7 @@
 """The rays of a tile: rays at even distances, and cells in which rays are nearly linear in the pixel."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
@@ -138,3 +140,17 @@ def test_a_plane_through_the_eye_is_hit_on_both_sides_whatever_is_behind_it(kind
     rows = (kind, (0.3, 0, 0.2), floor), *((kind, (0, 0, -5 - k), 50.0) for k in range(12))
     cam = camera_of("EQUIRECTANGULAR", {"resolution_x": 160, "resolution_y": 90, "clip_start": 0.0})
     assert not cast(cam, shapes_of(*rows), passes="shape_index")["shape_index"].any()
+
+
+def test_many_planes_are_narrowed_in_little_memory(monkeypatch):
+    """Compared with the memory of the cast that does not narrow them."""
+    random, peaks = np.random.default_rng(2), []
+    shapes = shapes_of(*((PLANE, center, 20.0) for center in random.uniform(-20, 20, (2000, 3))))
+    cam = camera_of("EQUIRECTANGULAR", {"resolution_x": 320, "resolution_y": 160})
+    for tiles in (np.inf, tuning.NARROWED_TILES):
+        monkeypatch.setattr(tuning, "NARROWED_TILES", tiles)
+        tracemalloc.start()
+        cast(cam, shapes, passes="depth", threads=1)
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[1] < 1.5 * peaks[0], peaks

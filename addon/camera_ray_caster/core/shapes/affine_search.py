@@ -52,17 +52,18 @@ class SearchGroup:
 
     def large(self, rays: SearchRays) -> Iterator[Large]:
         here, bounds = self.within(rays.corner, rays.shape)
-        if rays.origin is None and pixels_in(bounds).sum() > tuning.NARROWED_TILES * math.prod(rays.shape):
-            functions = self.in_front(self._constants(here))
-            if functions is not None:
-                shown, bounds = rays.cells.in_front(functions, bounds)
-                here = here[shown]
+        is_narrowed = rays.origin is None and pixels_in(bounds).sum() > tuning.NARROWED_TILES * math.prod(rays.shape)
         count = max(1, tuning.PREPARED_PIXELS // sum(rays.shape))
         for end in range(len(here), 0, -count):
             chunk = slice(max(0, end - count), end)
-            meet = self._meet(rays, here[chunk])
-            for k in reversed(range(chunk.stop - chunk.start)):
-                yield Large(int(self.visible.at[here[chunk][k]]), bounds[chunk][k].tolist(), partial(meet, k))
+            chosen, edges = here[chunk], bounds[chunk]
+            functions = self.in_front(self._constants(chosen)) if is_narrowed else None
+            if functions is not None:
+                shown, edges = rays.cells.in_front(functions, edges)
+                chosen = chosen[shown]
+            meet = self._meet(rays, chosen)
+            for k in reversed(range(len(chosen))):
+                yield Large(int(self.visible.at[chosen[k]]), edges[k].tolist(), partial(meet, k))
 
     def _meet(self, rays: SearchRays, here: np.ndarray) -> Callable:
         """Return a function that gives t and hits, as ``Large.solve``, of the k-th shape at ``here`` in a window."""
