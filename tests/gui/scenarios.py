@@ -137,14 +137,11 @@ def overlay(user, scenes):
     scene.camera.location.x -= 3
     scene.camera_ray_caster_overlay.show = False
     user.area().tag_redraw()
-    gone = 1000  # of Blender's own edges 500 pixels are not the same each time; the overlay has 30,000
-    yield from user.until(lambda: changed(off, user.picture("overlay_gone")) < gone, "it is gone")
+    yield from user.until(lambda: changed(off, user.picture("overlay_gone")) < 100, "it is gone")
     scene.camera_ray_caster_overlay.show = True
     yield from user.press(f"{BUTTON}verify(")
     yield from user.until(addon("output.reports").verified, "the camera is verified")
-    bpy.context.preferences.system.viewport_aa = "8"  # the listing has this picture
-    user.area().tag_redraw()
-    yield from user.wait(1)
+    yield from user.wait(0.7)
     user.screenshot("sidebar_and_overlay", [user.area()])
     scene.camera_ray_caster_overlay.show = False
 
