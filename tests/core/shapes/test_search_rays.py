@@ -143,14 +143,14 @@ def test_a_plane_through_the_eye_is_hit_on_both_sides_whatever_is_behind_it(kind
 
 
 def test_many_planes_are_narrowed_in_little_memory(monkeypatch):
-    """Compared with the memory of the cast that does not narrow them."""
+    """At most eight numbers for each pixel that is prepared at once, whatever the number of planes (four measured)."""
     random, peaks = np.random.default_rng(2), []
     shapes = shapes_of(*((PLANE, center, 20.0) for center in random.uniform(-20, 20, (2000, 3))))
     cam = camera_of("EQUIRECTANGULAR", {"resolution_x": 320, "resolution_y": 160})
-    for tiles in (np.inf, tuning.NARROWED_TILES):
+    for tiles in (np.inf, np.inf, tuning.NARROWED_TILES):  # the first cast of a process also allocates what is kept
         monkeypatch.setattr(tuning, "NARROWED_TILES", tiles)
         tracemalloc.start()
         cast(cam, shapes, passes="depth", threads=1)
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
-    assert peaks[1] < 1.5 * peaks[0], peaks
+    assert peaks[2] - peaks[1] < 8 * 8 * tuning.PREPARED_PIXELS, peaks
