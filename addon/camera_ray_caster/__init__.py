@@ -166,7 +166,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Remove everything that ``register`` added."""
-    from .blender import registration
-
-    registration.unregister()
+    """Remove everything that ``register`` added, if it was called."""
+    registration = sys.modules.get(f"{__name__}.blender.registration")
+    if registration is not None:
+        registration.unregister()

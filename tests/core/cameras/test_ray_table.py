@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import camera_ray_caster as crc
+from camera_ray_caster.core.cameras import ray_table
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.report.accuracy import Accuracy
 from camera_ray_caster.core.report.report import as_json, as_lines, report_cast
@@ -161,6 +162,15 @@ def test_a_table_larger_than_the_memory_is_refused_before_it_is_copied():
     huge = np.broadcast_to(np.zeros(3), (200_000, 100_000, 3))
     with pytest.raises(crc.InputError, match=r"GiB of memory .*give a coarser table"):
         crc.camera("RAY_TABLE", FRAME, ray_directions=huge)
+
+
+def test_the_cameras_of_a_rig_are_moved_without_preparing_their_tables_again(monkeypatch):
+    rig = [crc.camera("RAY_TABLE", FRAME, ray_directions=pinhole() * (1, 1, 1 + k / 8)) for k in range(8)]
+    moved = [cam.with_pose(np.eye(4)).model.grid for cam in rig]
+    assert all(grid is cam.model.grid for grid, cam in zip(moved, rig, strict=True))
+    monkeypatch.setattr(ray_table, "NUMBERS_KEPT", 8 * pinhole().size - 1)  # but not if they are large
+    crc.camera("RAY_TABLE", FRAME, ray_directions=pinhole())
+    assert rig[0].with_pose(np.eye(4)).model.grid is not rig[0].model.grid
 
 
 def test_rays_that_are_the_same_or_cross_are_named_as_the_cause():

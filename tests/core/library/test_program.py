@@ -85,7 +85,8 @@ def test_every_name_is_there_with_its_help():
 def test_what_needs_blender_says_so():
     code = "import camera_ray_caster as crc\ntry: crc.read_camera\nexcept AttributeError as error: print(error)"
     assert "needs Blender" in run(code)
-    code = "import camera_ray_caster as crc\ntry: crc.register()\nexcept ImportError as error: print(error)"
+    code = "import camera_ray_caster as crc\ncrc.unregister()\n"
+    code += "try: crc.register()\nexcept ImportError as error: print(error)"
     assert run(code).strip() == "register needs Blender: call it there, or pip install bpy"
     with pytest.raises(AttributeError, match="camra"):
         _ = crc.camra

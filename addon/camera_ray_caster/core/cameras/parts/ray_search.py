@@ -53,18 +53,21 @@ def places_of(grid: RayGrid, points: np.ndarray) -> np.ndarray:
     may be in a hole of the table or beyond it. If several rays pass through a point, it is one of them.
     """
     places, starts = np.full((len(points), 2), np.nan), _Starts(grid)
+    finite = np.flatnonzero(np.isfinite(points).all(axis=1))
     at_once = min(AT_ONCE, max(1, PRODUCTS // len(starts.places)))
-    for first in range(0, len(points), at_once):
-        block = points[first : first + at_once]
-        block_places = places[first : first + at_once]
+    for first in range(0, len(finite), at_once):
+        chosen = finite[first : first + at_once]
+        block = points[chosen]
         near = starts.nearest(block)
-        block_places[:] = _search(grid, block, near[0])
+        block_places = _search(grid, block, near[0])
         for start in near[1 : TRIES if grid.blocks.many == 1 else OF_BLOCKS]:
             lost = np.flatnonzero(np.isnan(block_places[:, 0]))
-            lost = lost[~np.isnan(grid.seen_parts.bounds(block[lost], np.zeros(len(lost)))[:, 0])]
-            if not len(lost):
+            if lost.size:
+                lost = lost[~np.isnan(grid.seen_parts.bounds(block[lost], np.zeros(len(lost)))[:, 0])]
+            if not lost.size:
                 break
             block_places[lost] = _search(grid, block[lost], start[lost])
+        places[chosen] = block_places
     return places
 
 
