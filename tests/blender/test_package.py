@@ -19,10 +19,9 @@ ADDON = Path(__file__).resolve().parents[2] / "addon"
 
 def python(*lines):
     """What another Python prints that runs these lines with the package beside it."""
-    clean = {key: value for key, value in os.environ.items() if key != "OCIO"}  # bpy sets it, and then speaks of it
     done = subprocess.run(
         [sys.executable, "-c", "\n".join(lines)],
-        env=clean | {"PYTHONPATH": os.pathsep.join((str(ADDON), os.environ.get("PYTHONPATH", "")))},
+        env=os.environ | {"PYTHONPATH": os.pathsep.join((str(ADDON), os.environ.get("PYTHONPATH", "")))},
         capture_output=True,
         text=True,
         timeout=300,

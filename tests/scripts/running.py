@@ -15,8 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 def script(name, *arguments, folder=None):
     """Run a script to its end."""
     words = [sys.executable, str(ROOT / "scripts" / f"{name}.py"), *map(str, arguments)]
-    clean = {key: value for key, value in os.environ.items() if key != "OCIO"}  # bpy sets it, and then speaks of it
-    return subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=300, env=clean)
+    return subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=300, env=os.environ)
 
 
 def in_this_process(name, *arguments):

@@ -28,8 +28,7 @@ def run(page, folder):
     programs.mkdir()
     (programs / "python").write_text(f'#!/bin/sh\nexec "{sys.executable}" "$@"\n')
     (programs / "python").chmod(0o755)
-    clean = {key: value for key, value in os.environ.items() if key != "OCIO"}
-    environment = {**clean, "PATH": f"{programs}:{clean['PATH']}", "PYTHONPATH": str(ROOT / "addon")}
+    environment = os.environ | {"PATH": f"{programs}:{os.environ['PATH']}", "PYTHONPATH": str(ROOT / "addon")}
     words = [sys.executable, "-c", RUN, str(ROOT / "docs" / "tutorials" / page)]
     done = subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stdout + done.stderr
