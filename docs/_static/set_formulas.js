@@ -2,6 +2,6 @@
 document.querySelectorAll("#formula ol pre").forEach((block) => {
   const symbols = block.textContent.trim(), set = document.createElement("div");
   set.title = symbols;
-  set.append(...mathOf(symbols).flatMap((one) => [one, "\u2003"]));
+  set.append(...mathOf(symbols).flatMap((node) => [node, "\u2003"]));
   (block.closest("div[class^='highlight-']") ?? block).replaceWith(set);
 });

@@ -67,7 +67,7 @@ def pixels_beside(raw, pixel, point):
     return truth.norm([(d * e - b * f) / (a * d - b * b), (a * f - b * e) / (a * d - b * b)])
 
 
-@pytest.mark.parametrize("model", [one for one in MODELS if one.differentiable], ids=lambda model: model.key)
+@pytest.mark.parametrize("model", [model for model in MODELS if model.differentiable], ids=lambda model: model.key)
 def test_each_point_is_where_60_digits_see_it_and_hidden_where_they_hide_it(model):
     """Within the bound of its position, as the picture enlarges it, and that of the model's inverse."""
     rng = np.random.default_rng(3)

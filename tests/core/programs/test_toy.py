@@ -33,9 +33,9 @@ for call in (lambda: crc.load_calibration(folder / "odd.txt"), lambda: crc.expor
         refusals.append(str(error))
 print(json.dumps({
     "table": pages.files(), "read": READ, "placed": PLACED, "help": crc.export.__doc__, "refusals": refusals,
-    "menu": [[one.key, one.label, one.description] for one in EXPORT_FORMATS],
+    "menu": [[format.key, format.label, format.description] for format in EXPORT_FORMATS],
     "rays": bool(abs(crc.load_calibration(paths[0]).rays().directions - camera.rays().directions).max() < 1e-12),
-    "rig": {name: one.pose.eye.tolist() for name, one in crc.load_rig(paths[0]).items()},
+    "rig": {name: camera.pose.eye.tolist() for name, camera in crc.load_rig(paths[0]).items()},
 }))
 """
 

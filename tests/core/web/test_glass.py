@@ -100,9 +100,9 @@ def light_of(driver):
     """The picture in full, once it is drawn: linear, rows from the bottom."""
     settled(driver)
     size, data = driver.execute_script(
-        "const one = document.getElementById('picture'), gl = one.getContext('webgl2');"
-        "const bytes = new Uint8Array(4 * one.width * one.height);"
-        "gl.readPixels(0, 0, one.width, one.height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);"
-        "return [[one.height, one.width], Array.from(bytes)]"
+        "const canvas = document.getElementById('picture'), gl = canvas.getContext('webgl2');"
+        "const bytes = new Uint8Array(4 * canvas.width * canvas.height);"
+        "gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);"
+        "return [[canvas.height, canvas.width], Array.from(bytes)]"
     )
     return (np.array(data, float).reshape(*size, 4)[..., :3] / 255) ** 2.2

@@ -38,7 +38,7 @@ BAD = {
 
 def shown(driver, name):
     """A row of the numbers."""
-    script = "return [...document.querySelectorAll('#numbers dt')].find((one) => one.textContent === arguments[0])"
+    script = "return [...document.querySelectorAll('#numbers dt')].find((node) => node.textContent === arguments[0])"
     return driver.execute_script(f"{script}?.nextSibling.textContent", name)
 
 
@@ -204,11 +204,11 @@ def test_it_fits_screens(page, screen):
         open_drawn(driver, page)
         assert driver.execute_script("return document.documentElement.scrollWidth <= window.innerWidth")
         wide = driver.execute_script(
-            "return [...document.querySelectorAll('main *')].filter((one) => one.getBoundingClientRect().right"
-            " > window.innerWidth + 1).map((one) => one.id || one.tagName)"
+            "return [...document.querySelectorAll('main *')].filter((node) => node.getBoundingClientRect().right"
+            " > window.innerWidth + 1).map((node) => node.id || node.tagName)"
         )
         assert wide == []
-        figures = "[...document.querySelectorAll('#figures button')].map((one) => one.getBoundingClientRect().right)"
+        figures = "[...document.querySelectorAll('#figures button')].map((node) => node.getBoundingClientRect().right)"
         assert max(driver.execute_script(f"return {figures}")) <= width
         canvas = by_id(driver, "picture")
         mouse(driver).move_to_element(canvas).click().perform()
@@ -218,8 +218,8 @@ def test_it_fits_screens(page, screen):
 def test_inputs_have_names_and_contrast_is_high(opened, page):
     fresh(opened, page)
     unnamed = opened.execute_script(
-        "return [...document.querySelectorAll('input, select, textarea, canvas, button')].filter((one) =>"
-        " !(one.labels?.length || one.getAttribute('aria-label') || one.textContent.trim())).map((one) => one.id)"
+        "return [...document.querySelectorAll('input, select, textarea, canvas, button')].filter((node) =>"
+        " !(node.labels?.length || node.getAttribute('aria-label') || node.textContent.trim())).map((node) => node.id)"
     )
     assert [name for name in unnamed if name != "map"] == []
     for theme in ("light", "dark"):

@@ -16,23 +16,23 @@ class Refusal extends Error {}
 
 function tokens(text) {
   if (text.length > LONGEST) throw new Refusal(`a formula has at most ${LONGEST} letters`);
-  const found = [], last = text.trimEnd().length, comma = /\d+,\d+/.exec(text);
+  const list = [], last = text.trimEnd().length, comma = /\d+,\d+/.exec(text);
   if (comma) throw new Refusal(`write ${comma[0].replace(",", ".")} in place of ${comma[0]}; between two numbers, put a space after the comma`);
   TOKEN.lastIndex = 0;
   while (TOKEN.lastIndex < last) {
-    const at = TOKEN.lastIndex, one = TOKEN.exec(text);
-    if (!one) {
+    const at = TOKEN.lastIndex, token = TOKEN.exec(text);
+    if (!token) {
       const letter = text.slice(at).trim()[0];
       throw new Refusal(`"${letter}" is no part of a formula${letter === "^" ? ": write a power as a**3" : ""}`);
     }
-    const [, number, name, power, degrees, sign] = one, end = TOKEN.lastIndex;
-    if (number) found.push({ kind: "number", value: Number(number), end });
-    else if (name) found.push({ kind: "name", value: name, end });
-    else if (power) found.push({ kind: "power", value: Number([...power].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c)).join("")), end });
-    else if (degrees) found.push({ kind: "degrees", end });
-    else found.push({ kind: sign, end });
+    const [, number, name, power, degrees, sign] = token, end = TOKEN.lastIndex;
+    if (number) list.push({ kind: "number", value: Number(number), end });
+    else if (name) list.push({ kind: "name", value: name, end });
+    else if (power) list.push({ kind: "power", value: Number([...power].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c)).join("")), end });
+    else if (degrees) list.push({ kind: "degrees", end });
+    else list.push({ kind: sign, end });
   }
-  return found;
+  return list;
 }
 
 // expression: term (+|- term)*; term: factor (*|/|×|.|nothing factor)*; factor: - factor | atom power*;
@@ -41,8 +41,8 @@ function parse(text) {
   const list = tokens(text);
   let at = 0, depth = 0;
   const kind = () => (at < list.length ? list[at].kind : "end");
-  const expect = (one) => {
-    if (kind() !== one) throw new Refusal(kind() === "end" ? `"${one}" is missing at the end` : `"${one}" is missing before "${list[at].value ?? kind()}"`);
+  const expect = (expected) => {
+    if (kind() !== expected) throw new Refusal(kind() === "end" ? `"${expected}" is missing at the end` : `"${expected}" is missing before "${list[at].value ?? kind()}"`);
     at++;
   };
   function expression() {
@@ -84,15 +84,15 @@ function parse(text) {
     return parts;
   }
   function atom() {
-    const one = list[at];
-    if (kind() === "number") { at++; return { op: "number", value: one.value }; }
+    const token = list[at];
+    if (kind() === "number") { at++; return { op: "number", value: token.value }; }
     if (kind() === "name") {
       at++;
-      if (!Object.hasOwn(FUNCTIONS, one.value)) return { op: "name", name: one.value, called: kind() === "(" && list[at].end === one.end + 1 };
-      if (kind() !== "(") throw new Refusal(`${one.value} needs parentheses`);
+      if (!Object.hasOwn(FUNCTIONS, token.value)) return { op: "name", name: token.value, called: kind() === "(" && list[at].end === token.end + 1 };
+      if (kind() !== "(") throw new Refusal(`${token.value} needs parentheses`);
       const of = several();
-      if (of.length !== FUNCTIONS[one.value][0]) throw new Refusal(`${one.value} takes ${FUNCTIONS[one.value][0]} number(s), not ${of.length}`);
-      return { op: "call", name: one.value, of };
+      if (of.length !== FUNCTIONS[token.value][0]) throw new Refusal(`${token.value} takes ${FUNCTIONS[token.value][0]} number(s), not ${of.length}`);
+      return { op: "call", name: token.value, of };
     }
     if (kind() === "(") { const of = several(); return of.length === 1 ? of[0] : { op: "vector", of }; }
     throw new Refusal(kind() === "end" ? "the formula ends too early" : `a number or a name is missing before "${kind()}"`);
@@ -116,17 +116,17 @@ const OPERATIONS = {
 function evaluate(tree, known) {
   if (tree.op === "number") return tree.value;
   if (tree.op === "name") return Object.hasOwn(known, tree.name) ? known[tree.name] : undefined;
-  const given = tree.of.map((part) => evaluate(part, known));
-  if (given.includes(undefined)) return undefined;
-  if (tree.op === "vector") return given.some(isVector) ? undefined : given;
-  if (tree.op === "call") return given.some(isVector) ? undefined : FUNCTIONS[tree.name][1](...given);
-  if ((tree.op === "×" || tree.op === ".") && !given.every((one) => isVector(one) && one.length === 3)) return undefined;
-  return OPERATIONS[tree.op](...given);
+  const operands = tree.of.map((part) => evaluate(part, known));
+  if (operands.includes(undefined)) return undefined;
+  if (tree.op === "vector") return operands.some(isVector) ? undefined : operands;
+  if (tree.op === "call") return operands.some(isVector) ? undefined : FUNCTIONS[tree.name][1](...operands);
+  if ((tree.op === "×" || tree.op === ".") && !operands.every((operand) => isVector(operand) && operand.length === 3)) return undefined;
+  return OPERATIONS[tree.op](...operands);
 }
 
 // "a = 1, b = (2, 3)" as pairs of a name and an expression.
 const ASSIGNED = /^([A-Za-z_][A-Za-z_0-9]*'?) = (.*)$/;
-const assignments = (symbols) => splitAssignments(symbols).map((part) => ASSIGNED.exec(part)).filter(Boolean).map((one) => [one[1], one[2]]);
+const assignments = (symbols) => splitAssignments(symbols).map((part) => ASSIGNED.exec(part)).filter(Boolean).map((match) => [match[1], match[2]]);
 
 function splitAssignments(symbols) {
   let depth = 0;
@@ -181,7 +181,7 @@ function workedOut(steps, known, own) {
           part.value = value;
           part.numbers = putIn(part.text, here);
           known[part.name] = value;
-          if (isVector(value)) value.forEach((one, k) => { known[`${part.name}_${"xyz"[k]}`] = one; });
+          if (isVector(value)) value.forEach((number, k) => { known[`${part.name}_${"xyz"[k]}`] = number; });
         }
       }
       count += part.value !== undefined;

@@ -67,11 +67,11 @@ class Glass {
     let ray = from(aim), stopped = false;
     const points = [[this.film, s]], sines = [];
     for (let k = surfaces.length - 1; k >= 0 && !stopped; k--) {
-      const found = refract(surfaces[k], ray, -1);
-      ray = found.ray;
+      const refracted = refract(surfaces[k], ray, -1);
+      ray = refracted.ray;
       if (!ray.every(Number.isFinite)) return { points, sines, aim, stopped: true };
       points.push(ray.slice(0, 2));
-      if (surfaces[k].before !== surfaces[k].behind) sines.unshift([k, ...found.sines]);
+      if (surfaces[k].before !== surfaces[k].behind) sines.unshift([k, ...refracted.sines]);
       stopped = Math.abs(ray[1]) > (k === stop ? this.radius : surfaces[k].rim ?? Infinity) * (1 + 1e-9);
     }
     return { points, sines, stopped, aim, direction: ray.slice(2) };
@@ -85,13 +85,13 @@ class Glass {
 
   // The program of the picture with the whole stop, and what it reads; the disc holds all rays that pass.
   get program() {
-    const { surfaces } = this.lens, bends = surfaces.reduce((count, one) => count + one.asphere.length, 0);
+    const { surfaces } = this.lens, bends = surfaces.reduce((count, surface) => count + surface.asphere.length, 0);
     return OF_GLASS.replace(/\b(SURFACES|BENDS)\b/g, (name) => ({ SURFACES: surfaces.length, BENDS: bends }[name]));
   }
 
   get uniforms() {
-    const { surfaces, stop, exit, pupil, unit, pitch, center } = this.lens, bends = surfaces.map((one) => one.asphere);
-    const start = bends.map((_, k) => bends.slice(0, k).flat().length), rim = (one, k) => k === stop ? this.radius : one.rim ?? 1e6;
+    const { surfaces, stop, exit, pupil, unit, pitch, center } = this.lens, bends = surfaces.map((surface) => surface.asphere);
+    const start = bends.map((_, k) => bends.slice(0, k).flat().length), rim = (surface, k) => k === stop ? this.radius : surface.rim ?? 1e6;
     const wide = WIDE * Math.abs(this.path(0, this.radius).aim), reach = Math.hypot(center[0] * pitch[0], center[1] * pitch[1]) * 1.5;
     const crossings = []; // of chief rays in the exit pupil, over the radius on the film
     for (let k = 1; k <= 17; k++) {
@@ -99,8 +99,8 @@ class Glass {
       crossings.push(Number.isFinite(aim) ? aim / r : crossings[k - 2] ?? 0);
     }
     return {
-      shapes: ["4fv", surfaces.flatMap((one, k) => [one.z, one.curvature, one.conic, rim(one, k)])],
-      media: ["4fv", surfaces.flatMap((one, k) => [one.before, one.behind, start[k], one.asphere.length])],
+      shapes: ["4fv", surfaces.flatMap((surface, k) => [surface.z, surface.curvature, surface.conic, rim(surface, k)])],
+      media: ["4fv", surfaces.flatMap((surface, k) => [surface.before, surface.behind, start[k], surface.asphere.length])],
       bends: ["2fv", [...bends.flat(2), 0, 0]], pitch: ["2fv", pitch], center: ["2fv", center],
       lens: ["4f", this.film, exit, pupil, WIDE ** 2], disc: ["1f", wide], unit: ["1f", unit], reach: ["1f", reach], crossings: ["1fv", crossings],
     };
@@ -129,7 +129,7 @@ class Glass {
     const line = (points, color, width) => { g.strokeStyle = color; g.lineWidth = width * ratio; g.beginPath(); points.forEach(([z, t], k) => g[k ? "lineTo" : "moveTo"](...this.at(z, t))); g.stroke(); };
     line([[front, 0], [last, 0]], ink("--faint"), 1);
     let edge = null;
-    for (const surface of surfaces.filter((one) => one.before !== one.behind)) {
+    for (const surface of surfaces.filter((other) => other.before !== other.behind)) {
       const rim = surface.rim ?? Math.min(wide, surface.curvature ? 0.9 / Math.abs(surface.curvature) : wide), arc = [];
       for (let k = -16; k <= 16; k++) arc.push([surface.z + sagOf(surface, (rim * k / 16) ** 2)[0], rim * k / 16]);
       line(arc, ink("--image"), 1.6);
@@ -138,10 +138,10 @@ class Glass {
     }
     for (const side of [-1, 1]) line([[surfaces[stop].z, side * this.radius], [surfaces[stop].z, side * Math.max(wide, 1.2 * this.radius)]], ink("--ink"), 4);
     line([[this.film, -wide], [this.film, wide]], ink("--ink"), 4);
-    for (const one of [...fan, chief]) {
-      const end = one.points[one.points.length - 1], points = [...one.points];
-      if (!one.stopped && one.direction[0] < 0) points.push([front, end[1] + (front - end[0]) / one.direction[0] * one.direction[1]]);
-      line(points, ink(one.stopped ? "--bad" : "--ray"), one === chief ? 2.4 : 0.9);
+    for (const path of [...fan, chief]) {
+      const end = path.points[path.points.length - 1], points = [...path.points];
+      if (!path.stopped && path.direction[0] < 0) points.push([front, end[1] + (front - end[0]) / path.direction[0] * path.direction[1]]);
+      line(points, ink(path.stopped ? "--bad" : "--ray"), path === chief ? 2.4 : 0.9);
     }
     this.tell(chief);
   }

@@ -7,10 +7,10 @@ let model, state, camera, seen = null, own = null, share = 1, fine = 0, whole = 
 const picture = new Picture($("picture")), space = new Space($("space")), glass = new Glass($("glass"), $("glass-text"), $("glass-sines"));
 
 function make(tag, text, settings = {}) {
-  const one = document.createElement(tag);
-  if (text !== undefined) one.textContent = text;
-  for (const [name, value] of Object.entries(settings)) one.setAttribute(name, value);
-  return one;
+  const element = document.createElement(tag);
+  if (text !== undefined) element.textContent = text;
+  for (const [name, value] of Object.entries(settings)) element.setAttribute(name, value);
+  return element;
 }
 
 function say(text) {
@@ -42,7 +42,7 @@ function choice(parent, name, label, options, get, set) {
   for (const { value, label: text } of options) select.append(make("option", text, { value: String(value) }));
   select.addEventListener("change", () => { set(options[select.selectedIndex].value); changed(); });
   parent.append(make("label", label, { for: `${name}-choice` }), select);
-  const refresh = () => { select.selectedIndex = options.findIndex((one) => one.value === get()); };
+  const refresh = () => { select.selectedIndex = options.findIndex((option) => option.value === get()); };
   refresh();
   return refresh;
 }
@@ -82,7 +82,7 @@ function numbers() {
   const { x, y } = state, [width, height] = model.size, ray = camera.ray(x, y);
   $("numbers").replaceChildren();
   row("pixel", `x = ${shown(x)}, y = ${shown(y)}`);
-  row("in [-1, 1]²", shown([2 * x / width - 1, 2 * y / height - 1].map((one) => Math.round(one * 1e6) / 1e6)));
+  row("in [-1, 1]²", shown([2 * x / width - 1, 2 * y / height - 1].map((coordinate) => Math.round(coordinate * 1e6) / 1e6)));
   if (Number.isNaN(ray[3])) {
     seen = null;
     $("tag").textContent = "no ray";
@@ -117,14 +117,14 @@ function steps() {
     }
     return;
   }
-  const { known, own: special, given } = knownOf(model, state.values, camera, state.x, state.y), found = workedOut(model.steps, known, special);
+  const { known, own: special, solved } = knownOf(model, state.values, camera, state.x, state.y), results = workedOut(model.steps, known, special);
   model.steps.forEach((step, k) => {
-    const item = make("li", step.words), names = given.filter((name) => named(step.symbols).includes(name));
+    const item = make("li", step.words), names = solved.filter((name) => named(step.symbols).includes(name));
     const set = make("div", undefined, { class: "symbols", title: step.symbols });
     set.append(...mathOf(step.symbols));
     item.append(set);
     if (names.length) item.append(make("code", `with ${names.map((name) => `${name} = ${shown(known[name])}`).join(", ")}`, { class: "symbols" }));
-    item.append(...found[k].map((one) => result(one.name, one.numbers, one.value)));
+    item.append(...results[k].map((assigned) => result(assigned.name, assigned.numbers, assigned.value)));
     list.append(item);
   });
 }
@@ -188,7 +188,7 @@ function changed() {
 }
 
 function choose(next) {
-  model = MODELS.find((one) => one.key === next.model);
+  model = MODELS.find((entry) => entry.key === next.model);
   glass.lens = null; // with its own stop and film again
   own = next.own === undefined ? null : readText(next.own);
   if (own) $("own").value = next.own;
@@ -236,7 +236,7 @@ function arrows(canvas, apply) {
 function turnView(a, b) {
   space.view.turn -= a;
   space.view.tilt = Math.min(Math.max(space.view.tilt + b, -0.2), 1.5607);
-  document.querySelectorAll("[data-view]").forEach((one) => one.setAttribute("aria-pressed", "false"));
+  document.querySelectorAll("[data-view]").forEach((button) => button.setAttribute("aria-pressed", "false"));
 }
 
 function setTheme(name) {
@@ -246,7 +246,7 @@ function setTheme(name) {
 
 function readText(text) {
   const made = readOwn(text), lines = text.split("\n").map((line) => line.trim()).filter(Boolean);
-  made.forEach((one, k) => { one.text = lines[k].slice(lines[k].indexOf("=") + 1).trim(); });
+  made.forEach((assignment, k) => { assignment.text = lines[k].slice(lines[k].indexOf("=") + 1).trim(); });
   return { made, camera: ownCamera(made, model.size) };
 }
 
@@ -259,14 +259,14 @@ function withOwn(then) {
   };
 }
 
-function drawMap(found) {
-  const columns = 48, rows = 27, errors = errorMap(found.camera, columns, rows), g = $("map").getContext("2d");
+function drawMap(written) {
+  const columns = 48, rows = 27, errors = errorMap(written.camera, columns, rows), g = $("map").getContext("2d");
   errors.forEach((error, n) => {
     const share = Math.min(Math.max((Math.log10(Math.max(error, 1e-12)) + 12) / 12, 0), 1);
     g.fillStyle = Number.isNaN(error) ? "#777" : error > 1e-3 ? "#c2410c" : `hsl(${210 - 160 * share} 70% ${34 + 30 * share}%)`;
     g.fillRect(n % columns * 10, (rows - 1 - Math.floor(n / columns)) * 10, 10, 10);
   });
-  const rays = errors.filter((one) => !Number.isNaN(one)), lost = rays.filter((one) => one > 1e-3).length, largest = Math.max(...rays.filter((one) => one <= 1e-3), 0);
+  const rays = errors.filter((error) => !Number.isNaN(error)), lost = rays.filter((error) => error > 1e-3).length, largest = Math.max(...rays.filter((error) => error <= 1e-3), 0);
   $("map-text").textContent = `Pixel to ray to pixel: ${rays.length - lost} of ${rays.length} rays come back, at most ${shown(largest, 2)} pixels off; ${lost} do not (orange); ${errors.length - rays.length} pixels have no ray (gray).`;
   $("map-figure").hidden = false;
 }
@@ -277,32 +277,32 @@ function save(text) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
-for (const group of [...new Set(MODELS.map((one) => one.group))]) {
+for (const group of [...new Set(MODELS.map((entry) => entry.group))]) {
   const part = make("optgroup", undefined, { label: group });
-  MODELS.filter((one) => one.group === group).forEach((one) => part.append(make("option", one.label, { value: one.key })));
+  MODELS.filter((entry) => entry.group === group).forEach((entry) => part.append(make("option", entry.label, { value: entry.key })));
   $("model").append(part);
 }
 $("model").append(make("option", "My camera (written below)", { value: "OWN" }));
 $("model").addEventListener("change", () => {
   if ($("model").value === "OWN") { $("own-use").click(); return; }
-  const { x, y, time, times, spread, turn, tilt, walk } = state, next = freshState(MODELS.find((one) => one.key === $("model").value));
-  const moved = [x, y].map((one, k) => one / model.size[k] * MODELS.find((m) => m.key === next.model).size[k]);
+  const { x, y, time, times, spread, turn, tilt, walk } = state, next = freshState(MODELS.find((entry) => entry.key === $("model").value));
+  const moved = [x, y].map((coordinate, k) => coordinate / model.size[k] * MODELS.find((m) => m.key === next.model).size[k]);
   choose({ ...next, x: moved[0], y: moved[1], time, times, spread, turn, tilt, walk });
 });
 for (const figure of SCENE.still ? [] : FIGURES) {
   const button = make("button", figure.label, { type: "button", title: figure.text });
   button.addEventListener("click", () => {
-    const fresh = freshState(MODELS.find((one) => one.key === figure.model));
+    const fresh = freshState(MODELS.find((entry) => entry.key === figure.model));
     choose({ ...fresh, ...figure.state, values: { ...fresh.values, ...figure.values } });
     space.view = { ...VIEWS[figure.view], ...figure.look };
-    document.querySelectorAll("[data-view]").forEach((one) => one.setAttribute("aria-pressed", String(one.dataset.view === figure.view)));
+    document.querySelectorAll("[data-view]").forEach((other) => other.setAttribute("aria-pressed", String(other.dataset.view === figure.view)));
     $("caption").textContent = figure.text;
   });
   $("figures").append(button);
 }
 document.querySelectorAll("[data-view]").forEach((button) => button.addEventListener("click", () => {
   space.view = { ...VIEWS[button.dataset.view] };
-  document.querySelectorAll("[data-view]").forEach((one) => one.setAttribute("aria-pressed", String(one === button)));
+  document.querySelectorAll("[data-view]").forEach((other) => other.setAttribute("aria-pressed", String(other === button)));
   changed();
 }));
 dragging($("picture"), pointAt, pointAt);
@@ -318,15 +318,15 @@ $("reset").addEventListener("click", () => { $("caption").textContent = ""; choo
 $("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
 $("own").value = OWN_TEXT;
 $("functions").textContent = Object.keys(FUNCTIONS).join(", ");
-$("own-use").addEventListener("click", withOwn((found) => {
-  if (picture.gl) picture.program(found.camera.glsl, found.camera.numbers.length);
-  own = found;
+$("own-use").addEventListener("click", withOwn((written) => {
+  if (picture.gl) picture.program(written.camera.glsl, written.camera.numbers.length);
+  own = written;
   state.own = $("own").value;
   build();
   changed();
 }));
 $("own-map").addEventListener("click", withOwn(drawMap));
-$("own-python").addEventListener("click", withOwn((found) => save(pythonOf(found.made))));
+$("own-python").addEventListener("click", withOwn((written) => save(pythonOf(written.made))));
 if (SCENE.still) { $("space-label").textContent = "The ray in the scene"; $("view-title").textContent = "The camera in the scene"; }
 $("blank").hidden = Boolean(picture.gl);
 // The address may have been written anew, by changed(), since the event: what was asked for is in the event.
@@ -337,7 +337,7 @@ openLink(location.hash);
 
 // For scripts and tests: the models, and the picture of shape indices and distances of a model.
 window.lesson = {
-  models: MODELS.map((one) => one.key),
+  models: MODELS.map((entry) => entry.key),
   isDrawn: () => !waiting && !settling,
   fixLensQuality: (samples, share) => { lensQuality = [samples, share]; },
   state: () => JSON.parse(JSON.stringify(state)),
@@ -346,6 +346,6 @@ window.lesson = {
   ray: () => camera.ray(state.x, state.y),
   cast: (x, y) => { const at = worldRay(pose(state), camera.ray(x, y)); return cast(at.origin, at.direction, state.time); },
   place: (point) => space.place(point),
-  indices: (key) => { const next = freshState(MODELS.find((one) => one.key === key)); return picture.indices(cameraOf(MODELS.find((one) => one.key === key), next.values), next); },
-  speed: (key, width) => { const one = MODELS.find((other) => other.key === key), next = freshState(one), made = cameraOf(one, next.values); picture.indices(made, next); const began = performance.now(); for (let n = 0; n < 5; n++) picture.draw(made, next, width / one.size[0]); const pixel = new Uint8Array(4); picture.gl.readPixels(0, 0, 1, 1, picture.gl.RGBA, picture.gl.UNSIGNED_BYTE, pixel); return (performance.now() - began) / 5; },
+  indices: (key) => { const next = freshState(MODELS.find((entry) => entry.key === key)); return picture.indices(cameraOf(MODELS.find((entry) => entry.key === key), next.values), next); },
+  speed: (key, width) => { const chosen = MODELS.find((entry) => entry.key === key), next = freshState(chosen), made = cameraOf(chosen, next.values); picture.indices(made, next); const began = performance.now(); for (let n = 0; n < 5; n++) picture.draw(made, next, width / chosen.size[0]); const pixel = new Uint8Array(4); picture.gl.readPixels(0, 0, 1, 1, picture.gl.RGBA, picture.gl.UNSIGNED_BYTE, pixel); return (performance.now() - began) / 5; },
 };

@@ -10,9 +10,9 @@ function mathElement(tag, ...parts) {
 }
 
 function mathName(name) {
-  const [first, ...rest] = name.replace(/'/g, "").replace(/^([A-Za-z]+)(\d+)$/, "$1_$2").split("_"), mark = name.endsWith("'") ? "′" : "";
-  const base = mathElement("mi", (GREEK[first] ?? first) + (rest.length ? "" : mark));
-  return rest.length ? mathElement("msub", base, mathElement("mi", rest.map((one) => GREEK[one] ?? one).join(" ") + mark)) : base;
+  const [first, ...subscripts] = name.replace(/'/g, "").replace(/^([A-Za-z]+)(\d+)$/, "$1_$2").split("_"), mark = name.endsWith("'") ? "′" : "";
+  const base = mathElement("mi", (GREEK[first] ?? first) + (subscripts.length ? "" : mark));
+  return subscripts.length ? mathElement("msub", base, mathElement("mi", subscripts.map((subscript) => GREEK[subscript] ?? subscript).join(" ") + mark)) : base;
 }
 
 function mathSign(sign) {
@@ -22,7 +22,7 @@ function mathSign(sign) {
 }
 
 const fenced = (open, inside, close) => mathElement("mrow", mathElement("mo", open), ...inside, mathElement("mo", close));
-const listed = (parts) => parts.flatMap((one, k) => (k ? [mathElement("mo", ","), mathTree(one)] : [mathTree(one)]));
+const listed = (parts) => parts.flatMap((part, k) => (k ? [mathElement("mo", ","), mathTree(part)] : [mathTree(part)]));
 
 function mathTree(tree, least = 0) {
   if (tree.op === "number") return mathElement("mn", String(tree.value));

@@ -10,10 +10,10 @@ function readOwn(text) {
   if (!lines.length || lines.length > OWN_LINES) throw new Refusal(`give one to ${OWN_LINES} lines`);
   const kinds = { x: 1, y: 1, W: 1, H: 1, pi: 1 }, made = [];
   lines.forEach((line, k) => {
-    const found = /^([A-Za-z][A-Za-z0-9_]{0,19})\s*=\s*(.+)$/.exec(line);
+    const match = /^([A-Za-z][A-Za-z0-9_]{0,19})\s*=\s*(.+)$/.exec(line);
     try {
-      if (!found) throw new Refusal("write: name = formula");
-      const [, name, formula] = found;
+      if (!match) throw new Refusal("write: name = formula");
+      const [, name, formula] = match;
       if (GIVEN.includes(name) || Object.hasOwn(FUNCTIONS, name) || TAKEN.has(name)) throw new Refusal(`${name} is taken: choose another name`);
       const tree = parse(formula);
       const count = kindOf(tree, kinds);
@@ -37,14 +37,14 @@ function kindOf(tree, kinds) {
     if (!Object.hasOwn(kinds, tree.name)) throw new Refusal(`${tree.name.slice(0, 20)} is not known: ${known[0]} are ${Object.keys(known[1]).join(", ")}`);
     return kinds[tree.name];
   }
-  const given = tree.of.map((part) => kindOf(part, kinds));
+  const operands = tree.of.map((part) => kindOf(part, kinds));
   if (tree.op === "vector") {
-    if (given.length !== 3 || given.includes(3)) throw new Refusal("a vector has three numbers");
+    if (operands.length !== 3 || operands.includes(3)) throw new Refusal("a vector has three numbers");
     return 3;
   }
-  if (tree.op === "call" || tree.op === "power") { if (given.includes(3)) throw new Refusal(`${tree.name ?? "a power"} takes numbers, not a vector`); return 1; }
-  if (tree.op === "×" || tree.op === ".") { if (given.includes(1)) throw new Refusal(`"${tree.op}" is between two vectors`); return tree.op === "." ? 1 : 3; }
-  return Math.max(...given);
+  if (tree.op === "call" || tree.op === "power") { if (operands.includes(3)) throw new Refusal(`${tree.name ?? "a power"} takes numbers, not a vector`); return 1; }
+  if (tree.op === "×" || tree.op === ".") { if (operands.includes(1)) throw new Refusal(`"${tree.op}" is between two vectors`); return tree.op === "." ? 1 : 3; }
+  return Math.max(...operands);
 }
 
 function glslOf(made) {
@@ -56,19 +56,19 @@ function glslOf(made) {
   const write = (tree) => {
     if (tree.op === "number") return [1, number(tree.value)];
     if (tree.op === "name") return names[tree.name];
-    const given = tree.of.map(write), [first, second] = given.map((one) => one[1]), kind = Math.max(...given.map((one) => one[0]));
+    const operands = tree.of.map(write), [first, second] = operands.map((operand) => operand[1]), kind = Math.max(...operands.map((operand) => operand[0]));
     if (tree.op === "call") {
       if (DOMAINS[tree.name]) lines.push(`  ok = ok && ${DOMAINS[tree.name].replace("A", first)};`);
-      return put(1, `${FUNCTIONS[tree.name][2]}(${given.map((one) => one[1]).join(", ")})`);
+      return put(1, `${FUNCTIONS[tree.name][2]}(${operands.map((operand) => operand[1]).join(", ")})`);
     }
-    if (tree.op === "vector") return put(3, `vec3(${given.map((one) => one[1]).join(", ")})`);
+    if (tree.op === "vector") return put(3, `vec3(${operands.map((operand) => operand[1]).join(", ")})`);
     if (tree.op === "power") { const n = tree.of[1].op === "number" ? tree.of[1].value : NaN; return put(1, n === 2 ? `${first} * ${first}` : `power(${first}, ${second})`); }
     if (tree.op === "negative") return put(kind, `-${first}`);
     if (tree.op === "×") return put(3, `cross(${first}, ${second})`);
     if (tree.op === ".") return put(1, `dot(${first}, ${second})`);
-    if (tree.op === "/") lines.push(`  ok = ok && ${given[1][0] === 3 ? `all(notEqual(${second}, vec3(0.0)))` : `${second} != 0.0`};`);
-    const wide = (one) => (kind === 3 && one[0] === 1 ? `vec3(${one[1]})` : one[1]);
-    return put(kind, `${wide(given[0])} ${tree.op} ${wide(given[1])}`);
+    if (tree.op === "/") lines.push(`  ok = ok && ${operands[1][0] === 3 ? `all(notEqual(${second}, vec3(0.0)))` : `${second} != 0.0`};`);
+    const wide = (operand) => (kind === 3 && operand[0] === 1 ? `vec3(${operand[1]})` : operand[1]);
+    return put(kind, `${wide(operands[0])} ${tree.op} ${wide(operands[1])}`);
   };
   for (const { name, tree, count: kind } of made) names[name] = put(kind, write(tree)[1]);
   const origin = names.o ? names.o[1] : "vec3(0.0)";
@@ -83,7 +83,7 @@ function ownCamera(made, size) {
     return names;
   };
   return {
-    key: "OWN", size, central: !made.some((one) => one.name === "o" && one.tree.of?.some((part) => part.value !== 0)), planar: false, numbers, glsl: glslOf(made),
+    key: "OWN", size, central: !made.some((line) => line.name === "o" && line.tree.of?.some((part) => part.value !== 0)), planar: false, numbers, glsl: glslOf(made),
     ray: (x, y) => { const { o = [0, 0, 0], d } = known(x, y); return norm(d) > 0 && d.every(Number.isFinite) ? [...o, ...scaled(d, 1 / norm(d))] : [0, 0, 0, NaN, NaN, NaN]; },
     values: () => ({}),
   };
@@ -93,16 +93,16 @@ function pythonOf(made) {
   const write = (tree) => {
     if (tree.op === "number") return Number.isInteger(tree.value) ? `${tree.value}.0` : String(tree.value);
     if (tree.op === "name") return { x: "x", y: "y", W: "width", H: "height", pi: "np.pi" }[tree.name] ?? `own_${tree.name}`;
-    const given = tree.of.map(write);
-    if (tree.op === "call") return `${FUNCTIONS[tree.name][3]}(${given.join(", ")})`;
-    if (tree.op === "vector") return `vector(${given.join(", ")})`;
-    if (tree.op === "negative") return `(-${given[0]})`;
-    if (tree.op === "×") return `cross(${given.join(", ")})`;
-    if (tree.op === ".") return `dot(${given.join(", ")})`;
-    return `(${given[0]} ${tree.op === "power" ? "**" : tree.op} ${given[1]})`;
+    const operands = tree.of.map(write);
+    if (tree.op === "call") return `${FUNCTIONS[tree.name][3]}(${operands.join(", ")})`;
+    if (tree.op === "vector") return `vector(${operands.join(", ")})`;
+    if (tree.op === "negative") return `(-${operands[0]})`;
+    if (tree.op === "×") return `cross(${operands.join(", ")})`;
+    if (tree.op === ".") return `dot(${operands.join(", ")})`;
+    return `(${operands[0]} ${tree.op === "power" ? "**" : tree.op} ${operands[1]})`;
   };
   const lines = made.map(({ name, tree }) => `        own_${name} = ${write(tree)}`);
-  const origin = made.some((one) => one.name === "o") ? "own_o" : "vector(0.0, 0.0, 0.0)";
+  const origin = made.some((line) => line.name === "o") ? "own_o" : "vector(0.0, 0.0, 0.0)";
   return `"""A camera of one's own: import this file, then crc.camera("MY_CAMERA", (640, 360))."""
 
 from dataclasses import dataclass
@@ -146,8 +146,8 @@ class MyCamera(crc.Model):
 
     key, label, group = "MY_CAMERA", "My Camera", "Multiperspective"
     description = "A camera written on the page of the lesson"
-    central = ${made.some((one) => one.name === "o") ? "False" : "True"}
-    FORMULA = (crc.Step("Lines of the page", ${JSON.stringify(made.map((one) => one.name).join(", "))}),)
+    central = ${made.some((line) => line.name === "o") ? "False" : "True"}
+    FORMULA = (crc.Step("Lines of the page", ${JSON.stringify(made.map((line) => line.name).join(", "))}),)
 
     def rays(self, x, y):
         width, height = self.size
@@ -165,7 +165,7 @@ function errorMap(camera, columns, rows) {
   return Array.from({ length: columns * rows }, (_, n) => {
     const x = (n % columns + 0.5) / columns * camera.size[0], y = (Math.floor(n / columns) + 0.5) / rows * camera.size[1], ray = camera.ray(x, y);
     if (Number.isNaN(ray[3])) return NaN;
-    const found = pixelOf(camera, along(ray.slice(0, 3), 4, ray.slice(3)));
-    return found ? Math.hypot(found[0] - x, found[1] - y) : Infinity;
+    const back = pixelOf(camera, along(ray.slice(0, 3), 4, ray.slice(3)));
+    return back ? Math.hypot(back[0] - x, back[1] - y) : Infinity;
   });
 }

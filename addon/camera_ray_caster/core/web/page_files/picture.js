@@ -25,9 +25,9 @@ vec4 seen(vec2 a, vec3 o, vec3 d) {
     vec3 center = vec3(turn.x + c * xz.x + s * xz.y, spheres[i].y, turn.y - s * xz.x + c * xz.y), to = o - center;
     float b = dot(to, d), r = spheres[i].w;
     vec3 off = to - b * d;
-    float rest = r * r - dot(off, off);
-    if (rest < 0.0) continue;
-    float root = sqrt(rest), at = -b - root > NEAR ? -b - root : -b + root;
+    float halfSquared = r * r - dot(off, off);
+    if (halfSquared < 0.0) continue;
+    float root = sqrt(halfSquared), at = -b - root > NEAR ? -b - root : -b + root;
     if (at > NEAR && at < best) { best = at; index = i; point = o + at * d; normal = (point - center) / r; }
   }
   for (int i = 0; i < FLATS; i++) {
@@ -87,8 +87,8 @@ void main() {
     color = plain > 0 ? vec4(1.0) : vec4(vec3(line), 1.0);
     return;
   }
-  vec4 found = seen(a, o, d);
-  color = plain > 0 ? found : displayed(found.rgb);
+  vec4 light = seen(a, o, d);
+  color = plain > 0 ? light : displayed(light.rgb);
 }`;
 
 // The picture of a real lens with its whole stop: from the film's point through every surface, to the scene.
@@ -100,12 +100,12 @@ uniform float disc, unit, reach, crossings[17];
 uniform int samples;
 vec2 sag(vec4 s, vec4 m, float q) {
   float root = sqrt(1.0 - (1.0 + s.z) * s.y * s.y * q);
-  vec2 found = vec2(s.y * q / (1.0 + root), s.y / (2.0 * root));
+  vec2 sum = vec2(s.y * q / (1.0 + root), s.y / (2.0 * root));
   for (int i = int(m.z); i < int(m.z + m.w); i++) {
     float lower = bends[i].y * pow(q + 1e-20, 0.5 * bends[i].x - 1.0);
-    found += vec2(lower * q, 0.5 * bends[i].x * lower);
+    sum += vec2(lower * q, 0.5 * bends[i].x * lower);
   }
-  return found;
+  return sum;
 }
 bool passes(inout vec3 o, inout vec3 d) {
   for (int k = SURFACES - 1; k >= 0; k--) {
@@ -120,9 +120,9 @@ bool passes(inout vec3 o, inout vec3 d) {
     }
     if (!(dot(o.xy, o.xy) <= s.w * s.w)) return false;
     vec3 n = -normalize(vec3(-2.0 * sag(s, m, dot(o.xy, o.xy)).y * o.xy, 1.0));
-    float ratio = m.y / m.x, cosine = dot(d, n), rest = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
-    if (!(rest >= 0.0)) return false;
-    d = ratio * d + (sqrt(rest) - ratio * cosine) * n;
+    float ratio = m.y / m.x, cosine = dot(d, n), cosineSquared = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+    if (!(cosineSquared >= 0.0)) return false;
+    d = ratio * d + (sqrt(cosineSquared) - ratio * cosine) * n;
   }
   return true;
 }
@@ -169,9 +169,9 @@ class Picture {
     const sizes = { SPHERES: SPHERES.length, FLATS: RECTANGLES.length, SHAPES: SPHERES.length + RECTANGLES.length, NEAR: SCENE.near.toExponential(6), NODES: SCENE.nodes, GRID: SCENE.still ? 0 : 1 };
     const caster = CASTER.replace(/\b(SPHERES|FLATS|SHAPES|NEAR|NODES|GRID)\b/g, (name) => sizes[name]);
     const text = `#version 300 es\nprecision highp float;\nprecision highp int;\nuniform float k[${Math.max(count, 1)}];\n${HELPERS}${source}out vec4 color;\n${DISPLAYED}${caster}${end}`;
-    for (const [kind, own] of [[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, text]]) {
+    for (const [kind, code] of [[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, text]]) {
       const shader = gl.createShader(kind);
-      gl.shaderSource(shader, own);
+      gl.shaderSource(shader, code);
       gl.compileShader(shader);
       if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Refusal(`the graphics card refuses the formula: ${(gl.getShaderInfoLog(shader) || "").split("\n")[0]}`);
       gl.attachShader(made, shader);
@@ -204,11 +204,11 @@ class Picture {
     gl.uniform1i(place("times"), TIMES.indexOf(state.times));
     gl.uniform1i(place("plain"), plain ? 1 : 0);
     gl.uniform2fv(place("turn"), TURN);
-    gl.uniform4fv(place("spheres"), [...SPHERES.flatMap((one) => [...one.center, one.radius]), 0, 0, 0, 0]);
-    gl.uniform3fv(place("colors"), [...[...SPHERES, ...RECTANGLES].flatMap((one) => one.color), 0, 0, 0]);
-    gl.uniform3fv(place("centers"), [...RECTANGLES.flatMap((one) => one.center), 0, 0, 0]);
-    gl.uniform3fv(place("sides_u"), [...RECTANGLES.flatMap((one) => one.u), 0, 0, 0]);
-    gl.uniform3fv(place("sides_v"), [...RECTANGLES.flatMap((one) => one.v), 0, 0, 0]);
+    gl.uniform4fv(place("spheres"), [...SPHERES.flatMap((sphere) => [...sphere.center, sphere.radius]), 0, 0, 0, 0]);
+    gl.uniform3fv(place("colors"), [...[...SPHERES, ...RECTANGLES].flatMap((shape) => shape.color), 0, 0, 0]);
+    gl.uniform3fv(place("centers"), [...RECTANGLES.flatMap((flat) => flat.center), 0, 0, 0]);
+    gl.uniform3fv(place("sides_u"), [...RECTANGLES.flatMap((flat) => flat.u), 0, 0, 0]);
+    gl.uniform3fv(place("sides_v"), [...RECTANGLES.flatMap((flat) => flat.v), 0, 0, 0]);
     const within = (value) => Number.isNaN(value) ? 0 : Math.min(Math.max(Number(value), -3e38), 3e38);
     if (glass) {
       for (const [name, [kind, ...values]] of Object.entries(glass.uniforms)) gl[`uniform${kind}`](place(name), ...values);

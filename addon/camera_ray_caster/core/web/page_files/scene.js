@@ -21,9 +21,9 @@ function cast(origin, direction, time) {
   let best = { t: Infinity, index: -1 };
   SPHERES.forEach((sphere, index) => {
     const center = turned(sphere.center, time), to = minus(origin, center), b = dot(to, d), off = minus(to, scaled(d, b));
-    const rest = sphere.radius ** 2 - dot(off, off);
-    if (rest < 0) return;
-    const root = Math.sqrt(rest), t = [-b - root, -b + root].find((one) => one > SCENE.near);
+    const halfSquared = sphere.radius ** 2 - dot(off, off);
+    if (halfSquared < 0) return;
+    const root = Math.sqrt(halfSquared), t = [-b - root, -b + root].find((distance) => distance > SCENE.near);
     if (t < best.t) { const point = along(origin, t, d); best = { t, index, point, normal: scaled(minus(point, center), 1 / sphere.radius), name: sphere.name }; }
   });
   RECTANGLES.forEach((flat, k) => {
@@ -62,10 +62,10 @@ function facet(k) {
 
 // The camera in the scene: its eye, and its axes u right, v up, w ahead.
 function pose(state) {
-  const c = Math.cos(state.turn), s = Math.sin(state.turn), C = Math.cos(state.tilt), S = Math.sin(state.tilt), own = SCENE.camera;
-  const mixed = (a, b, e) => [0, 1, 2].map((k) => a * own.u[k] + b * own.v[k] + e * own.w[k]);
+  const c = Math.cos(state.turn), s = Math.sin(state.turn), C = Math.cos(state.tilt), S = Math.sin(state.tilt), home = SCENE.camera;
+  const mixed = (a, b, e) => [0, 1, 2].map((k) => a * home.u[k] + b * home.v[k] + e * home.w[k]);
   const w = mixed(-s * C, S, c * C), u = mixed(c, 0, s);
-  return { eye: along(own.eye, -state.walk, own.w), u, v: cross(u, w), w };
+  return { eye: along(home.eye, -state.walk, home.w), u, v: cross(u, w), w };
 }
 
 function toWorld(at, vector) {

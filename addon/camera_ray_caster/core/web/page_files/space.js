@@ -12,7 +12,7 @@ class Space {
 
   draw(camera, state, seen) {
     this.drawAll(camera, state, seen);
-    this.wanted.forEach((one) => this.write(one));
+    this.wanted.forEach((label) => this.write(label));
   }
 
   drawAll(camera, state, seen) {
@@ -28,10 +28,10 @@ class Space {
     g.fillStyle = ink("--space");
     g.fillRect(0, 0, canvas.width, canvas.height);
     const at = pose(state), isBox = camera.key.endsWith("CAMERA_OBSCURA");
-    const own = SCENE.camera, scale = SCENE.scale;
-    this.look = this.looking(along(along(own.eye, -state.walk + (this.view.ahead ?? 2.6) * scale, own.w), -0.4 * SCENE.height, [0, 1, 0]));
+    const home = SCENE.camera, scale = SCENE.scale;
+    this.look = this.looking(along(along(home.eye, -state.walk + (this.view.ahead ?? 2.6) * scale, home.w), -0.4 * SCENE.height, [0, 1, 0]));
     for (let k = -6; SCENE.still && k <= 6; k++) {
-      const x = own.eye[0], z = own.eye[2], s = 2 * scale;
+      const x = home.eye[0], z = home.eye[2], s = 2 * scale;
       this.line([[x + k * s, SCENE.floor, z - 6 * s], [x + k * s, SCENE.floor, z + 6 * s]], ink("--faint"), 1);
       this.line([[x - 6 * s, SCENE.floor, z + k * s], [x + 6 * s, SCENE.floor, z + k * s]], ink("--faint"), 1);
     }
@@ -83,21 +83,21 @@ class Space {
     for (let i = 0; i < columns; i++) for (let j = 0; j < rows; j++) {
       const x = (i + 0.5) / columns, y = (j + 0.5) / rows, ray = camera.ray(x * width, y * height);
       const seen = worldRay(at, ray), hit = cast(seen.origin, seen.direction, timeOf(state, camera.size, x * width, y * height));
-      const corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(([a, b]) => image(a / columns, b / rows)).map((one) => one && this.place(one));
+      const corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(([a, b]) => image(a / columns, b / rows)).map((corner) => corner && this.place(corner));
       if (hit.index < 0 || corners.includes(null)) continue;
       const light = 0.6 + 0.4 * Math.abs(dot(hit.normal, seen.direction));
-      g.fillStyle = `rgb(${(hit.color ?? [...SPHERES, ...RECTANGLES][hit.index].color).map((one) => Math.round(255 * (one * light) ** (1 / 2.2)))})`;
+      g.fillStyle = `rgb(${(hit.color ?? [...SPHERES, ...RECTANGLES][hit.index].color).map((channel) => Math.round(255 * (channel * light) ** (1 / 2.2)))})`;
       g.beginPath();
-      corners.forEach((one) => g.lineTo(one[0], one[1]));
+      corners.forEach((corner) => g.lineTo(corner[0], corner[1]));
       g.closePath();
       g.fill();
       g.strokeStyle = g.fillStyle; // closes the seams
       g.lineWidth = this.unit;
       g.stroke();
     }
-    const wall = [[0, 0], [1, 0], [1, 1], [0, 1]].map(([a, b]) => image(a, b)), front = wall.map((one) => one && along(one, IMAGE, at.w));
+    const wall = [[0, 0], [1, 0], [1, 1], [0, 1]].map(([a, b]) => image(a, b)), front = wall.map((corner) => corner && along(corner, IMAGE, at.w));
     this.line([...front, front[0]], ink("--muted"), 1.4);
-    wall.forEach((one, k) => this.line([one, front[k]], ink("--muted"), 1.4));
+    wall.forEach((corner, k) => this.line([corner, front[k]], ink("--muted"), 1.4));
     if (wall[0] && wall[1]) this.label(along(scaled(along(wall[0], 1, wall[1]), 0.5), -0.15 * SCENE.scale, at.v), "wall", ink("--image"));
   }
 
@@ -123,11 +123,11 @@ class Space {
       made.height = canvas.height;
       g.globalAlpha = 0.3;
       for (let k = 0; k < SCENE.triangles; k++) {
-        const { corner, first, second, color } = facet(k), corners = [corner, along(corner, 1, first), along(corner, 1, second)].map((one) => this.place(one));
+        const { corner, first, second, color } = facet(k), corners = [corner, along(corner, 1, first), along(corner, 1, second)].map((point) => this.place(point));
         if (corners.includes(null)) continue;
-        g.fillStyle = `rgb(${color.map((one) => Math.round(255 * one ** (1 / 2.2)))})`;
+        g.fillStyle = `rgb(${color.map((channel) => Math.round(255 * channel ** (1 / 2.2)))})`;
         g.beginPath();
-        corners.forEach((one) => g.lineTo(one[0], one[1]));
+        corners.forEach((point) => g.lineTo(point[0], point[1]));
         g.fill();
       }
       this.cached = { key, made };
@@ -152,7 +152,7 @@ class Space {
     const g = this.g;
     g.strokeStyle = color;
     g.lineWidth = width * this.unit;
-    g.setLineDash(dash.map((one) => one * this.unit));
+    g.setLineDash(dash.map((length) => length * this.unit));
     g.beginPath();
     let last = null;
     for (let n = 0; n < points.length; n++) {
@@ -177,7 +177,7 @@ class Space {
   ball(center, sphere) {
     const to = this.place(center), g = this.g;
     if (!to) return;
-    const [r, gr, b] = sphere.color.map((one) => Math.round(255 * one ** (1 / 2.2))), radius = sphere.radius * to[2];
+    const [r, gr, b] = sphere.color.map((channel) => Math.round(255 * channel ** (1 / 2.2))), radius = sphere.radius * to[2];
     const shade = g.createRadialGradient(to[0] - radius / 3, to[1] - radius / 3, radius / 8, to[0], to[1], radius);
     shade.addColorStop(0, `rgb(${Math.min(255, r + 50)},${Math.min(255, gr + 50)},${Math.min(255, b + 50)})`);
     shade.addColorStop(1, `rgb(${Math.round(r * 0.62)},${Math.round(gr * 0.62)},${Math.round(b * 0.62)})`);
@@ -208,7 +208,7 @@ class Space {
       return false;
     }).length;
     const free = PLACES.map(([a, b]) => [Math.min(Math.max(to[0] + a * half, half), g.canvas.width - half), Math.min(Math.max(to[1] + b * high, high), g.canvas.height - high)])
-      .filter((one) => this.labels.every((other) => Math.abs(other.x - one[0]) >= other.half + half || Math.abs(other.y - one[1]) >= 1.2 * high));
+      .filter((label) => this.labels.every((other) => Math.abs(other.x - label[0]) >= other.half + half || Math.abs(other.y - label[1]) >= 1.2 * high));
     if (!free.length) return;
     const counts = free.map(([x, y]) => covered(x, y)), [x, y] = free[counts.indexOf(Math.min(...counts))];
     this.labels.push({ text, x, y, half });

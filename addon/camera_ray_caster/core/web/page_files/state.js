@@ -12,7 +12,7 @@ if (SCENE.still) Object.assign(VIEW.walk, { text: "Distance of the camera behind
 
 function freshState(model) {
   const values = Object.fromEntries([...model.knobs.map((knob) => [knob.name, knob.value]), ...Object.entries(model.choices)]);
-  const view = Object.fromEntries(Object.entries(VIEW).map(([name, one]) => [name, one.value]));
+  const view = Object.fromEntries(Object.entries(VIEW).map(([name, knob]) => [name, knob.value]));
   return { model: model.key, values, x: 0.7 * model.size[0], y: 0.55 * model.size[1], times: "none", ...view };
 }
 
@@ -30,7 +30,7 @@ function stateOf(link, models) {
   if (link.length > LONGEST_LINK) throw new Refusal(`the link is too long (${link.length} letters): it is no link of this page`);
   const words = new URLSearchParams(link), brief = (text) => JSON.stringify(text.slice(0, 24));
   if (words.get("v") !== String(VERSION)) throw new Refusal(`the link is of version ${brief(words.get("v") ?? "")}, this page reads version ${VERSION}`);
-  const key = words.get("model") ?? "", model = models.find((one) => one.key === key);
+  const key = words.get("model") ?? "", model = models.find((entry) => entry.key === key);
   if (!model) throw new Refusal(`the link names a camera that this page does not have: ${brief(key)}`);
   const state = freshState(model), knobs = Object.fromEntries(model.knobs.map((knob) => [knob.name, knob]));
   const number = (name, text, low, high) => {
@@ -44,9 +44,9 @@ function stateOf(link, models) {
     if (name === "own") { state.own = text; continue; }
     if (Object.hasOwn(knobs, name)) state.values[name] = number(name, text, knobs[name].low, knobs[name].high);
     else if (Object.hasOwn(model.options, name)) {
-      const found = model.options[name].find((one) => String(one.value) === text);
-      if (!found) throw new Refusal(`the link's ${name} is ${brief(text)}: it must be one of ${model.options[name].map((one) => one.value).join(", ")}`);
-      state.values[name] = found.value;
+      const option = model.options[name].find((choice) => String(choice.value) === text);
+      if (!option) throw new Refusal(`the link's ${name} is ${brief(text)}: it must be one of ${model.options[name].map((choice) => choice.value).join(", ")}`);
+      state.values[name] = option.value;
     } else if (name === "x" || name === "y") state[name] = number(name, text, 0, model.size[name === "x" ? 0 : 1]);
     else if (Object.hasOwn(VIEW, name)) state[name] = number(name, text, VIEW[name].low, VIEW[name].high);
     else if (name === "times" && TIMES.includes(text)) state.times = text;
@@ -57,17 +57,17 @@ function stateOf(link, models) {
 
 // A camera with the numbers of a state: its rays, and what the shader needs. A Refusal if its settings give none.
 function cameraOf(model, values) {
-  const variant = model.variants.find((one) => Object.entries(one.choices).every(([name, value]) => values[name] === value) && PREPARE[one.prepare](values) !== null);
+  const variant = model.variants.find((candidate) => Object.entries(candidate.choices).every(([name, value]) => values[name] === value) && PREPARE[candidate.prepare](values) !== null);
   if (!variant) throw new Refusal("no camera has these settings: they lie outside of what the model allows");
   const numbers = PREPARE[variant.prepare](values);
   return {
     key: model.key, size: model.size, central: model.central, planar: model.planar, numbers, glsl: GLSL[variant.glsl],
     ray: (x, y) => RAYS[variant.rays](numbers, x, y),
     values: (x, y) => {
-      const list = VALUES[variant.values](numbers, x, y), found = {};
+      const list = VALUES[variant.values](numbers, x, y), byName = {};
       let at = 0;
-      for (const [name, count] of variant.names) { found[name] = count === 1 ? list[at] : list.slice(at, at + count); at += count; }
-      return found;
+      for (const [name, count] of variant.names) { byName[name] = count === 1 ? list[at] : list.slice(at, at + count); at += count; }
+      return byName;
     },
   };
 }
@@ -80,13 +80,13 @@ function knownOf(model, values, camera, x, y) {
     const parts = name.split("_");
     for (let start = 1; start < parts.length; start++) known[parts.slice(start).join("_")] = value;
   }
-  const given = camera.values(x, y), view = { x: given.view_x, y: given.view_y };
-  delete given.view_x;
-  delete given.view_y;
-  const finite = Object.entries(given).filter(([, value]) => [value].flat().every(Number.isFinite));
+  const atPixel = camera.values(x, y), view = { x: atPixel.view_x, y: atPixel.view_y };
+  delete atPixel.view_x;
+  delete atPixel.view_y;
+  const finite = Object.entries(atPixel).filter(([, value]) => [value].flat().every(Number.isFinite));
   Object.assign(known, Object.fromEntries(numbers), { pi: Math.PI, W: model.size[0], H: model.size[1], x, y, p: 1 }, Object.fromEntries(finite));
   const solved = finite.filter(([name, value]) => Array.isArray(value) || name === "theta").map(([name]) => name);
-  return { known, given: solved, own: model.steps.map((step) => step.words.includes("[-1, 1]²") && view.x !== undefined ? view : {}) };
+  return { known, solved, own: model.steps.map((step) => step.words.includes("[-1, 1]²") && view.x !== undefined ? view : {}) };
 }
 
 // The pixel whose ray comes nearest to a point in the camera's frame, by Gauss and Newton from the best of a grid.
@@ -99,19 +99,19 @@ function pixelOf(camera, point) {
   };
   let best = { angle: Infinity };
   for (let i = 0; i < 16; i++) for (let j = 0; j < 12; j++) {
-    const x = (i + 0.5) / 16 * width, y = (j + 0.5) / 12 * height, found = off(x, y);
-    if (found && norm(found) < best.angle) best = { angle: norm(found), x, y, found };
+    const x = (i + 0.5) / 16 * width, y = (j + 0.5) / 12 * height, offset = off(x, y);
+    if (offset && norm(offset) < best.angle) best = { angle: norm(offset), x, y, offset };
   }
   for (let step = 0; step < 40 && best.angle < Infinity; step++) {
     const h = 1e-4, a = off(best.x + h, best.y), b = off(best.x - h, best.y), c = off(best.x, best.y + h), e = off(best.x, best.y - h);
     if (!a || !b || !c || !e) break;
     const p = scaled(minus(a, b), 0.5 / h), q = scaled(minus(c, e), 0.5 / h), pp = dot(p, p), pq = dot(p, q), qq = dot(q, q), det = pp * qq - pq * pq;
     if (!(det > 0)) break;
-    const f = dot(p, best.found), g = dot(q, best.found), dx = -(qq * f - pq * g) / det, dy = -(pp * g - pq * f) / det;
+    const f = dot(p, best.offset), g = dot(q, best.offset), dx = -(qq * f - pq * g) / det, dy = -(pp * g - pq * f) / det;
     let better = false;
     for (let share = 1; share > 1e-4 && !better; share /= 2) {
-      const x = Math.min(Math.max(best.x + share * dx, -1), width + 1), y = Math.min(Math.max(best.y + share * dy, -1), height + 1), found = off(x, y);
-      if (found && norm(found) < best.angle) { best = { angle: norm(found), x, y, found }; better = true; }
+      const x = Math.min(Math.max(best.x + share * dx, -1), width + 1), y = Math.min(Math.max(best.y + share * dy, -1), height + 1), offset = off(x, y);
+      if (offset && norm(offset) < best.angle) { best = { angle: norm(offset), x, y, offset }; better = true; }
     }
     if (!better) break;
   }
