@@ -165,6 +165,7 @@ def test_a_table_larger_than_the_memory_is_refused_before_it_is_copied():
 
 
 def test_the_cameras_of_a_rig_are_moved_without_preparing_their_tables_again(monkeypatch):
+    monkeypatch.setattr(ray_table, "_latest", {})
     rig = [crc.camera("RAY_TABLE", FRAME, ray_directions=pinhole() * (1, 1, 1 + k / 8)) for k in range(8)]
     moved = [cam.with_pose(np.eye(4)).model.grid for cam in rig]
     assert all(grid is cam.model.grid for grid, cam in zip(moved, rig, strict=True))

@@ -19,8 +19,8 @@ NAMES = "name", "camera_name", "id", "camera_id", "label", "serial"
 DEEPEST = 4
 """Levels of mappings in which calibrations are looked for."""
 
-KEPT = 8
-"""Number of files whose lenses are kept: an animated camera reads its file for every frame."""
+KEPT = 12
+"""Number of files whose lenses are kept: the animated cameras of a rig read their files for every frame."""
 
 _latest: dict[tuple, list[Lens]] = {}
 
