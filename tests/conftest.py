@@ -18,8 +18,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 _PROFILE = tempfile.TemporaryDirectory(prefix="camera_ray_caster_")
 os.environ["BLENDER_USER_RESOURCES"] = _PROFILE.name
 
-# bpy sets it, but not in this mapping, and speaks of it where it is set: processes that tests start get the mapping. A
-# worker has it from a pytest that has imported bpy.
+# The import of bpy sets it in the process, but not in os.environ, which tests give to the processes that they start:
+# these would print a line about it. A worker inherits it from a pytest that has imported bpy.
 os.environ.pop("OCIO", None)
 
 

@@ -169,9 +169,11 @@ def test_the_cameras_of_a_rig_are_moved_without_preparing_their_tables_again(mon
     rig = [crc.camera("RAY_TABLE", FRAME, ray_directions=pinhole() * (1, 1, 1 + k / 8)) for k in range(8)]
     moved = [cam.with_pose(np.eye(4)).model.grid for cam in rig]
     assert all(grid is cam.model.grid for grid, cam in zip(moved, rig, strict=True))
-    monkeypatch.setattr(ray_table, "NUMBERS_KEPT", 8 * pinhole().size - 1)  # but not if they are large
-    crc.camera("RAY_TABLE", FRAME, ray_directions=pinhole())
-    assert rig[0].with_pose(np.eye(4)).model.grid is not rig[0].model.grid
+    monkeypatch.setattr(ray_table, "LARGE", 3 * pinhole().size)
+    for count in (4, 5):  # of large ones, four at once
+        monkeypatch.setattr(ray_table, "_latest", {})
+        moved = [cam.with_pose(np.eye(4)).model.grid for cam in 2 * rig[:count]]
+        assert (moved[:count] == moved[count:]) == (count == 4)
 
 
 def test_rays_that_are_the_same_or_cross_are_named_as_the_cause():

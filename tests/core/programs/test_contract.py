@@ -93,7 +93,7 @@ def test_a_damaged_sample_ends_in_a_lens_or_in_one_line(program, tmp_path):
     for path in samples_of(program):
         for content in damaged(path):
             file = tmp_path / path.name
-            file.unlink(missing_ok=True)  # cutting a file off waits for the disk, six times as long as a new one
+            file.unlink(missing_ok=True)  # to truncate it takes six times as long as a new file
             file.write_bytes(content)
             for lens in read(file, lenses_of):
                 assert lens.refusal is None or "\n" not in str(lens.refusal)

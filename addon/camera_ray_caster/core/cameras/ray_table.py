@@ -39,9 +39,9 @@ from .parts.silhouette import MARGINS
 BESIDE = 1e-9
 """Fraction of an entry by which a place may lie beyond the table: rounding must not lose the frame's edges."""
 
-TABLES_KEPT, NUMBERS_KEPT = 12, 1 << 24
-"""Number of tables that are kept, and of the numbers of their directions, beyond which there is no further one: the
-animated cameras of a rig read their tables for every frame. One of 96 x 54 entries takes 0.2 s and 15 MB.
+TABLES_KEPT, LARGE_KEPT, LARGE = 12, 4, 1 << 24
+"""Number of tables that are kept, and of large ones, whose directions have so many numbers together: the cameras of a
+rig read their tables for every frame. Eight of 96 x 54 entries take 1.6 s to prepare, and 15 MB each.
 """
 
 _latest: dict[tuple, tuple] = {}
@@ -269,8 +269,8 @@ def _grid(directions, origins, kind: str, axes: str, slide: bool, block: tuple[i
     if kept is None:
         flip = FROM_BLENDER.diagonal()[:3] if axes == OPENCV else 1.0
         grid = RayGrid(directions * flip, None if origins is None else origins * flip, kind, block)
-        numbers = sum(kept[0].size for kept in list(_latest.values()))
-        if len(_latest) >= TABLES_KEPT or numbers > NUMBERS_KEPT:
+        numbers = sum(table[0].size for table in list(_latest.values()))
+        if len(_latest) >= (LARGE_KEPT if numbers > LARGE else TABLES_KEPT):
             _latest.clear()
         kept = _latest[asked] = directions, origins, grid.slid() if slide else grid
     return kept[-1]
